@@ -1,0 +1,1 @@
+"""From skill sources to a checked library and its artifacts. No clock, no network."""

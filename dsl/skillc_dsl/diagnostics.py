@@ -1,0 +1,70 @@
+"""What the compiler tells an author: problems as data, with places, causes and cures."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Generic, Literal, TypeVar
+
+from skillc_dsl.source import Span
+
+T = TypeVar("T")
+Severity = Literal["error", "warning"]
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A second place that explains the first, such as the declaration that is contradicted."""
+
+    span: Span
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Fix:
+    """An edit that cures the problem: put `text` where `span` is."""
+
+    span: Span
+    text: str
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One problem, named in kebab case and told in the author's words.
+
+    `message` says what is wrong, `help` what to type instead; `fix` is the machine-applicable form of the help.
+    """
+
+    name: str
+    span: Span
+    message: str
+    help: str = ""
+    severity: Severity = "error"
+    labels: tuple[Label, ...] = ()
+    fix: Fix | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome(Generic[T]):
+    """What a pass understood, with everything it has to say about the rest."""
+
+    value: T
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+    @property
+    def ok(self) -> bool:
+        """Whether there is no error among the diagnostics."""
+        return not any(d.severity == "error" for d in self.diagnostics)
+
+
+def did_you_mean(wrong: str, candidates: Iterable[str]) -> str:
+    """Return a help line that names the candidates closest to `wrong`, or lists them all when few and none is close."""
+    names = sorted(set(candidates))
+    near = difflib.get_close_matches(wrong, names, n=3, cutoff=0.6)
+    if near:
+        return f"did you mean {' or '.join(f'`{name}`' for name in near)}?"
+    if 0 < len(names) <= 8:
+        return f"there is {', '.join(f'`{name}`' for name in names)}"
+    return ""

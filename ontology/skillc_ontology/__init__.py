@@ -1,0 +1,1 @@
+"""What the world can contain: vocabularies, robots, grippers, tools and scenes as Turtle and MJCF."""

@@ -1,0 +1,1 @@
+"""The skill libraries that ship with skillc."""
