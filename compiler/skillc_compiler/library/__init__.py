@@ -1,0 +1,1 @@
+"""The compiled library: the one contract between the compiler and the runtime."""

@@ -1,0 +1,174 @@
+"""The terms a library speaks of: classes, relations, properties and functions, with what follows from their axioms."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Literal, TypeAlias
+
+import msgspec
+
+THING = "http://www.w3.org/2002/07/owl#Thing"
+
+
+class Position(msgspec.Struct, frozen=True, order=True):
+    """Where something is written: path relative to the library (or `std/..`), line and column from 1."""
+
+    path: str
+    line: int
+    column: int
+
+    def __str__(self) -> str:
+        return f"{self.path}:{self.line}"
+
+
+class ClassType(msgspec.Struct, frozen=True, tag="class"):
+    """An individual of an ontology class, given by IRI."""
+
+    iri: str
+
+
+class NumberType(msgspec.Struct, frozen=True, tag="number"):
+    """A number in SI units; `dimension` is a name of the language (`Force`), `Number` where there is none."""
+
+    dimension: str
+
+
+class VectorType(msgspec.Struct, frozen=True, tag="vector"):
+    """Three numbers of one dimension in the world frame."""
+
+    dimension: str
+
+
+class PlainType(msgspec.Struct, frozen=True, tag="plain"):
+    """`Bool`, `Int`, `Text` or `Pose`."""
+
+    name: Literal["Bool", "Int", "Text", "Pose"]
+
+
+class ListType(msgspec.Struct, frozen=True, tag="list"):
+    """`[T]`"""
+
+    element: ValueType
+
+
+ValueType: TypeAlias = ClassType | NumberType | VectorType | PlainType | ListType
+
+
+class ClassTerm(msgspec.Struct, frozen=True, kw_only=True):
+    """An ontology class."""
+
+    iri: str
+    parents: tuple[str, ...] = ()
+    disjoint: tuple[str, ...] = ()
+    comment: str = ""
+    source: Position | None = None
+
+
+class Signature(msgspec.Struct, frozen=True):
+    """One domain and range of a relation; a relation with several is overloaded."""
+
+    domain: str
+    range: str
+
+
+class RelationTerm(msgspec.Struct, frozen=True, kw_only=True):
+    """An object property with its axioms."""
+
+    iri: str
+    signatures: tuple[Signature, ...]
+    parents: tuple[str, ...] = ()
+    inverse: str | None = None
+    functional: bool = False
+    inverse_functional: bool = False
+    symmetric: bool = False
+    transitive: bool = False
+    asymmetric: bool = False
+    irreflexive: bool = False
+    comment: str = ""
+    source: Position | None = None
+
+
+class PropertyTerm(msgspec.Struct, frozen=True, kw_only=True):
+    """A data property. `values` is the finite set of a text property that has one; `computed_by` ("module:function") makes it derived."""
+
+    iri: str
+    domains: tuple[str, ...]
+    type: ValueType
+    values: tuple[str, ...] = ()
+    functional: bool = True
+    computed_by: str | None = None
+    comment: str = ""
+    source: Position | None = None
+
+
+class FunctionTerm(msgspec.Struct, frozen=True, kw_only=True):
+    """A function in Python, `python` being "module:function"; arguments by position, values in SI units."""
+
+    name: str
+    parameters: tuple[tuple[str, ValueType], ...]
+    result: ValueType
+    python: str
+    comment: str = ""
+    source: Position | None = None
+
+
+class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
+    """All terms by IRI (functions by name), and the prefixes that shorten IRIs."""
+
+    prefixes: dict[str, str] = {}
+    classes: dict[str, ClassTerm] = {}
+    relations: dict[str, RelationTerm] = {}
+    properties: dict[str, PropertyTerm] = {}
+    functions: dict[str, FunctionTerm] = {}
+
+    @cached_property
+    def ancestors(self) -> dict[str, frozenset[str]]:
+        """Each class with all its superclasses, itself and `owl:Thing` included."""
+        parents = {iri: (*term.parents, THING) for iri, term in self.classes.items()}
+        return {iri: _reach(iri, parents) for iri in (*self.classes, THING)}
+
+    @cached_property
+    def super_relations(self) -> dict[str, frozenset[str]]:
+        """Each relation with all its super-relations, itself included."""
+        parents = {iri: term.parents for iri, term in self.relations.items()}
+        return {iri: _reach(iri, parents) for iri in self.relations}
+
+    def is_a(self, cls: str, ancestor: str) -> bool:
+        """Whether every individual of `cls` is one of `ancestor`; an unknown class is only itself and a Thing."""
+        return ancestor in self.ancestors.get(cls, (cls, THING))
+
+    def disjoint(self, one: str, other: str) -> bool:
+        """Whether no individual can be of both classes."""
+        ours, theirs = self.ancestors.get(one, frozenset()), self.ancestors.get(other, frozenset())
+        return any(not theirs.isdisjoint(self.classes[a].disjoint) for a in ours if a in self.classes) or any(
+            not ours.isdisjoint(self.classes[a].disjoint) for a in theirs if a in self.classes
+        )
+
+    def short(self, iri: str) -> str:
+        """Return `prefix:name` where a prefix fits (the longest does), else the IRI."""
+        fitting = [(len(base), prefix, base) for prefix, base in self.prefixes.items() if iri.startswith(base)]
+        if not fitting:
+            return iri
+        _, prefix, base = max(fitting)
+        return f"{prefix}:{iri[len(base) :]}"
+
+    def expand(self, name: str) -> str:
+        """Return the IRI of `prefix:name`; KeyError names an unknown prefix."""
+        prefix, _, local = name.partition(":")
+        return self.prefixes[prefix] + local
+
+
+def local_name(iri: str) -> str:
+    """Return the part of an IRI after its last `#` or `/`."""
+    return iri.rsplit("#", 1)[-1].rsplit("/", 1)[-1]
+
+
+def _reach(start: str, parents: dict[str, tuple[str, ...]]) -> frozenset[str]:
+    seen: set[str] = set()
+    todo = [start]
+    while todo:
+        current = todo.pop()
+        if current not in seen:
+            seen.add(current)
+            todo.extend(parents.get(current, ()))
+    return frozenset(seen)
