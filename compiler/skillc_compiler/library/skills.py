@@ -106,7 +106,10 @@ class Implementation(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Task(msgspec.Struct, frozen=True, kw_only=True):
-    """A scene with either a goal to plan for or a body to run; `scene` is as written, relative to the task's file or shipped."""
+    """A scene with either a goal to plan for or a body to run.
+
+    `scene` is as written: relative to the task's file, or the name of a shipped scene.
+    """
 
     name: str
     doc: str = ""
@@ -118,9 +121,10 @@ class Task(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class SkillLibrary(msgspec.Struct, frozen=True, kw_only=True):
-    """A compiled library: what library.json holds and the only thing the runtime loads. Implementations are keyed `Skill.name`.
+    """A compiled library: what library.json holds and the only thing the runtime loads.
 
-    `hash` is of the sources; `names` maps each PDDL name back to the IRI or the skill it stands for.
+    `implementations` is keyed `Skill.name`; `hash` is of the sources; `names` maps each PDDL name back to the IRI
+    or the skill it stands for.
     """
 
     format: int = 1

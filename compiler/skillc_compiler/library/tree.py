@@ -28,7 +28,7 @@ class Selector(msgspec.Struct, frozen=True, tag="sel"):
 
 
 class Parallel(msgspec.Struct, frozen=True, tag="par"):
-    """Children together: `all` must succeed, `any` first success, `race` first to finish, `lead` the first child decides."""
+    """Children together: `all` succeed, `any` first success, `race` first to finish, `lead` the first child decides."""
 
     policy: OneOf["all", "any", "race", "lead"]
     children: tuple[Node, ...]

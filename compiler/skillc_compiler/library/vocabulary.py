@@ -89,7 +89,11 @@ class RelationTerm(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class PropertyTerm(msgspec.Struct, frozen=True, kw_only=True):
-    """A data property. `values` is the finite set of a text property that has one; `computed_by` ("module:function") makes it derived."""
+    """A data property.
+
+    `values` is the finite set of a text property that has one. `computed_by` names a Python function
+    "module:function" (world state, individual) -> value that derives it from other facts.
+    """
 
     iri: str
     domains: tuple[str, ...]
@@ -102,7 +106,7 @@ class PropertyTerm(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class FunctionTerm(msgspec.Struct, frozen=True, kw_only=True):
-    """A function in Python, `python` being "module:function"; arguments by position, values in SI units."""
+    """A function in Python, "module:function", called as f(world state, *arguments); numbers in SI units."""
 
     name: str
     parameters: tuple[tuple[str, ValueType], ...]

@@ -1,0 +1,1 @@
+"""References for the tool as pure functions of time: poses, segments, paths, overlays, lanes."""

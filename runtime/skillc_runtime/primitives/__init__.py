@@ -1,0 +1,1 @@
+"""Primitive skills in Python: what the leaves of every tree do."""

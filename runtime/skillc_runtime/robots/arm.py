@@ -1,0 +1,69 @@
+"""The seam between a controller and an arm, simulated or real."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, Protocol, TypeAlias
+
+from skillc_runtime.motion.pose import Array, Pose
+
+
+@dataclass(frozen=True, slots=True)
+class ArmState:
+    """What an arm measures at one instant. All Cartesian values in the arm's base frame, reference point the tool centre point.
+
+    q, dq (nv,): rad, rad/s. tool: tool centre point in base. jacobian (6, nv): [linear; angular]. mass_matrix (nv, nv).
+    bias (nv,): N m, gravity and Coriolis of arm, gripper and payload. wrench (6,): what the environment does to the tool,
+    N and N m, tool weight removed; zeros where the arm has no such sensor.
+    """
+
+    q: Array
+    dq: Array
+    tool: Pose
+    jacobian: Array
+    mass_matrix: Array
+    bias: Array
+    wrench: Array
+
+
+@dataclass(frozen=True, slots=True)
+class Torque:
+    """Joint torques (nv,) in N m, gravity compensation included."""
+
+    tau: Array
+
+
+@dataclass(frozen=True, slots=True)
+class JointPosition:
+    """Joint positions (nv,) in rad for the arm's own servos."""
+
+    q: Array
+
+
+Command: TypeAlias = Torque | JointPosition
+
+
+@dataclass(frozen=True, slots=True)
+class ArmLimits:
+    """What an arm can do: joint range (nv, 2) rad, velocity (nv,) rad/s, effort (nv,) N m."""
+
+    range: Array
+    velocity: Array
+    effort: Array
+
+
+class Arm(Protocol):
+    """An arm that is read and commanded once a control period."""
+
+    @property
+    def interface(self) -> Literal["torque", "position"]:
+        """Which command the arm takes."""
+        ...
+
+    def state(self) -> ArmState:
+        """Return the present state."""
+        ...
+
+    def command(self, command: Command) -> None:
+        """Take a command for the next control period; TypeError for a kind the interface does not take."""
+        ...

@@ -1,0 +1,1 @@
+"""The behaviour tree engine: grounded nodes that tick, halt, pause and undo."""

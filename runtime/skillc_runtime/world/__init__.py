@@ -1,0 +1,1 @@
+"""What is known of the world: facts, snapshots, transactions, conditions."""
