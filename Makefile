@@ -1,0 +1,56 @@
+# Every target sets up what it needs: uv beside the checkout, an environment in .venv, pinned versions from constraints.txt.
+UV := .tools/bin/uv
+BIN := .venv/bin
+INSTALL := $(UV) pip install -q --python .venv --constraint constraints.txt
+
+.PHONY: help demo test check sim wheel bench accept lock clean
+
+help:            ## say what there is
+	@grep -hE '^[a-z]+: .*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/'
+
+demo: .venv/.runtime  ## two robots wipe two surfaces with one skill
+	$(BIN)/skillc demo --out out/demo
+
+test: .venv/.dev ## the fast tests
+	$(BIN)/pytest -n 2
+
+check: .venv/.dev ## style, types, import rules
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+sim: .venv/.dev  ## whole tasks on both arms, in simulation
+	$(BIN)/pytest -m sim
+
+wheel: .venv/.dev ## build the wheel and use it in a clean environment
+	$(BIN)/pytest -m wheel
+
+bench: .venv/.dev ## benchmarks; each prints ratios
+	for file in benchmarks/[a-z]*.py; do echo "== $$file"; $(BIN)/python $$file || exit 1; done
+
+accept: .venv/.dev ## rewrite the expected artifacts of tests/cases/build
+	$(BIN)/python -m tests.accept
+
+lock: .tools/.uv ## pin every version anew
+	$(UV) pip compile -q --universal --python-version 3.11 --all-extras --no-emit-index-url --no-header --no-annotate \
+	    --upgrade pyproject.toml -o constraints.txt
+
+clean:           ## remove the environment and all output
+	rm -rf .venv .tools build dist out
+
+.tools/.uv:
+	python3 -m pip install -q --disable-pip-version-check --root-user-action ignore --target .tools uv==0.13.8
+	@touch $@
+
+.venv/.created: .tools/.uv
+	test -d .venv || $(UV) venv -q --python python3 .venv
+	@touch $@
+
+.venv/.runtime: pyproject.toml constraints.txt .venv/.created
+	$(INSTALL) -e '.[planner,video]'
+	@touch $@
+
+.venv/.dev: .venv/.runtime
+	$(INSTALL) -e '.[planner,video,dev]'
+	@touch $@
