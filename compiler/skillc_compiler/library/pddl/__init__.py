@@ -1,0 +1,1 @@
+"""A library as a planning domain, a scene and a goal as a planning problem, and both as PDDL text."""

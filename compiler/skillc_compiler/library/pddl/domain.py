@@ -1,0 +1,188 @@
+"""The typed form of a planning domain: what of a library a planner can reason about, and what was left out and why."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TypeAlias
+
+from skillc_compiler.library.conditions import Condition, Expression
+from skillc_compiler.library.pddl.formulas import Change, Formula, Typed
+from skillc_compiler.library.vocabulary import Position
+
+ROOT = "object"
+
+
+@dataclass(frozen=True)
+class PlanningType:
+    """A class as a PDDL type below one parent; `depth` counts the types above it, `object` excluded."""
+
+    name: str
+    parent: str
+    cls: str
+    depth: int
+
+
+@dataclass(frozen=True)
+class RelationFact:
+    """True of (s, o) when `s relation o` follows in the world, unless it follows from one of `narrower`.
+
+    `narrower` are other predicates' relations as (relation, swapped): those change by themselves, and a condition on
+    this relation reads them too.
+    """
+
+    relation: str
+    narrower: tuple[tuple[str, bool], ...] = ()
+
+
+@dataclass(frozen=True)
+class PropertyFact:
+    """True of an individual when its property has the value: True of a Bool, one of the values of an enumerated text."""
+
+    property: str
+    value: bool | str
+
+
+@dataclass(frozen=True)
+class ClassFact:
+    """True of the individuals of a class; never changes."""
+
+    cls: str
+
+
+@dataclass(frozen=True)
+class GuardFact:
+    """True of the individuals for which the condition holds in the initial world; it reads nothing a skill changes.
+
+    `variables` are the free variables of the condition, in the order of the predicate's parameters.
+    """
+
+    variables: tuple[str, ...]
+    condition: Condition
+    skill: str
+    label: str
+
+
+@dataclass(frozen=True)
+class GoalFact:
+    """True once the goal has been reached; false at first."""
+
+
+Meaning: TypeAlias = RelationFact | PropertyFact | ClassFact | GuardFact | GoalFact
+
+
+@dataclass(frozen=True)
+class Predicate:
+    """A predicate with what it stands for, which tells how to initialise it; `changes` unless it is static."""
+
+    name: str
+    parameters: tuple[Typed, ...]
+    meaning: Meaning
+    changes: bool
+
+
+@dataclass(frozen=True)
+class FixedCost:
+    """A cost in units of 1 / scale seconds."""
+
+    units: int
+
+
+@dataclass(frozen=True)
+class ComputedCost:
+    """The value of a cost function for these variables of the action."""
+
+    function: str
+    arguments: tuple[str, ...]
+
+
+Cost: TypeAlias = FixedCost | ComputedCost
+
+
+@dataclass(frozen=True)
+class CostFunction:
+    """A static function: the seconds are `expression` with `variables` bound to the arguments, in the initial world."""
+
+    name: str
+    parameters: tuple[Typed, ...]
+    variables: tuple[str, ...]
+    expression: Expression
+    skill: str
+
+
+@dataclass(frozen=True)
+class Action:
+    """A skill as a planner sees it; `binds` names the skill's parameter behind each action parameter.
+
+    A goal action (`skill` is None) costs nothing and is no step of a plan. `uses` are variables of locked devices.
+    """
+
+    name: str
+    skill: str | None
+    parameters: tuple[Typed, ...]
+    binds: tuple[str, ...]
+    precondition: Formula
+    hold: Formula
+    effects: tuple[Change, ...]
+    cost: Cost
+    uses: tuple[str, ...] = ()
+    doc: str = ""
+    source: Position | None = None
+
+
+@dataclass(frozen=True)
+class Excluded:
+    """A skill that no plan can contain, with the reason in the author's words."""
+
+    skill: str
+    reason: str
+    source: Position
+
+
+@dataclass(frozen=True)
+class PlanningDomain:
+    """A planning domain; `names` leads from PDDL names back to IRIs and skills, `scale` is cost units per second."""
+
+    name: str
+    types: tuple[PlanningType, ...]
+    predicates: tuple[Predicate, ...]
+    costs: tuple[CostFunction, ...]
+    actions: tuple[Action, ...]
+    excluded: tuple[Excluded, ...]
+    names: dict[str, str]
+    scale: float
+    constants: tuple[Typed, ...] = ()
+
+    @cached_property
+    def _types(self) -> dict[str, PlanningType]:
+        return {each.name: each for each in self.types}
+
+    @cached_property
+    def _by_class(self) -> dict[str, PlanningType]:
+        return {each.cls: each for each in self.types}
+
+    @cached_property
+    def predicate(self) -> dict[str, Predicate]:
+        """The predicates by name."""
+        return {each.name: each for each in self.predicates}
+
+    @cached_property
+    def action(self) -> dict[str, Action]:
+        """The actions by name."""
+        return {each.name: each for each in self.actions}
+
+    def type_of(self, classes: Iterable[str]) -> str:
+        """Return the most specific type for an individual of these classes (IRIs); `object` when none is known."""
+        known = [self._by_class[cls] for cls in classes if cls in self._by_class]
+        return min(known, key=lambda each: (-each.depth, each.name)).name if known else ROOT
+
+    def is_a(self, type_name: str, ancestor: str) -> bool:
+        """Whether every object of the type is one of `ancestor`."""
+        while type_name not in (ancestor, ROOT):
+            type_name = self._types[type_name].parent
+        return type_name == ancestor or ancestor == ROOT
+
+    def of_type(self, objects: Iterable[Typed], type_name: str) -> tuple[str, ...]:
+        """Return the names of those objects that are of the type, in their order."""
+        return tuple(each.name for each in objects if self.is_a(each.type, type_name))

@@ -1,0 +1,115 @@
+"""Formulas and effects of a planning domain, in negation normal form: only atoms and equalities are negated.
+
+A term is a PDDL name: a variable with its leading `?`, or the name of an object.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TypeAlias
+
+
+@dataclass(frozen=True)
+class Typed:
+    """A variable (with its `?`) or an object, and its PDDL type."""
+
+    name: str
+    type: str
+
+
+@dataclass(frozen=True)
+class Atom:
+    """`(predicate term ..)`"""
+
+    predicate: str
+    terms: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Equal:
+    """`(= left right)`"""
+
+    left: str
+    right: str
+
+
+@dataclass(frozen=True)
+class Negation:
+    """`(not body)`"""
+
+    body: Atom | Equal
+
+
+@dataclass(frozen=True)
+class Conjunction:
+    """All parts hold; true when empty."""
+
+    parts: tuple[Formula, ...]
+
+
+@dataclass(frozen=True)
+class Disjunction:
+    """Some part holds; false when empty."""
+
+    parts: tuple[Formula, ...]
+
+
+@dataclass(frozen=True)
+class Existential:
+    """The body holds for some object of the variable's type."""
+
+    variable: Typed
+    body: Formula
+
+
+@dataclass(frozen=True)
+class Universal:
+    """The body holds for every object of the variable's type."""
+
+    variable: Typed
+    body: Formula
+
+
+Formula: TypeAlias = Atom | Equal | Negation | Conjunction | Disjunction | Existential | Universal
+
+TRUE = Conjunction(())
+FALSE = Disjunction(())
+
+
+@dataclass(frozen=True)
+class Change:
+    """The atom becomes true (or false): for all values of the variables, where the condition held before.
+
+    An atom that one action both deletes and adds is true afterwards.
+    """
+
+    atom: Atom
+    positive: bool
+    variables: tuple[Typed, ...] = ()
+    condition: Formula = TRUE
+
+
+def conjunction(parts: Iterable[Formula]) -> Formula:
+    """Return the flat conjunction of the parts without repetition; FALSE if one is."""
+    flat: dict[Formula, None] = {}
+    for part in parts:
+        flat.update(dict.fromkeys(part.parts if isinstance(part, Conjunction) else (part,)))
+    if FALSE in flat:
+        return FALSE
+    return next(iter(flat)) if len(flat) == 1 else Conjunction(tuple(flat))
+
+
+def disjunction(parts: Iterable[Formula]) -> Formula:
+    """Return the flat disjunction of the parts without repetition; TRUE if one is."""
+    flat: dict[Formula, None] = {}
+    for part in parts:
+        flat.update(dict.fromkeys(part.parts if isinstance(part, Disjunction) else (part,)))
+    if TRUE in flat:
+        return TRUE
+    return next(iter(flat)) if len(flat) == 1 else Disjunction(tuple(flat))
+
+
+def conjuncts(formula: Formula) -> tuple[Formula, ...]:
+    """Return the parts of a conjunction, or the formula alone."""
+    return formula.parts if isinstance(formula, Conjunction) else (formula,)
