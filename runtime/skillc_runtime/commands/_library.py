@@ -1,0 +1,109 @@
+"""Finding, reading and compiling a skill library for the commands."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+
+import click
+from skillc_compiler import pipeline
+from skillc_compiler.library.skills import SkillLibrary, Task
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.vocabulary.load import load
+from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
+from skillc_dsl.source import Source, Span
+from skillc_ontology import catalogue
+
+SHIPPED = Path(str(files("skillc_skills")))
+
+
+@dataclass(frozen=True, slots=True)
+class LibraryFiles:
+    """The files of a library: `sources` under paths relative to `root`, `shelf` what may be imported besides."""
+
+    name: str
+    root: Path
+    sources: tuple[Source, ...]
+    shelf: dict[str, Source]
+
+    def shown(self, path: str) -> str:
+        """Return a source's path as a user can open it from here."""
+        if path.startswith("std/"):
+            return str(SHIPPED / path)
+        return str(self.root / path)
+
+
+def find(path: Path) -> LibraryFiles:
+    """Read the library at a folder, or the single file at `path` with its neighbours to import from.
+
+    UsageError for a path that is neither, or that holds no `.skill` file.
+    """
+    shelf = {f"std/{file.name}": _read(file, f"std/{file.name}") for file in sorted((SHIPPED / "std").glob("*.skill"))}
+    if path.is_dir():
+        found = sorted(path.rglob("*.skill"))
+        if not found:
+            raise click.UsageError(f"there is no .skill file in {path}")
+        sources = tuple(_read(file, file.relative_to(path).as_posix()) for file in found)
+        return LibraryFiles(path.resolve().name, path, sources, shelf)
+    if path.is_file():
+        neighbours = {file.name: _read(file, file.name) for file in path.parent.glob("*.skill") if file != path}
+        return LibraryFiles(path.resolve().parent.name, path.parent, (_read(path, path.name),), shelf | neighbours)
+    raise click.UsageError(f"there is no file or folder {path}")
+
+
+def compile_library(library: LibraryFiles) -> Outcome[SkillLibrary]:
+    """Compile, with the shipped ontology as vocabulary; diagnostics show paths as from here."""
+    outcome = pipeline.compile(library.sources, vocabulary(), library.shelf, library.name)
+    return Outcome(outcome.value, tuple(_relocate(d, library) for d in outcome.diagnostics))
+
+
+@cache
+def vocabulary() -> Vocabulary:
+    """Load the shipped ontology."""
+    outcome = load(catalogue.vocabulary_files())
+    if outcome.diagnostics:
+        raise RuntimeError(f"the shipped ontology is broken: {outcome.diagnostics[0].message}")
+    return outcome.value
+
+
+def texts(library: LibraryFiles) -> dict[str, Source]:
+    """Return every text that a diagnostic may point into, by the path it shows."""
+    every: Iterable[Source] = (*library.sources, *library.shelf.values())
+    return {library.shown(s.path): Source(library.shown(s.path), s.text) for s in every}
+
+
+def find_task(reference: str) -> tuple[LibraryFiles, str]:
+    """Split `LIBRARY:NAME`, or take a bare name as a task of the shipped wiping library."""
+    path, colon, name = reference.rpartition(":")
+    return find(Path(path) if colon else SHIPPED / "wiping"), name
+
+
+def task_named(library: SkillLibrary, name: str) -> Task:
+    """Return a task; UsageError lists those that exist."""
+    if name not in library.tasks:
+        raise click.UsageError(f"there is no task `{name}` in {library.name}; {did_you_mean(name, library.tasks)}")
+    return library.tasks[name]
+
+
+def _read(file: Path, name: str) -> Source:
+    try:
+        return Source(name, file.read_text(encoding="utf-8"))
+    except UnicodeDecodeError as error:
+        raise click.UsageError(f"{file} is not UTF-8 text: byte {error.start} is {error.object[error.start]:#04x}") from error
+    except OSError as error:
+        raise click.UsageError(f"{file} cannot be read: {error.strerror}") from error
+
+
+def _relocate(diagnostic: Diagnostic, library: LibraryFiles) -> Diagnostic:
+    def moved(span: Span) -> Span:
+        return replace(span, path=library.shown(span.path))
+
+    return replace(
+        diagnostic,
+        span=moved(diagnostic.span),
+        labels=tuple(replace(label, span=moved(label.span)) for label in diagnostic.labels),
+        fix=replace(diagnostic.fix, span=moved(diagnostic.fix.span)) if diagnostic.fix else None,
+    )

@@ -1,0 +1,33 @@
+"""Compile a library: library.json, OWL, PDDL, behaviour trees, documentation.
+
+The same input gives the same bytes. Exit code 1 when the library has errors; nothing is written then.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import click
+
+
+@click.command()
+@click.argument("path", type=click.Path(path_type=Path))
+@click.option("-o", "--output", required=True, type=click.Path(path_type=Path), help="The folder to write to.")
+def command(path: Path, output: Path) -> None:
+    """Compile the library at PATH into the folder OUTPUT."""
+    from skillc_compiler.emit.write import EmitError, emit_all, write
+
+    from skillc_runtime.commands import _diagnostics, _library
+
+    library = _library.find(path)
+    outcome = _library.compile_library(library)
+    if outcome.diagnostics and _diagnostics.show(outcome.diagnostics, _library.texts(library), "full"):
+        sys.exit(1)
+    try:
+        written = write(emit_all(outcome.value), output)
+    except EmitError as error:
+        click.echo(f"error: {error}", err=True)
+        sys.exit(1)
+    for file in written:
+        click.echo(file)

@@ -1,0 +1,62 @@
+"""The `skillc` command: finds its commands in this folder and imports only the one that runs."""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import pkgutil
+from pathlib import Path
+from typing import Any
+
+import click
+
+HERE = Path(__file__).parent
+
+
+class Commands(click.Group):
+    """A group whose commands are the modules beside this one; each has a click command named `command`."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return the names of all commands, without importing them."""
+        names = (module.name for module in pkgutil.iter_modules([str(HERE)]))
+        return sorted(name for name in names if name != "main" and not name.startswith("_"))
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Import one command; None for an unknown name."""
+        if cmd_name not in self.list_commands(ctx):
+            return None
+        command: click.Command = importlib.import_module(f"skillc_runtime.commands.{cmd_name}").command
+        return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find the command, naming those that exist where there is none."""
+        if args and not args[0].startswith("-") and args[0] not in self.list_commands(ctx):
+            ctx.fail(f"there is no command '{args[0]}'; there is {', '.join(self.list_commands(ctx))}")
+        return super().resolve_command(ctx, args)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """List the commands with the first line of each module, read without importing it."""
+        rows = [(name, _first_line(HERE / f"{name}.py")) for name in self.list_commands(ctx)]
+        with formatter.section("Commands"):
+            formatter.write_dl(rows)
+
+
+def _first_line(path: Path) -> str:
+    docstring = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+    return docstring.partition("\n")[0]
+
+
+@click.command(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(package_name="skillc", message="skillc %(version)s")
+def skillc() -> None:
+    """Check, compile, plan and run robot skills.
+
+    Exit codes: 0 all is well, 1 the input has errors, 2 the command line is wrong, 3 a task failed.
+    """
+
+
+def main(arguments: list[str] | None = None) -> Any:
+    """Run the command line."""
+    return skillc(arguments)

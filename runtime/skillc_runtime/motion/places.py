@@ -1,0 +1,50 @@
+"""Poses and paths that skills compute: the functions of the standard library. Poses are of the tool, in the world.
+
+The tool frame has its z axis along the direction in which the tool points and x along the direction of work.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from skillc_runtime.motion.lanes import lanes as lane_pattern
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.world.frames import pose, size
+
+if TYPE_CHECKING:
+    from skillc_runtime.world.state import WorldState
+
+
+def offset(_state: WorldState, start: Pose, by: Array) -> Pose:
+    """Return the pose moved by a vector (3,) m of the world."""
+    return Pose(start.position + by, start.rotation)
+
+
+def raised(_state: WorldState, start: Pose, height: float) -> Pose:
+    """Return the pose moved up by a height in m."""
+    return Pose(start.position + np.array([0.0, 0.0, height]), start.rotation)
+
+
+def first(_state: WorldState, path: list[Pose]) -> Pose:
+    """Return the first pose of a path."""
+    return path[0]
+
+
+def centre(state: WorldState, surface: str) -> Pose:
+    """Return the tool's pose in the middle of a surface, flush with it."""
+    return pose(state, surface) @ Pose(np.zeros(3), _tool_axes(size(state, surface)))
+
+
+def lanes(state: WorldState, surface: str, tool: str, overlap: float) -> list[Pose]:
+    """Return the tool's poses along lanes that cover a surface; `overlap` is the share that neighbours have in common."""
+    frame = pose(state, surface)
+    return [frame @ lane for lane in lane_pattern(size(state, surface)[:2], size(state, tool)[:2], overlap)]
+
+
+def _tool_axes(extent: Array) -> Array:
+    """Return the tool's axes (3, 3) in the surface frame: z into the surface, x along the longer side."""
+    if extent[0] >= extent[1]:
+        return np.diag([1.0, -1.0, -1.0])
+    return np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
