@@ -117,9 +117,10 @@ class FunctionTerm(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
-    """All terms by IRI (functions by name), and the prefixes that shorten IRIs."""
+    """All terms by IRI (functions by name), the prefixes that shorten IRIs, and accepted other names of terms."""
 
     prefixes: dict[str, str] = {}
+    aliases: dict[str, str] = {}
     classes: dict[str, ClassTerm] = {}
     relations: dict[str, RelationTerm] = {}
     properties: dict[str, PropertyTerm] = {}

@@ -1,0 +1,1 @@
+"""Reads vocabularies in Turtle into the terms that libraries speak of."""
