@@ -1,0 +1,38 @@
+"""Parallel lanes that cover a rectangle with a rectangular tool, run to and fro."""
+
+from __future__ import annotations
+
+from math import ceil
+
+import numpy as np
+
+from skillc_runtime.motion.pose import Array, Pose
+
+OVERHANG_M = (0.03, 0.02)
+"""How far the tool sticks out over the rectangle at the ends of a lane and beside the outer lanes.
+
+It must exceed the lag of the tool behind its reference, most of which is friction force / stiffness.
+"""
+
+
+def lanes(surface: Array, tool: Array, overlap: float, overhang: tuple[float, float] = OVERHANG_M) -> list[Pose]:
+    """Return the two ends of each lane in the surface frame: origin in the middle, z the outward normal.
+
+    surface (2,), tool (2,): sizes in m, the tool's first one along the lane. Lanes run along the longer side.
+    overlap: share of the tool's width that neighbours have in common, 0 .. 0.9. The tool's x points along the
+    lane, its z into the surface; it does not turn between lanes. Raises ValueError for sizes that are not positive.
+    """
+    if min(*surface[:2], *tool[:2]) <= 0 or not 0 <= overlap <= 0.9:
+        raise ValueError(f"lanes need positive sizes and an overlap of 0 to 0.9: {surface}, {tool}, {overlap}")
+    longer = 0 if surface[0] >= surface[1] else 1
+    half_length = max(float(surface[longer]) / 2 - (float(tool[0]) / 2 - overhang[0]), 0.0)
+    half_width = max(float(surface[1 - longer]) / 2 - (float(tool[1]) / 2 - overhang[1]), 0.0)
+    pitch = float(tool[1]) * (1 - overlap)
+    count = ceil(2 * half_width / pitch - 1e-9) + 1
+    along, across = np.eye(3)[longer], np.eye(3)[1 - longer]
+    rotation = np.column_stack([along, np.cross([0.0, 0.0, -1.0], along), [0.0, 0.0, -1.0]])
+    ends: list[Pose] = []
+    for i, offset in enumerate(np.linspace(-half_width, half_width, count) if count > 1 else [0.0]):
+        way = half_length if i % 2 else -half_length
+        ends += [Pose(offset * across + side * way * along, rotation) for side in (1, -1)]
+    return ends

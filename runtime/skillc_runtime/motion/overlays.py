@@ -1,0 +1,124 @@
+"""Motions that are added to whatever the tool does: periodic or growing figures in a plane, faded in and out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import asinh, cos, pi, sin, sqrt
+
+import numpy as np
+
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.motion.reference import Overlay
+
+Sample = tuple[Array, Array, Array]
+Scalars = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """A circle in the x-y plane: radius in m, rate in turns per s."""
+
+    radius: float
+    rate: float
+
+    def at(self, time: float) -> Sample:
+        """Return offset, velocity and acceleration."""
+        w = 2 * pi * self.rate
+        x, y = self.radius * cos(w * time), self.radius * sin(w * time)
+        return np.array([x, y, 0.0]), np.array([-w * y, w * x, 0.0]), np.array([-w * w * x, -w * w * y, 0.0])
+
+
+@dataclass(frozen=True, slots=True)
+class Lissajous:
+    """A sine along each axis: amplitude (3,) m, frequency (3,) Hz, phase (3,) rad. One amplitude is a plain sine."""
+
+    amplitude: Array
+    frequency: Array
+    phase: Array
+
+    def at(self, time: float) -> Sample:
+        """Return offset, velocity and acceleration."""
+        w = 2 * pi * self.frequency
+        angle = w * time + self.phase
+        offset = self.amplitude * np.sin(angle)
+        return offset, self.amplitude * w * np.cos(angle), -w * w * offset
+
+
+@dataclass(frozen=True, slots=True)
+class Spiral:
+    """An Archimedes spiral in the x-y plane, run at constant path speed; at the greatest radius it stays on the circle.
+
+    pitch: m between turns; speed: m/s; radius: m.
+    """
+
+    pitch: float
+    speed: float
+    radius: float
+
+    def at(self, time: float) -> Sample:
+        """Return offset, velocity and acceleration."""
+        b = self.pitch / (2 * pi)
+        widest = self.radius / b
+        rounded = (time - b * _arc(widest) / self.speed) * self.speed
+        if rounded > 0:
+            return self._on_circle(widest + rounded / self.radius)
+        theta = _angle_at(max(self.speed * time, 0.0) / b)
+        first = self.speed / (b * sqrt(1 + theta * theta))
+        second = -theta * first * first / (1 + theta * theta)
+        c, s = cos(theta), sin(theta)
+        along, across = np.array([c, s, 0.0]), np.array([-s, c, 0.0])
+        velocity = b * first * (along + theta * across)
+        acceleration = b * second * (along + theta * across) + b * first * first * (2 * across - theta * along)
+        return b * theta * along, velocity, acceleration
+
+    def _on_circle(self, theta: float) -> Sample:
+        along, across = np.array([cos(theta), sin(theta), 0.0]), np.array([-sin(theta), cos(theta), 0.0])
+        return self.radius * along, self.speed * across, -(self.speed**2) / self.radius * along
+
+
+def _arc(theta: float) -> float:
+    """Return the length of the unit spiral r = theta up to `theta` rad."""
+    return (theta * sqrt(1 + theta * theta) + asinh(theta)) / 2
+
+
+def _angle_at(length: float) -> float:
+    """Return where the unit spiral has a given length: Newton on a convex function, from above the root."""
+    theta = min(length, sqrt(2 * length))
+    for _ in range(8):
+        theta -= (_arc(theta) - length) / sqrt(1 + theta * theta)
+    return theta
+
+
+@dataclass(frozen=True, slots=True)
+class Faded:
+    """An overlay that grows from nothing in the `fade` s after `start` and shrinks to nothing in those after `end`."""
+
+    overlay: Overlay
+    start: float
+    fade: float
+    end: float | None = None
+
+    def ended(self, time: float) -> Faded:
+        """Return this overlay with its end at `time`; an end that is set already stays."""
+        return self if self.end is not None else replace(self, end=time)
+
+    def gone(self, time: float) -> bool:
+        """Tell whether nothing is left of it."""
+        return self.end is not None and time >= self.end + self.fade
+
+    def at(self, time: float) -> Sample:
+        """Return offset, velocity and acceleration; the product rule twice."""
+        g, dg, ddg = _rise((time - self.start) / self.fade, self.fade)
+        if self.end is not None:
+            f, df, ddf = _rise((self.end + self.fade - time) / self.fade, -self.fade)
+            g, dg, ddg = g * f, dg * f + g * df, ddg * f + 2 * dg * df + g * ddf
+        o, v, a = self.overlay.at(time - self.start)
+        return g * o, g * v + dg * o, g * a + 2 * dg * v + ddg * o
+
+
+def _rise(x: float, fade: float) -> Scalars:
+    """Return the quintic step 10 x^3 - 15 x^4 + 6 x^5 on [0, 1] and its first two derivatives by time, x = t / fade."""
+    if x <= 0 or x >= 1:
+        return float(x >= 1), 0.0, 0.0
+    slope, bend = 30 * x * x * (1 - x) ** 2, 60 * x * (1 - x) * (1 - 2 * x)
+    return x**3 * (10 - 15 * x + 6 * x * x), slope / fade, bend / fade**2

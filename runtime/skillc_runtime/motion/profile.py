@@ -1,0 +1,63 @@
+"""The trapezoidal velocity profile: from rest to rest over a given length, as a pure function of time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import sqrt
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """Accelerate, cruise, decelerate: `length` in m or rad, `peak` per s, the rest per s^2; `rate` stretches time."""
+
+    length: float
+    peak: float
+    acceleration: float
+    deceleration: float
+    rate: float = 1.0
+
+    @property
+    def rise(self) -> float:
+        """Seconds of acceleration."""
+        return self.peak / self.acceleration / self.rate if self.length > 0 else 0.0
+
+    @property
+    def fall(self) -> float:
+        """Seconds of deceleration."""
+        return self.peak / self.deceleration / self.rate if self.length > 0 else 0.0
+
+    @property
+    def duration(self) -> float:
+        """Seconds from rest to rest; 0 for no length."""
+        if self.length <= 0:
+            return 0.0
+        return (self.length / self.peak + self.peak / 2 * (1 / self.acceleration + 1 / self.deceleration)) / self.rate
+
+    def at(self, time: float) -> tuple[float, float, float]:
+        """Return place, speed and acceleration at `time` s: at rest at 0 before, at rest at `length` after."""
+        if time <= 0 or self.length <= 0:
+            return 0.0, 0.0, 0.0
+        left = self.duration - time
+        if left <= 0:
+            return self.length, 0.0, 0.0
+        k, a, d = self.rate, self.acceleration, self.deceleration
+        if time < self.rise:
+            return a * (k * time) ** 2 / 2, k * a * k * time, k * k * a
+        if left < self.fall:
+            return self.length - d * (k * left) ** 2 / 2, k * d * k * left, -k * k * d
+        return self.peak * (k * time - self.peak / a / 2), k * self.peak, 0.0
+
+    def stretched(self, duration: float) -> Profile:
+        """Return this profile slowed down to take `duration` s, which must not be less than its own."""
+        return self if self.length <= 0 else replace(self, rate=self.rate * self.duration / duration)
+
+
+def trapezoid(length: float, speed: float, acceleration: float, deceleration: float | None = None) -> Profile:
+    """Return the fastest profile over `length` >= 0; it cruises at `speed`, or below on too short a way.
+
+    Speed in m/s or rad/s, acceleration and deceleration > 0 in m/s^2 or rad/s^2, alike when only one is given.
+    """
+    if length < 0 or min(speed, acceleration, deceleration or acceleration) <= 0:
+        raise ValueError(f"a profile needs length >= 0, speed and accelerations > 0: {length}, {speed}, {acceleration}")
+    a, d = acceleration, deceleration or acceleration
+    return Profile(length, min(speed, sqrt(2 * length * a * d / (a + d))), a, d)

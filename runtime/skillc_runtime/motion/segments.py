@@ -1,0 +1,61 @@
+"""One straight piece of motion between two poses, translation and rotation starting and ending together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from skillc_runtime.motion.pose import Array, Pose, log
+from skillc_runtime.motion.profile import Profile, trapezoid
+
+
+@dataclass(frozen=True, slots=True)
+class MotionLimits:
+    """How fast a planned motion may be: m/s, m/s^2, rad/s, rad/s^2."""
+
+    speed: float
+    acceleration: float
+    turn_speed: float = 0.8
+    turn_acceleration: float = 2.0
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """A displacement along `direction` (3,) and a turn about `axis` (3,), unit vectors in the parent frame or zero."""
+
+    direction: Array
+    way: Profile
+    axis: Array
+    turn: Profile
+
+    @property
+    def duration(self) -> float:
+        """Seconds from rest to rest."""
+        return max(self.way.duration, self.turn.duration)
+
+    @property
+    def rise(self) -> float:
+        """Seconds in which whatever moves is accelerating."""
+        return min((part.rise for part in (self.way, self.turn) if part.length > 0), default=0.0)
+
+    @property
+    def fall(self) -> float:
+        """Seconds in which whatever moves is decelerating."""
+        return min((part.fall for part in (self.way, self.turn) if part.length > 0), default=0.0)
+
+
+def segment(start: Pose, end: Pose, limits: MotionLimits) -> Segment:
+    """Return the straight motion between two poses of one frame; the shorter part is slowed down to the longer."""
+    direction, length = _unit(end.position - start.position)
+    axis, angle = _unit(log(end.rotation @ start.rotation.T))
+    way = trapezoid(length, limits.speed, limits.acceleration)
+    turn = trapezoid(angle, limits.turn_speed, limits.turn_acceleration)
+    duration = max(way.duration, turn.duration)
+    return Segment(direction, way.stretched(duration), axis, turn.stretched(duration))
+
+
+def _unit(vector: Array) -> tuple[Array, float]:
+    """Return the direction and the length of a vector; zeros where it is too short to have a direction."""
+    length = float(np.linalg.norm(vector))
+    return (vector / length, length) if length > 1e-9 else (np.zeros(3), 0.0)
