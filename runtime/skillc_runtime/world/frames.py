@@ -68,7 +68,7 @@ def _own_pose(state: WorldState, individual: str) -> Pose:
 
 def _number(state: WorldState, individual: str, name: str) -> float:
     value = state.value(individual, name)
-    if value is None:
+    if not isinstance(value, int | float):
         short = state.vocabulary.short
         raise FrameError(f"{short(individual)} has no {short(name)} in the world model")
     return float(value)
@@ -78,7 +78,9 @@ def _location(state: WorldState, individual: str) -> str:
     places = sorted(state.objects(individual, AT))
     if not places:
         short = state.vocabulary.short(individual)
-        raise FrameError(f"the world model does not say where {short} is: it has neither a BaseFrameId nor a place it is at")
+        raise FrameError(
+            f"the world model does not say where {short} is: it has neither a BaseFrameId nor a place it is at"
+        )
     return places[0]
 
 

@@ -1,0 +1,174 @@
+"""Values of expressions in a world state, and the Python functions that vocabularies name."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from importlib import import_module
+from typing import TypeAlias, assert_never
+
+import numpy as np
+
+from skillc_compiler.library.conditions import (
+    Arithmetic,
+    Expression,
+    Individual,
+    Invoke,
+    Literal,
+    PropertyOf,
+    Variable,
+)
+from skillc_compiler.library.vocabulary import local_name
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.values import Value
+
+Bindings: TypeAlias = Mapping[str, "Value | None"]
+"""What the names in scope stand for; an unset optional parameter is missing or None."""
+
+Read: TypeAlias = Callable[[WorldState, Bindings], "Value | None"]
+
+
+class EvaluationError(ValueError):
+    """A condition or expression that has no value; the message names what is missing and where."""
+
+
+def value_of(expression: Expression, state: WorldState, bindings: Bindings) -> Value:
+    """Return the value of an expression; EvaluationError when a property it reads is missing."""
+    value = compile_expression(expression)(state, bindings)
+    if value is None:
+        raise EvaluationError(f"{missing(expression, state, bindings)} in the world model")
+    return value
+
+
+def missing(expression: Expression, state: WorldState, bindings: Bindings) -> str:
+    """Say which property an expression without a value lacks."""
+    match expression:
+        case PropertyOf(of, property_):
+            owner = compile_expression(of)(state, bindings)
+            if owner is None:
+                return missing(of, state, bindings)
+            return f"{local_name(str(owner))} has no {local_name(property_)}"
+        case Arithmetic(_, left, right):
+            lacking = left if compile_expression(left)(state, bindings) is None else right
+            return missing(lacking, state, bindings)
+        case Invoke(function, arguments):
+            for argument in arguments:
+                if compile_expression(argument)(state, bindings) is None:
+                    return missing(argument, state, bindings)
+            return f"{function} gives no value"
+        case Literal() | Variable() | Individual():
+            return f"{expression} has no value"
+        case _:
+            assert_never(expression)
+
+
+@lru_cache(maxsize=4096)
+def compile_expression(expression: Expression) -> Read:
+    """Return a function for the value of an expression, None where a property it reads is missing."""
+    match expression:
+        case Literal(value):
+            return lambda state, bindings: value
+        case Individual(iri):
+            return lambda state, bindings: iri
+        case Variable(name):
+            return lambda state, bindings: bound(name, bindings)
+        case PropertyOf(of, property_):
+            return _property(compile_expression(of), property_)
+        case Arithmetic(sign, left, right):
+            return _arithmetic(sign, compile_expression(left), compile_expression(right))
+        case Invoke(function, arguments):
+            return _invocation(function, tuple(compile_expression(argument) for argument in arguments))
+        case _:
+            assert_never(expression)
+
+
+def bound(name: str, bindings: Bindings) -> Value:
+    """Return what a name stands for; EvaluationError for an optional parameter that was not passed."""
+    value = bindings.get(name)
+    if value is None:
+        raise EvaluationError(f"`{name}` has no value: it was not passed (guard its use with `given {name}`)")
+    return value
+
+
+def property_of(state: WorldState, individual: str, property_: str) -> Value | None:
+    """Return the value of a property, stored or computed; None when missing."""
+    term = state.vocabulary.properties[property_]
+    if term.computed_by is None:
+        return state.value(individual, property_)
+    return call(term.computed_by, local_name(property_), state, individual)
+
+
+def call(target: str, name: str, state: WorldState, *arguments: Value) -> Value | None:
+    """Call the Python behind a property or function called `name`; what it raises becomes an EvaluationError."""
+    function = resolve(target)
+    try:
+        result: Value | None = function(state, *arguments)
+    except EvaluationError:
+        raise
+    except Exception as error:  # foreign code: whatever it raises fails the condition, not the run
+        shown = ", ".join(local_name(str(argument)) for argument in arguments)
+        raise EvaluationError(f"{name}({shown}) failed: {type(error).__name__}: {error}") from error
+    return tuple(result) if isinstance(result, list) else result
+
+
+@lru_cache(maxsize=1024)
+def resolve(target: str) -> Callable[..., Value | None]:
+    """Import "module:attribute"; EvaluationError when there is no such thing."""
+    module, _, attribute = target.partition(":")
+    try:
+        function: Callable[..., Value | None] = getattr(import_module(module), attribute)
+    except (ImportError, AttributeError, ValueError) as error:
+        raise EvaluationError(f"the Python function {target} cannot be loaded: {error}") from error
+    return function
+
+
+def _property(owner: Read, property_: str) -> Read:
+    def read(state: WorldState, bindings: Bindings) -> Value | None:
+        individual = owner(state, bindings)
+        if individual is None:
+            return None
+        if not isinstance(individual, str):
+            raise EvaluationError(f"{local_name(property_)} is asked of {individual!r}, which is no individual")
+        return property_of(state, individual, property_)
+
+    return read
+
+
+_OPERATORS: dict[str, Callable[..., Value]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+}
+
+
+def _arithmetic(sign: str, left: Read, right: Read) -> Read:
+    apply = _OPERATORS[sign]
+
+    def compute(state: WorldState, bindings: Bindings) -> Value | None:
+        one, other = left(state, bindings), right(state, bindings)
+        if one is None or other is None:
+            return None
+        if not isinstance(one, int | float | np.ndarray) or not isinstance(other, int | float | np.ndarray):
+            raise EvaluationError(f"cannot compute {one!r} {sign} {other!r}")
+        if sign == "/" and not np.all(other):
+            raise EvaluationError(f"division of {one!r} by zero")
+        return apply(one, other)
+
+    return compute
+
+
+def _invocation(name: str, arguments: tuple[Read, ...]) -> Read:
+    def compute(state: WorldState, bindings: Bindings) -> Value | None:
+        values = []
+        for argument in arguments:
+            value = argument(state, bindings)
+            if value is None:
+                return None
+            values.append(value)
+        if name not in state.vocabulary.functions:
+            raise EvaluationError(f"there is no function {name} in the vocabulary of this library")
+        return call(state.vocabulary.functions[name].python, name, state, *values)
+
+    return compute
