@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable
-from functools import lru_cache
 from typing import TypeAlias, assert_never
 
 from skillc_compiler.library.conditions import (
@@ -27,6 +26,7 @@ from skillc_compiler.library.conditions import (
     Term,
     Variable,
 )
+from skillc_runtime.world.cache import ByIdentity
 from skillc_runtime.world.expressions import Bindings, EvaluationError, bound, compile_expression, property_of
 from skillc_runtime.world.quantifiers import candidates
 from skillc_runtime.world.state import WorldState
@@ -37,10 +37,9 @@ Test: TypeAlias = Callable[[WorldState, Bindings], bool]
 
 def evaluate(condition: Condition, state: WorldState, bindings: Bindings) -> bool:
     """Whether a condition holds; EvaluationError when it cannot be decided (an unset name, a failing function)."""
-    return compile_condition(condition)(state, bindings)
+    return _compiled(condition)(state, bindings)
 
 
-@lru_cache(maxsize=4096)
 def compile_condition(condition: Condition) -> Test:
     """Return the test for a condition, to be kept where it is evaluated often."""
     match condition:
@@ -72,6 +71,9 @@ def compile_condition(condition: Condition) -> Test:
             return _quantified(condition)
         case _:
             assert_never(condition)
+
+
+_compiled = ByIdentity(compile_condition)
 
 
 def _individual(term: Term) -> Callable[[Bindings], str]:

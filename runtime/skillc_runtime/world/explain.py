@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import assert_never
 
 from skillc_compiler.library.conditions import (
@@ -30,7 +30,7 @@ from skillc_compiler.library.conditions import (
 )
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
 from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.expressions import Bindings, compile_expression, missing
+from skillc_runtime.world.expressions import Bindings, EvaluationError, compile_expression, missing
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value, show
 
@@ -65,8 +65,7 @@ class _Explainer:
             case Not(body):
                 return self.met(body, bindings)
             case And(parts):
-                false = [part for part in parts if not evaluate(part, self._state, bindings)]
-                return "; ".join(self.unmet(part, bindings) for part in false)
+                return "; ".join(self.unmet(part, bindings) for part in self._false(parts, bindings))
             case Or(parts):
                 return " and ".join(self.unmet(part, bindings) for part in parts) or "there is no alternative"
             case Exists(variable, cls, body):
@@ -82,13 +81,12 @@ class _Explainer:
         """Say what makes true a condition that should be false."""
         match condition:
             case Holds(subject, relation, object_):
-                facts = sorted(self._pairs(subject, relation, object_, bindings))
-                shown = [f"{self._short(start)} {self._name(relation)} {self._short(end)}" for start, end in facts]
-                return f"{_list(shown)}; needed: nothing"
+                facts = sorted(self._pairs(subject, object_, relation, bindings))
+                return f"{self._facts(facts, relation)}; needed: nothing"
             case Not(body):
                 return self.unmet(body, bindings)
             case And(parts):
-                return " and ".join(self.met(part, bindings) for part in parts)
+                return " and ".join(self.met(part, bindings) for part in parts) or "it always holds"
             case Or(parts):
                 true = [part for part in parts if evaluate(part, self._state, bindings)]
                 return "; ".join(self.met(part, bindings) for part in true)
@@ -110,24 +108,22 @@ class _Explainer:
             case _:
                 assert_never(condition)
 
-    def _no_relation(self, subject: Term, relation: str, object_: Term, bindings: Bindings) -> str:
+    def _no_relation(self, subject: Term, relation: str, object_: Term, bindings: Bindings, anything: str = "_") -> str:
         """Name the facts that share the subject or, when there are none, the object."""
-        needed = f"{self._term(subject, bindings)} {self._name(relation)} {self._term(object_, bindings)}"
-        for near in ((subject, Anything()), (Anything(), object_)):
-            facts = (
-                sorted(self._pairs(near[0], relation, near[1], bindings)) if near != (Anything(), Anything()) else []
-            )
+        start, end = (self._term(term, bindings, anything) for term in (subject, object_))
+        needed = f"{start} {local_name(relation)} {end}"
+        for fixed, other in ((subject, Anything()), (Anything(), object_)):
+            facts = sorted(self._pairs(fixed, other, relation, bindings)) if fixed != other else []
             if facts:
-                shown = [f"{self._short(start)} {self._name(relation)} {self._short(end)}" for start, end in facts]
-                return f"{_list(shown)}; needed: {needed}"
-        return f"`{needed}` does not hold: {self._nothing_about(subject, relation, bindings)}"
-
-    def _nothing_about(self, subject: Term, relation: str, bindings: Bindings) -> str:
+                return f"{self._facts(facts, relation)}; needed: {needed}"
         if isinstance(subject, Anything):
-            return f"nothing has the relation {self._name(relation)} to it"
-        return f"{self._term(subject, bindings)} has the relation {self._name(relation)} to nothing"
+            return f"`{needed}` does not hold: nothing has the relation {local_name(relation)} to {end}"
+        return f"`{needed}` does not hold: {start} has the relation {local_name(relation)} to nothing"
 
-    def _pairs(self, subject: Term, relation: str, object_: Term, bindings: Bindings) -> Iterable[tuple[str, str]]:
+    def _facts(self, pairs: list[tuple[str, str]], relation: str) -> str:
+        return _list([f"{self._short(start)} {local_name(relation)} {self._short(end)}" for start, end in pairs])
+
+    def _pairs(self, subject: Term, object_: Term, relation: str, bindings: Bindings) -> Iterable[tuple[str, str]]:
         start, end = _iri(subject, bindings), _iri(object_, bindings)
         if start is None and end is None:
             return self._state.pairs(relation)
@@ -174,6 +170,9 @@ class _Explainer:
         members = sorted(self._state.instances(cls))
         if not members:
             return f"there is no {self._short(cls)}"
+        if isinstance(body, Holds):
+            subject, object_ = (Anything() if t == Variable(variable) else t for t in (body.subject, body.object))
+            return self._no_relation(subject, body.relation, object_, bindings, f"a {self._short(cls)}")
         if len(members) == 1:
             return self.unmet(body, {**bindings, variable: members[0]})
         listed = _list([self._short(each) for each in members])
@@ -183,17 +182,23 @@ class _Explainer:
         members = sorted(self._state.instances(cls))
         return [each for each in members if evaluate(body, self._state, {**bindings, variable: each})]
 
+    def _false(self, parts: tuple[Condition, ...], bindings: Bindings) -> Iterator[Condition]:
+        """Yield the false parts, as far as they can be decided: one may guard what comes after it."""
+        try:
+            for part in parts:
+                if not evaluate(part, self._state, bindings):
+                    yield part
+        except EvaluationError:
+            return
+
     def _class_of(self, term: Term, bindings: Bindings) -> str:
         iri = _iri(term, bindings)
         types = sorted(map(self._short, self._state.types(iri or "")))
         return f"{self._term(term, bindings)} is {'a ' + ' and a '.join(types) if types else 'not in the world model'}"
 
-    def _name(self, relation: str) -> str:
-        return local_name(relation)
-
-    def _term(self, term: Term, bindings: Bindings) -> str:
+    def _term(self, term: Term, bindings: Bindings, anything: str = "_") -> str:
         iri = _iri(term, bindings)
-        return "_" if iri is None else self._short(iri)
+        return anything if iri is None else self._short(iri)
 
 
 def _iri(term: Term, bindings: Bindings) -> str | None:

@@ -20,6 +20,7 @@ from skillc_compiler.library.conditions import (
     Variable,
 )
 from skillc_compiler.library.vocabulary import local_name
+from skillc_runtime.world.cache import ByIdentity
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
 
@@ -35,7 +36,7 @@ class EvaluationError(ValueError):
 
 def value_of(expression: Expression, state: WorldState, bindings: Bindings) -> Value:
     """Return the value of an expression; EvaluationError when a property it reads is missing."""
-    value = compile_expression(expression)(state, bindings)
+    value = _compiled(expression)(state, bindings)
     if value is None:
         raise EvaluationError(f"{missing(expression, state, bindings)} in the world model")
     return value
@@ -63,7 +64,6 @@ def missing(expression: Expression, state: WorldState, bindings: Bindings) -> st
             assert_never(expression)
 
 
-@lru_cache(maxsize=4096)
 def compile_expression(expression: Expression) -> Read:
     """Return a function for the value of an expression, None where a property it reads is missing."""
     match expression:
@@ -81,6 +81,9 @@ def compile_expression(expression: Expression) -> Read:
             return _invocation(function, tuple(compile_expression(argument) for argument in arguments))
         case _:
             assert_never(expression)
+
+
+_compiled = ByIdentity(compile_expression)
 
 
 def bound(name: str, bindings: Bindings) -> Value:

@@ -9,6 +9,7 @@ from typing import assert_never
 import numpy as np
 
 from skillc_compiler.library.vocabulary import (
+    THING,
     ClassType,
     ListType,
     NumberType,
@@ -72,7 +73,7 @@ def misfit(state: WorldState, term: RelationTerm, subject: str, object_: str) ->
     if not term.signatures or any(fits):
         return None
     short = state.vocabulary.short
-    accepted = " or ".join(f"({short(each.domain)}, {short(each.range)})" for each in term.signatures)
+    accepted = " or ".join(f"({_class(state, each.domain)}, {_class(state, each.range)})" for each in term.signatures)
     return f"{short(term.iri)} takes {accepted}; {_described(state, subject)}, {_described(state, object_)}"
 
 
@@ -136,6 +137,10 @@ def _property(state: WorldState, individual: str, property_: str, value: Value) 
         wrong = wrong_value(term, one)
         if wrong:
             yield f"`{fact}`: {wrong}"
+
+
+def _class(state: WorldState, iri: str) -> str:
+    return "Thing" if iri == THING else state.vocabulary.short(iri)
 
 
 def _described(state: WorldState, individual: str) -> str:

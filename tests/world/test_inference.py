@@ -1,0 +1,83 @@
+"""Inferred parameters: one answer, none and why, several."""
+
+from skillc_compiler.library.conditions import Anything, Holds, Not, Variable
+from skillc_runtime.world.inference import Ambiguous, Found, NoneFound, infer
+from world.lab import SCENE, fact, holds, individual, iri, parameter, requirement
+
+MOUNTED = requirement("mounted", holds("arm", "hasA", "gripper"))
+THERE = requirement("there", holds("from", "contain", "object"))
+EMPTY = requirement("empty", Not(Holds(Variable("gripper"), iri("contain"), Anything())))
+PICK = (MOUNTED, THERE, EMPTY)
+WANTED = (parameter("gripper", "Gripper"), parameter("from", "Location"))
+BINDINGS = {"arm": iri("arm"), "object": iri("eraser")}
+
+
+def test_the_only_answer_is_found() -> None:
+    assert infer(WANTED, PICK, BINDINGS, SCENE) == Found({"gripper": iri("gripper"), "from": iri("shelf")})
+
+
+def test_no_parameters_need_no_answer() -> None:
+    assert infer((), PICK, BINDINGS, SCENE) == Found({})
+
+
+def test_the_requirement_that_left_none_is_named_with_what_holds_instead() -> None:
+    state = SCENE.changed([fact("gripper", "contain", "box")])
+    answer = infer(WANTED, PICK, BINDINGS, state)
+    assert answer == NoneFound(EMPTY, "t:gripper contain t:box; needed: nothing")
+    answer = infer(WANTED, PICK, {**BINDINGS, "object": iri("robot")}, SCENE)
+    assert isinstance(answer, NoneFound) and answer.requirement == THERE
+    assert answer.reason.endswith("nothing has the relation contain to t:robot")
+
+
+def test_an_answer_of_another_class_is_none() -> None:
+    answer = infer(WANTED, PICK, BINDINGS, SCENE.changed([fact("robot", "contain", "eraser")]))
+    assert answer == NoneFound(THERE, "t:robot contain t:eraser; needed: a t:Location contain t:eraser")
+
+
+def test_a_class_without_individuals_is_named() -> None:
+    answer = infer((parameter("arm", "CompliantArm"), parameter("tool", "Tool")), (), {}, SCENE)
+    assert answer == NoneFound(None, "`tool`: there is no t:Tool in the world model")
+
+
+def test_several_answers_are_all_listed_in_order() -> None:
+    answer = infer((parameter("object", "Product"), parameter("from", "Location")), (THERE,), {}, SCENE)
+    assert answer == Ambiguous(
+        (
+            {"object": iri("box"), "from": iri("table")},
+            {"object": iri("eraser"), "from": iri("shelf")},
+        )
+    )
+
+
+def test_any_takes_the_first_in_order_and_names_the_others() -> None:
+    wanted = (parameter("object", "Product", any_=True), parameter("from", "Location", any_=True))
+    answer = infer(wanted, (THERE,), {}, SCENE)
+    assert answer == Found(
+        {"object": iri("box"), "from": iri("table")}, ({"object": iri("eraser"), "from": iri("shelf")},)
+    )
+    one_fixed = (parameter("object", "Product", any_=True), parameter("from", "Location"))
+    assert isinstance(infer(one_fixed, (THERE,), {}, SCENE), Ambiguous)
+
+
+def test_the_join_agrees_with_trying_everything() -> None:
+    state = SCENE.changed(
+        [
+            *(individual(f"box-{n}", "Product") for n in range(9)),
+            *(individual(f"place-{n}", "Location") for n in range(3)),
+            *(fact(f"place-{n % 3}", "contain", f"box-{n}") for n in range(9)),
+            fact("place-0", "beside", "place-1"),
+        ]
+    )
+    linked = requirement("linked", holds("from", "beside", "to"))
+    wanted = (parameter("object", "Product"), parameter("from", "Location"), parameter("to", "Location"))
+    answer = infer(wanted, (THERE, linked), {}, state)
+    assert isinstance(answer, Ambiguous)
+    places, products = sorted(state.instances(iri("Location"))), sorted(state.instances(iri("Product")))
+    tried = [
+        {"object": o, "from": f, "to": t}
+        for o in products
+        for f in places
+        for t in places
+        if state.holds(f, iri("contain"), o) and state.holds(f, iri("beside"), t)
+    ]
+    assert list(answer.candidates) == tried and len(tried) == 8
