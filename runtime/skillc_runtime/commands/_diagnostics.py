@@ -8,18 +8,18 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import click
-from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.rendering.concise import render as concise
 from skillc_dsl.rendering.full import render as full
 from skillc_dsl.rendering.json import render as as_json
-from skillc_dsl.source import Source, Span
 
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Source, Span
 from skillc_runtime.world.scene import problems_of
 
 
 def show(diagnostics: Sequence[Diagnostic], texts: Mapping[str, Source], form: str) -> int:
-    """Print the diagnostics in a form, with a summary on stderr, and return the exit code: 1 where there is an error."""
+    """Print the diagnostics in a form, with a summary on stderr, and return the exit code: 1 with errors."""
     unique = sorted(set(diagnostics), key=lambda d: (d.span, d.name))
     if form == "json":
         click.echo(as_json(unique, texts))

@@ -9,6 +9,7 @@ from importlib.resources import files
 from pathlib import Path
 
 import click
+
 from skillc_compiler import pipeline
 from skillc_compiler.library.skills import SkillLibrary, Task
 from skillc_compiler.library.vocabulary import Vocabulary
@@ -92,7 +93,9 @@ def _read(file: Path, name: str) -> Source:
     try:
         return Source(name, file.read_text(encoding="utf-8"))
     except UnicodeDecodeError as error:
-        raise click.UsageError(f"{file} is not UTF-8 text: byte {error.start} is {error.object[error.start]:#04x}") from error
+        raise click.UsageError(
+            f"{file} is not UTF-8 text: byte {error.start} is {error.object[error.start]:#04x}"
+        ) from error
     except OSError as error:
         raise click.UsageError(f"{file} cannot be read: {error.strerror}") from error
 

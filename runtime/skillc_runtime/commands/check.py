@@ -19,7 +19,6 @@ def command(paths: tuple[Path, ...], scene: Path | None, form: str) -> None:
     """Check the libraries or files at PATHS."""
     from skillc_dsl.diagnostics import Diagnostic
     from skillc_dsl.source import Source
-
     from skillc_runtime.commands import _diagnostics, _library
 
     found: list[Diagnostic] = []

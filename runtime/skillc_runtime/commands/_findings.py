@@ -1,0 +1,62 @@
+"""What `skillc doctor` looks for."""
+
+from __future__ import annotations
+
+import platform
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+
+from skillc_runtime.planning.fast_downward import FastDownward
+from skillc_runtime.simulation.camera import RenderingUnavailable, check_rendering
+
+REQUIRED = ("lark", "msgspec", "pyoxigraph", "pddl", "numpy", "mujoco", "matplotlib", "rich", "click")
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One thing that was looked for; `meaning` says what works, or what to do."""
+
+    name: str
+    found: bool
+    version: str
+    meaning: str
+    required: bool = False
+
+
+def findings() -> list[Finding]:
+    """Look for everything that skillc can use."""
+    return [
+        Finding("python", True, platform.python_version(), platform.platform(), required=True),
+        Finding("skillc", True, version("skillc"), "", required=True),
+        *(_package(name) for name in REQUIRED),
+        _planner(),
+        _rendering(),
+        _video(),
+    ]
+
+
+def _package(name: str) -> Finding:
+    try:
+        return Finding(name, True, version(name), "", required=True)
+    except PackageNotFoundError:
+        return Finding(name, False, "", f"install it: pip install {name}", required=True)
+
+
+def _planner() -> Finding:
+    if FastDownward.available():
+        return Finding("Fast Downward", True, version("up-fast-downward"), "plans are proved optimal")
+    return Finding("Fast Downward", False, "", "the built-in A* plans small scenes; pip install 'skillc[planner]'")
+
+
+def _rendering() -> Finding:
+    try:
+        return Finding("GL library", True, check_rendering(), "runs are filmed")
+    except RenderingUnavailable as error:
+        return Finding("GL library", False, "", str(error))
+
+
+def _video() -> Finding:
+    try:
+        return Finding("av", True, version("av"), "films are written as MP4")
+    except PackageNotFoundError:
+        return Finding("av", False, "", "films are left out; pip install 'skillc[video]'")

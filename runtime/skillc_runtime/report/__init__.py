@@ -1,0 +1,1 @@
+"""What a task did, for people: figures, a page, a table."""

@@ -1,0 +1,47 @@
+"""A task's report as one self-contained HTML page."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from dataclasses import dataclass
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from skillc_runtime.report.result import TaskResult
+from skillc_runtime.report.table import rows, why
+from skillc_runtime.trace.outcome import Outcome
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A PNG under a heading."""
+
+    title: str
+    png: bytes
+
+
+def render(result: TaskResult, tree: Outcome | None, pictures: list[Picture], film: str | None = None) -> str:
+    """Return the page; `film` is the name of a video file beside it."""
+    environment = Environment(
+        loader=PackageLoader("skillc_runtime.report", "."),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return environment.get_template("page.html.j2").render(
+        result=result,
+        rows=rows(result) if result.sim_time_s else [],
+        why=why,
+        tree=tree,
+        pictures=[(picture.title, b64encode(picture.png).decode()) for picture in pictures],
+        film=film,
+        reason=_reason,
+    )
+
+
+def _reason(node: Outcome) -> str:
+    """Return why a node failed, unless a child says it already."""
+    if node.failure is None or any(child.failure == node.failure for child in node.children):
+        return ""
+    return node.failure.message

@@ -1,0 +1,55 @@
+"""The result of a task: what every report, table and JSON document says."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import msgspec
+
+from skillc_runtime.trace.failure import Rejected
+
+
+class StepResult(msgspec.Struct, frozen=True, kw_only=True):
+    """A step that was planned or asked for, with its arguments by parameter name and the line it comes from.
+
+    `implementation` is empty where the step never started; `rejected` are the implementations that were not taken.
+    """
+
+    skill: str
+    implementation: str
+    arguments: dict[str, str]
+    source: str
+    rejected: tuple[Rejected, ...] = ()
+
+
+class WipingResult(msgspec.Struct, frozen=True, kw_only=True):
+    """How well a surface was wiped, measured by the simulator and not by the controller."""
+
+    coverage: float
+    force_command_n: float
+    force_mean_n: float
+    force_rmse_n: float
+    contact_lost: float
+    vibration_mm_s: float
+    tilt_rms_deg: float
+    first_impact_n: float
+    lane_dwell_s: float | None
+
+
+class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
+    """How a task went. `plan_optimal` is None where nothing was planned; `failure` says why a task did not succeed."""
+
+    task: str
+    status: Literal["success", "failure", "halted", "refused"]
+    plan: tuple[StepResult, ...] = ()
+    plan_optimal: bool | None = None
+    planner: str = ""
+    robot: str = ""
+    controller: str = ""
+    sim_time_s: float = 0.0
+    wall_time_s: float = 0.0
+    real_time_factor: float = 0.0
+    seed: int = 0
+    variation: str = ""
+    wiping: WipingResult | None = None
+    failure: str | None = None

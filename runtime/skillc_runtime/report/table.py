@@ -1,0 +1,83 @@
+"""A task's result as a table for the terminal."""
+
+from __future__ import annotations
+
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from skillc_runtime.report.result import StepResult, TaskResult, WipingResult
+
+STYLES = {"success": "bold green", "failure": "bold red", "refused": "bold red", "halted": "bold yellow"}
+
+
+def render(result: TaskResult) -> RenderableType:
+    """Return the table of one task: plan with implementations and why, then how it went."""
+    title = Text.assemble((result.task, "bold"), "  ", (result.status, STYLES[result.status]))
+    parts: list[RenderableType] = [title]
+    if result.failure:
+        parts.append(Text(result.failure, style="red"))
+    if result.plan:
+        parts.append(_plan(result))
+    if result.sim_time_s:
+        parts.append(_numbers(result))
+    return Group(*parts, "")
+
+
+def _plan(result: TaskResult) -> Table:
+    table = Table(box=None, pad_edge=False, header_style="dim")
+    for heading in ("step", "implementation", "arguments", "why"):
+        table.add_column(heading, overflow="fold")
+    for number, step in enumerate(result.plan, 1):
+        arguments = ", ".join(f"{name}: {value}" for name, value in step.arguments.items())
+        table.add_row(f"{number} {step.skill}", step.implementation, arguments, why(step))
+    return table
+
+
+def why(step: StepResult) -> str:
+    """Say why a step's implementation was taken."""
+    if not step.implementation:
+        return "did not start"
+    if not step.rejected:
+        return "the first that fits"
+    return "; ".join(f"not {r.implementation}: {r.reason}" for r in step.rejected)
+
+
+def _numbers(result: TaskResult) -> Table:
+    table = Table(box=None, pad_edge=False, show_header=False)
+    table.add_column(style="dim")
+    table.add_column()
+    for name, value in rows(result):
+        table.add_row(name, value)
+    return table
+
+
+def rows(result: TaskResult) -> list[tuple[str, str]]:
+    """Return what there is to say about a run, name and value."""
+    planned = [] if result.plan_optimal is None else [("plan", _plan_words(result))]
+    return [
+        *planned,
+        ("robot", f"{result.robot}, controller {result.controller}"),
+        ("reality", f"{result.variation} (seed {result.seed})"),
+        *(_wiping_rows(result.wiping) if result.wiping else []),
+        ("time", f"{result.sim_time_s:.1f} s simulated in {result.wall_time_s:.1f} s"),
+        ("speed", f"{result.real_time_factor:.1f} x real time"),
+    ]
+
+
+def _plan_words(result: TaskResult) -> str:
+    quality = "proved optimal" if result.plan_optimal else "best found, not proved optimal"
+    return f"{len(result.plan)} steps by {result.planner}, {quality}"
+
+
+def _wiping_rows(wiping: WipingResult) -> list[tuple[str, str]]:
+    share = wiping.force_rmse_n / wiping.force_command_n
+    return [
+        ("coverage", f"{wiping.coverage:.1%}"),
+        ("force", f"{wiping.force_mean_n:.2f} N mean of {wiping.force_command_n:g} N"),
+        ("force RMSE", f"{wiping.force_rmse_n:.2f} N, {share:.1%}"),
+        ("contact lost", f"{wiping.contact_lost:.2%}"),
+        ("first impact", f"{wiping.first_impact_n:.1f} N"),
+        ("vibration", f"{wiping.vibration_mm_s:.2f} mm/s"),
+        ("tilt", f"{wiping.tilt_rms_deg:.2f} deg rms"),
+    ]
