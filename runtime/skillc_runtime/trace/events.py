@@ -1,0 +1,129 @@
+"""Everything that can happen while a task runs, as typed values that go to listeners and to the log."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+import msgspec
+
+from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.trace.failure import Failure, Rejected
+
+
+class _Event(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """`time` is in seconds of the cell's clock, which in simulation is simulated time."""
+
+    time: float
+
+
+class TaskStarted(_Event, tag="task-started", frozen=True, kw_only=True):
+    """A task begins; `library` and `hash` name what it runs."""
+
+    task: str
+    library: str = ""
+    hash: str = ""
+    source: Position | None = None
+
+
+class PlanStep(msgspec.Struct, frozen=True, kw_only=True):
+    """A step of a plan: the skill and its arguments by parameter name."""
+
+    skill: str
+    arguments: dict[str, str]
+    source: Position | None = None
+
+
+class PlanMade(_Event, tag="plan-made", frozen=True, kw_only=True):
+    """A planner found a plan; `optimal` is what it says about it, `cost` in the unit of durations, seconds."""
+
+    planner: str
+    optimal: str
+    cost: float
+    steps: tuple[PlanStep, ...]
+
+
+class NodeStarted(_Event, tag="node-started", frozen=True, kw_only=True):
+    """A node of the tree starts; `parent` is the id of the node above it, 0 at the root."""
+
+    node: int
+    parent: int
+    kind: str
+    name: str
+    source: Position
+
+
+class NodeEnded(_Event, tag="node-ended", frozen=True, kw_only=True):
+    """A node succeeded, failed or was halted; `failure` says why."""
+
+    node: int
+    name: str
+    status: str
+    failure: Failure | None = None
+    source: Position
+
+
+class ImplementationChosen(_Event, tag="implementation-chosen", frozen=True, kw_only=True):
+    """A call starts with this implementation; `bindings` are its parameters as text."""
+
+    node: int
+    skill: str
+    implementation: str
+    bindings: dict[str, str]
+    rejected: tuple[Rejected, ...] = ()
+    source: Position
+
+
+class WorldChanged(_Event, tag="world-changed", frozen=True, kw_only=True):
+    """The world model changed; one line of text for each change."""
+
+    origin: str
+    changes: tuple[str, ...]
+
+
+class Measured(_Event, tag="measured", frozen=True, kw_only=True):
+    """A skill measured something; numbers in SI units."""
+
+    name: str
+    values: dict[str, float]
+    node: int = 0
+
+
+class Note(_Event, tag="note", frozen=True, kw_only=True):
+    """Something a person may want to know, which decides nothing."""
+
+    message: str
+    node: int = 0
+    source: Position | None = None
+
+
+class Paused(_Event, tag="paused", frozen=True, kw_only=True):
+    """The run holds still."""
+
+
+class Resumed(_Event, tag="resumed", frozen=True, kw_only=True):
+    """The run goes on."""
+
+
+class TaskEnded(_Event, tag="task-ended", frozen=True, kw_only=True):
+    """A task is over."""
+
+    task: str
+    status: str
+    failure: Failure | None = None
+
+
+Event: TypeAlias = (
+    TaskStarted
+    | PlanMade
+    | NodeStarted
+    | NodeEnded
+    | ImplementationChosen
+    | WorldChanged
+    | Measured
+    | Note
+    | Paused
+    | Resumed
+    | TaskEnded
+)
+Listener: TypeAlias = Callable[[Event], None]

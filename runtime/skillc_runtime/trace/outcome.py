@@ -1,0 +1,27 @@
+"""The tree of a run with what became of each node, as a value for reports and views."""
+
+from __future__ import annotations
+
+import msgspec
+
+from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.trace.failure import Failure, Rejected
+
+
+class Outcome(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """What became of a node at its last start; `started` and `ended` in seconds of the cell's clock.
+
+    `status` is one of idle, running, success, failure, halted. A call has `rejected` and as its child the body of
+    the implementation that ran last.
+    """
+
+    id: int
+    name: str
+    kind: str
+    status: str
+    source: Position
+    started: float | None = None
+    ended: float | None = None
+    failure: Failure | None = None
+    rejected: tuple[Rejected, ...] = ()
+    children: tuple[Outcome, ...] = ()

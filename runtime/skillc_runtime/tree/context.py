@@ -1,0 +1,57 @@
+"""What all nodes of one run share: the time and world state of this tick, the cell, the library, the listener."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.robots.cell import Cell
+from skillc_runtime.trace.events import Listener, Note
+from skillc_runtime.tree.locks import Locks
+from skillc_runtime.world.changes import Change
+from skillc_runtime.world.state import WorldState
+
+
+class Context:
+    """The run's one mutable place beside its nodes.
+
+    `state` is the snapshot this tick reads; `now` is the run's own time in seconds, which stands still while paused;
+    `time` is the cell's clock. `emit` is None when nobody listens, and then no event is built.
+    """
+
+    __slots__ = ("_ids", "cell", "emit", "library", "locks", "now", "paused_s", "state", "time")
+
+    def __init__(self, library: SkillLibrary, cell: Cell, emit: Listener | None, locks: Locks) -> None:
+        self.library = library
+        self.cell = cell
+        self.emit = emit
+        self.locks = locks
+        self.paused_s = 0.0
+        self._ids = 0
+        self.refresh_clock()
+        self.state: WorldState = cell.world.snapshot()
+
+    def next_id(self) -> int:
+        """Return a number no other node of the run has; the first is 1."""
+        self._ids += 1
+        return self._ids
+
+    def refresh_clock(self) -> None:
+        """Take the time for this tick."""
+        self.time = self.cell.now
+        self.now = self.time - self.paused_s
+
+    def refresh(self) -> None:
+        """Take the newest snapshot."""
+        self.state = self.cell.world.snapshot()
+
+    def commit(self, changes: Sequence[Change], origin: str) -> None:
+        """Write changes in one transaction and read on from the result; WorldError refuses them all."""
+        self.cell.world.commit(changes, origin)
+        self.refresh()
+
+    def note(self, message: str, node: int = 0, source: Position | None = None) -> None:
+        """Tell the listener something that decides nothing."""
+        if self.emit is not None:
+            self.emit(Note(time=self.time, message=message, node=node, source=source))

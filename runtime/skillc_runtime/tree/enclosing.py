@@ -1,0 +1,37 @@
+"""What the nodes of one body see of what is around them; there is no other way for a value to reach a node."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from skillc_compiler.library.skills import Implementation
+from skillc_runtime.tree.undo import Undo
+from skillc_runtime.world.values import Value
+
+Frame: TypeAlias = dict[str, Value]
+
+
+@dataclass(frozen=True, slots=True)
+class Enclosing:
+    """The body's surroundings, fixed while it runs.
+
+    `frame` has the values in scope: parameters, lets, loop variables, outputs; an optional parameter that was not
+    passed is absent. `implementation` is whose body this is, None in a task. `calls` are the calls around it, which
+    may hold locks, outermost first. `undo` is the innermost scope: what a scoped skill sets up is undone when it ends.
+    """
+
+    undo: Undo
+    frame: Frame = field(default_factory=dict)
+    implementation: Implementation | None = None
+    calls: tuple[object, ...] = ()
+
+    @property
+    def skill(self) -> str:
+        """The skill whose body this is; empty in a task."""
+        return self.implementation.skill if self.implementation is not None else ""
+
+    def optional(self, name: str) -> bool:
+        """Whether the name is an optional parameter around here."""
+        parameters = self.implementation.parameters if self.implementation is not None else ()
+        return any(parameter.name == name and parameter.direction == "opt" for parameter in parameters)

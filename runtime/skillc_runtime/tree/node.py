@@ -1,0 +1,124 @@
+"""The life of a node: it starts, ticks while it runs, and ends by itself or is halted."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.trace.events import NodeEnded, NodeStarted
+from skillc_runtime.trace.failure import Failure
+from skillc_runtime.tree.context import Context
+from skillc_runtime.tree.errors import told
+
+RUNNING, SUCCESS, FAILURE, HALTED = Status.RUNNING, Status.SUCCESS, Status.FAILURE, Status.HALTED
+
+
+class Node:
+    """A grounded node. Its parent calls `start` once, `tick` while that or the last tick returned RUNNING, or `halt`.
+
+    A subclass writes `begin` and `tick`; both return RUNNING or what `end` or `fail` returns. `tick` is the hot
+    path and calls the running child directly, so that a node costs one method call. Children start in the order
+    of `children`.
+    """
+
+    kind: ClassVar[str]
+    __slots__ = ("children", "context", "ended", "failure", "id", "name", "parent", "source", "started", "status")
+
+    def __init__(self, context: Context, source: Position, children: tuple[Node, ...] = (), name: str = "") -> None:
+        self.context = context
+        self.source = source
+        self.children = children
+        self.name = name or self.kind
+        self.id = context.next_id()
+        self.parent = 0
+        self.status = Status.IDLE
+        self.failure: Failure | None = None
+        self.started: float | None = None
+        self.ended: float | None = None
+        for child in children:
+            child.parent = self.id
+
+    def start(self) -> Status:
+        """Begin anew, do the first tick's work and return the status; a node that raises fails."""
+        context = self.context
+        self.status = RUNNING
+        self.failure = None
+        self.started, self.ended = context.time, None
+        if context.emit is not None:
+            started = NodeStarted(
+                time=context.time, node=self.id, parent=self.parent, kind=self.kind, name=self.name, source=self.source
+            )
+            context.emit(started)
+        try:
+            return self.begin()
+        except Exception as error:  # noqa: BLE001  a node is the boundary: it reports, halts and fails
+            return self.broken(error)
+
+    def begin(self) -> Status:
+        """Do the work of `start`."""
+        raise NotImplementedError
+
+    def tick(self) -> Status:
+        """Go on for one tick."""
+        raise NotImplementedError
+
+    def halt(self, reason: str) -> None:
+        """Stop the node if it runs, with everything that runs below it, the last started first."""
+        if self.status is RUNNING:
+            self.stop(reason)
+            self._settle(HALTED, Failure(kind="halted", message=reason, source=self.source))
+
+    def stop(self, reason: str) -> None:
+        """Halt what runs below; a subclass adds what it must undo itself. Never raises."""
+        for child in reversed(self.children):
+            child.halt(reason)
+
+    def pause(self) -> None:
+        """Tell everything that runs below to hold still."""
+        for child in self.children:
+            if child.status is RUNNING:
+                child.pause()
+
+    def resume(self) -> None:
+        """Tell everything that runs below to go on."""
+        for child in self.children:
+            if child.status is RUNNING:
+                child.resume()
+
+    def still(self) -> bool:
+        """Whether the node, finished, would end the same way in the world as it is now."""
+        return self.status is SUCCESS
+
+    def fails_still(self) -> bool:
+        """Whether the node, failed, would fail again; asked by `invert` only."""
+        return self.status is FAILURE
+
+    def end(self) -> Status:
+        """Record success."""
+        return self._settle(SUCCESS, None)
+
+    def fail(self, failure: Failure | None) -> Status:
+        """Record a failure; None stands for a child that gave none."""
+        return self._settle(FAILURE, failure or Failure(kind="body", message=f"{self.name} failed", source=self.source))
+
+    def broken(self, error: Exception) -> Status:
+        """Fail because of an exception: what runs below is halted first."""
+        message = told(error)
+        self.stop(message)
+        return self.fail(Failure(kind="error", message=message, source=self.source))
+
+    def _settle(self, status: Status, failure: Failure | None) -> Status:
+        context = self.context
+        self.status, self.failure, self.ended = status, failure, context.time
+        if context.emit is not None:
+            ended = NodeEnded(
+                time=context.time,
+                node=self.id,
+                name=self.name,
+                status=status.value,
+                failure=failure,
+                source=self.source,
+            )
+            context.emit(ended)
+        return status

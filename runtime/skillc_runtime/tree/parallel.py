@@ -1,0 +1,116 @@
+"""Children together, with the four ways in which they decide."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.trace.failure import Failure
+from skillc_runtime.tree.node import FAILURE, RUNNING, SUCCESS, Node
+from skillc_runtime.tree.selector import all_failed
+
+
+class ParallelNode(Node):
+    """Starts the children in order and ticks those that run in the same order; a finished one keeps its result."""
+
+    kind: ClassVar[str] = "par"
+    __slots__ = ("_running",)
+
+    def begin(self) -> Status:
+        self._running: list[Node] = []
+        for child in self.children:
+            status = child.start()
+            if status is RUNNING:
+                self._running.append(child)
+            elif self.decided_by(child):
+                return self._decide(child)
+        return RUNNING if self.decided_late() is None else self._decide_late()
+
+    def tick(self) -> Status:
+        finished = False
+        for child in self._running:
+            status = child.tick()
+            if status is not RUNNING:
+                if self.decided_by(child):
+                    return self._decide(child)
+                finished = True
+        return self._after_finishing() if finished else RUNNING
+
+    def decided_by(self, child: Node) -> bool:
+        """Whether a child that just finished decides at once."""
+        raise NotImplementedError
+
+    def decided_late(self) -> Status | None:
+        """The result once all running children had their tick; None to go on."""
+        return None if self._running else SUCCESS
+
+    def still(self) -> bool:
+        done = [child for child in self.children if child.status is SUCCESS]
+        return self.status is SUCCESS and all(child.still() for child in done)
+
+    def _after_finishing(self) -> Status:
+        self._running = [child for child in self._running if child.status is RUNNING]
+        return RUNNING if self.decided_late() is None else self._decide_late()
+
+    def _decide(self, child: Node) -> Status:
+        outcome = "finished" if child.status is SUCCESS else "failed"
+        self.stop(f"{child.name} beside it {outcome}")
+        return self.end() if child.status is SUCCESS else self.fail(child.failure)
+
+    def _decide_late(self) -> Status:
+        return self.end() if self.decided_late() is SUCCESS else self.fail(self.reason())
+
+    def reason(self) -> Failure:
+        """The failure when no child decided at once."""
+        return all_failed(self)
+
+
+class ParallelAll(ParallelNode):
+    """Success when all have succeeded; the first failure halts the others."""
+
+    kind: ClassVar[str] = "par all"
+    __slots__ = ()
+
+    def decided_by(self, child: Node) -> bool:
+        return child.status is FAILURE
+
+
+class ParallelAny(ParallelNode):
+    """The first success decides; failure when all failed."""
+
+    kind: ClassVar[str] = "par any"
+    __slots__ = ()
+
+    def decided_by(self, child: Node) -> bool:
+        return child.status is SUCCESS
+
+    def decided_late(self) -> Status | None:
+        return None if self._running else FAILURE
+
+
+class ParallelLead(ParallelNode):
+    """The first child decides; the others run beside it and their ends change nothing."""
+
+    kind: ClassVar[str] = "par lead"
+    __slots__ = ()
+
+    def decided_by(self, child: Node) -> bool:
+        return child is self.children[0]
+
+
+class ParallelRace(ParallelNode):
+    """All have their tick, then those that finished decide: a failure wins over a success."""
+
+    kind: ClassVar[str] = "par race"
+    __slots__ = ()
+
+    def decided_by(self, child: Node) -> bool:
+        return False
+
+    def decided_late(self) -> Status | None:
+        ended = {child.status for child in self.children}
+        return FAILURE if FAILURE in ended else SUCCESS if SUCCESS in ended or not self._running else None
+
+    def _decide_late(self) -> Status:
+        decisive = next(child for child in self.children if child.status is self.decided_late())
+        return self._decide(decisive)

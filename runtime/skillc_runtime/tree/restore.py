@@ -1,0 +1,53 @@
+"""Taking back what the posts of a scoped skill wrote."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from skillc_runtime.world.changes import AddRelation, Change, ClearProperty, RemoveRelation, SetProperty
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.values import equal
+
+
+def reverse_of(changes: Sequence[Change], before: WorldState, after: WorldState, now: WorldState) -> tuple[Change, ...]:
+    """Return the changes of `now` that restore what `changes` changed from `before` to `after`.
+
+    A fact that somebody changed again since is left as it is.
+    """
+    return tuple(back for change in reversed(changes) for back in _back(change, before, after, now))
+
+
+def _back(change: Change, before: WorldState, after: WorldState, now: WorldState) -> Iterator[Change]:
+    if isinstance(change, SetProperty):
+        yield from _property_back(change, before, after, now)
+    elif isinstance(change, AddRelation) and not before.holds(change.subject, change.relation, change.object):
+        yield from _relation_back(change, before, now)
+    elif isinstance(change, RemoveRelation) and _gone(change, before, now):
+        yield AddRelation(change.subject, change.relation, change.object)
+
+
+def _gone(change: RemoveRelation, before: WorldState, now: WorldState) -> bool:
+    fact = (change.subject, change.relation, change.object)
+    return before.holds(*fact) and not now.holds(*fact)
+
+
+def _property_back(change: SetProperty, before: WorldState, after: WorldState, now: WorldState) -> Iterator[Change]:
+    former, ours, current = (state.value(change.individual, change.property) for state in (before, after, now))
+    if current is None or ours is None or not equal(current, ours):
+        return
+    if former is None:
+        yield ClearProperty(change.individual, change.property)
+    else:
+        yield SetProperty(change.individual, change.property, former)
+
+
+def _relation_back(change: AddRelation, before: WorldState, now: WorldState) -> Iterator[Change]:
+    subject, relation, object_ = change.subject, change.relation, change.object
+    if not now.holds(subject, relation, object_):
+        return
+    yield RemoveRelation(subject, relation, object_)
+    term = now.vocabulary.relations[relation]
+    if term.functional:
+        yield from (AddRelation(subject, relation, former) for former in sorted(before.objects(subject, relation)))
+    if term.inverse_functional:
+        yield from (AddRelation(former, relation, object_) for former in sorted(before.subjects(relation, object_)))

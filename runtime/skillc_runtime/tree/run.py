@@ -1,0 +1,150 @@
+"""A run: a body, grounded in a cell and its world, from the first tick to the last."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from skillc_compiler.library import tree
+from skillc_compiler.library.conditions import Individual
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.robots.cell import Cell
+from skillc_runtime.trace.events import Listener, Paused, Resumed
+from skillc_runtime.trace.failure import Failure
+from skillc_runtime.trace.listeners import Listeners
+from skillc_runtime.trace.outcome import Outcome
+from skillc_runtime.trace.world import world_changed
+from skillc_runtime.tree.build import build
+from skillc_runtime.tree.context import Context
+from skillc_runtime.tree.enclosing import Enclosing
+from skillc_runtime.tree.errors import told
+from skillc_runtime.tree.locks import Locks
+from skillc_runtime.tree.outcome import outcome
+from skillc_runtime.tree.undo import Undo
+from skillc_runtime.world.model import ChangeEvent
+
+
+def plan_body(steps: Iterable[tuple[str, Mapping[str, str]]], library: SkillLibrary) -> tree.Sequence:
+    """Return a plan, skills with individuals by parameter name, as a body: one call after the other."""
+    calls = tuple(
+        tree.Call(
+            skill=skill,
+            implementation=None,
+            arguments={name: Individual(iri) for name, iri in arguments.items()},
+            out=None,
+            source=library.skills[skill].source,
+        )
+        for skill, arguments in steps
+    )
+    source = calls[0].source if calls else Position(path=library.name, line=1, column=1)
+    return tree.Sequence(children=calls, reactive=False, source=source)
+
+
+class Run:
+    """Runs a body of a task: its own, that of a plan (`plan_body`), or a single call.
+
+    `status` is IDLE before the first tick, RUNNING, and at the end SUCCESS, FAILURE or HALTED; `failure` says why.
+    What scoped skills set up outside any `with` is undone when the run ends. `problems` are those of the listeners.
+    """
+
+    def __init__(
+        self,
+        body: tree.Node,
+        library: SkillLibrary,
+        cell: Cell,
+        listeners: Sequence[Listener] = (),
+        locks: Locks | None = None,
+    ) -> None:
+        """Ground the body; nothing starts. Runs on the same devices share `locks`."""
+        self._listeners = Listeners(listeners)
+        self._context = Context(library, cell, self._listeners if listeners else None, locks or Locks())
+        self._undo = Undo()
+        self._unlisten = cell.world.listen(self._tell_world) if listeners else None
+        self._root = build(body, self._context, Enclosing(self._undo))
+        self._paused_at: float | None = None
+        self.status = Status.IDLE
+        self.failure: Failure | None = None
+
+    @property
+    def paused(self) -> bool:
+        """Whether the run holds still."""
+        return self._paused_at is not None
+
+    @property
+    def outcome(self) -> Outcome:
+        """The tree with what became of each node until now."""
+        return outcome(self._root)
+
+    @property
+    def problems(self) -> tuple[str, ...]:
+        """What went wrong with those who listened."""
+        return tuple(self._listeners.problems)
+
+    def tick(self) -> Status:
+        """Take the time and a snapshot of the world, go on for one tick, return the status; idle while paused."""
+        if self.status not in (Status.IDLE, Status.RUNNING) or self.paused:
+            return self.status
+        root = self._root
+        self._context.refresh_clock()
+        self._context.refresh()
+        try:
+            status = root.tick() if self.status is Status.RUNNING else self._start()
+        except Exception as error:  # noqa: BLE001  the task's boundary: it reports, halts and ends
+            return self._abort(error)
+        return status if status is Status.RUNNING else self._ended(status, root.failure)
+
+    def halt(self, reason: str) -> None:
+        """Stop everything that runs, undo what must be undone, and end; a run that has ended stays as it is."""
+        if self.status in (Status.IDLE, Status.RUNNING):
+            self._context.refresh_clock()
+            self._root.halt(reason)
+            self._ended(Status.HALTED, Failure(kind="halted", message=reason, source=self._root.source))
+
+    def pause(self) -> None:
+        """Let everything that runs hold still; the run's time stands still too."""
+        if self.status is not Status.RUNNING or self.paused:
+            return
+        self._paused_at = self._context.cell.now
+        self._told_of(Paused)
+        try:
+            self._root.pause()
+        except Exception as error:  # noqa: BLE001  the task's boundary: it reports, halts and ends
+            self._abort(error)
+
+    def resume(self) -> None:
+        """Go on after `pause`."""
+        if self._paused_at is None or self.status is not Status.RUNNING:
+            return
+        self._context.paused_s += self._context.cell.now - self._paused_at
+        self._paused_at = None
+        self._told_of(Resumed)
+        try:
+            self._root.resume()
+        except Exception as error:  # noqa: BLE001  the task's boundary: it reports, halts and ends
+            self._abort(error)
+
+    def _start(self) -> Status:
+        self.status = Status.RUNNING
+        return self._root.start()
+
+    def _abort(self, error: Exception) -> Status:
+        message = told(error)
+        self._root.halt(message)
+        return self._ended(Status.FAILURE, Failure(kind="error", message=message, source=self._root.source))
+
+    def _ended(self, status: Status, failure: Failure | None) -> Status:
+        for problem in self._undo.unwind():
+            self._context.note(f"not undone at the end: {problem}")
+        if self._unlisten is not None:
+            self._unlisten()
+        self.status, self.failure, self._paused_at = status, failure, None
+        return status
+
+    def _told_of(self, event: type[Paused | Resumed]) -> None:
+        self._context.refresh_clock()
+        if self._context.emit is not None:
+            self._context.emit(event(time=self._context.time))
+
+    def _tell_world(self, event: ChangeEvent) -> None:
+        self._listeners(world_changed(event, self._context.time))
