@@ -11,12 +11,12 @@ from skillc_compiler.library.conditions import Condition, Expression
 from skillc_compiler.library.pddl.formulas import Change, Formula, Typed
 from skillc_compiler.library.vocabulary import Position
 
-ROOT = "object"
+ROOT = "thing"
 
 
 @dataclass(frozen=True)
 class PlanningType:
-    """A class as a PDDL type below one parent; `depth` counts the types above it, `object` excluded."""
+    """A class as a PDDL type below one parent; `depth` counts the types above it, `thing` excluded."""
 
     name: str
     parent: str
@@ -38,7 +38,7 @@ class RelationFact:
 
 @dataclass(frozen=True)
 class PropertyFact:
-    """True of an individual when its property has the value: True of a Bool, one of the values of an enumerated text."""
+    """True of an individual whose property has the value: True of a Bool, one of the values of an enumerated text."""
 
     property: str
     value: bool | str
@@ -173,7 +173,7 @@ class PlanningDomain:
         return {each.name: each for each in self.actions}
 
     def type_of(self, classes: Iterable[str]) -> str:
-        """Return the most specific type for an individual of these classes (IRIs); `object` when none is known."""
+        """Return the most specific type for an individual of these classes (IRIs); `thing` when none is known."""
         known = [self._by_class[cls] for cls in classes if cls in self._by_class]
         return min(known, key=lambda each: (-each.depth, each.name)).name if known else ROOT
 

@@ -5,9 +5,9 @@ A term is a PDDL name: a variable with its leading `?`, or the name of an object
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TypeAlias, assert_never
 
 
 @dataclass(frozen=True)
@@ -113,3 +113,19 @@ def disjunction(parts: Iterable[Formula]) -> Formula:
 def conjuncts(formula: Formula) -> tuple[Formula, ...]:
     """Return the parts of a conjunction, or the formula alone."""
     return formula.parts if isinstance(formula, Conjunction) else (formula,)
+
+
+def atoms(formula: Formula) -> Iterator[Atom]:
+    """Yield every atom in the formula."""
+    match formula:
+        case Atom():
+            yield formula
+        case Equal():
+            pass
+        case Conjunction(parts=parts) | Disjunction(parts=parts):
+            for part in parts:
+                yield from atoms(part)
+        case Negation(body=body) | Existential(body=body) | Universal(body=body):
+            yield from atoms(body)
+        case _:
+            assert_never(formula)

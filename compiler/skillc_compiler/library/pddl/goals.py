@@ -1,0 +1,97 @@
+"""A goal as a ground formula: quantifiers written out, what no skill changes decided on the spot."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TypeAlias, assert_never
+
+from skillc_compiler.library.conditions import (
+    And,
+    Anything,
+    Compare,
+    Condition,
+    Exists,
+    Forall,
+    Given,
+    HasProperty,
+    Holds,
+    Individual,
+    IsA,
+    Not,
+    Or,
+    Same,
+)
+from skillc_compiler.library.pddl.domain import PlanningDomain, PropertyFact, RelationFact
+from skillc_compiler.library.pddl.formulas import FALSE, TRUE, Formula
+from skillc_compiler.library.pddl.hierarchy import Hierarchy
+from skillc_compiler.library.pddl.reading import replaced
+from skillc_compiler.library.pddl.relations import Relations
+from skillc_compiler.library.pddl.symbols import Symbols
+from skillc_compiler.library.pddl.translate import Scope, Translator
+from skillc_compiler.library.skills import SkillLibrary
+
+Members: TypeAlias = Callable[[str], Sequence[str]]
+
+
+def ground_goal(
+    goal: Condition,
+    library: SkillLibrary,
+    domain: PlanningDomain,
+    objects: Mapping[str, str],
+    members: Members,
+    holds: Callable[[Condition], bool],
+) -> Formula:
+    """Return the goal over the objects of a problem; TRUE or FALSE when no skill can make a difference.
+
+    `objects` are PDDL names by IRI, `members` gives the individuals of a class, `holds` says whether a condition holds
+    in the initial world. Untranslatable (as in "the goal reads ..") names what a planner cannot reason about.
+    """
+    symbols = _symbols(library, domain)
+
+    def settle(condition: Condition, scope: Scope) -> Formula:
+        return TRUE if holds(condition) else FALSE
+
+    return Translator(symbols, settle, objects).formula(_ground(goal, symbols, members), {})
+
+
+def _symbols(library: SkillLibrary, domain: PlanningDomain) -> Symbols:
+    vocabulary = library.vocabulary
+    changing: set[str] = set()
+    for predicate in domain.predicates:
+        if predicate.changes:
+            match predicate.meaning:
+                case RelationFact(relation=iri) | PropertyFact(property=iri):
+                    changing.add(iri)
+    hierarchy = Hierarchy(vocabulary, {name: term for term, name in domain.names.items()})
+    return Symbols(vocabulary, domain.names, hierarchy, Relations(vocabulary), frozenset(changing))
+
+
+def _ground(condition: Condition, symbols: Symbols, members: Members) -> Condition:
+    match condition:
+        case Not(body=body):
+            return Not(_ground(body, symbols, members))
+        case And(parts=parts):
+            return And(tuple(_ground(part, symbols, members) for part in parts))
+        case Or(parts=parts):
+            return Or(tuple(_ground(part, symbols, members) for part in parts))
+        case Exists():
+            return Or(_cases(condition, symbols, members))
+        case Forall():
+            return And(_cases(condition, symbols, members))
+        case Holds(subject=Anything(), relation=relation, object=object_):
+            some = members(symbols.side_class(relation, 0))
+            found = (Holds(Individual(iri), relation, object_) for iri in some)
+            return Or(tuple(_ground(each, symbols, members) for each in found))
+        case Holds(subject=subject, relation=relation, object=Anything()):
+            return Or(
+                tuple(Holds(subject, relation, Individual(iri)) for iri in members(symbols.side_class(relation, 1)))
+            )
+        case Holds() | Compare() | Same() | HasProperty() | IsA() | Given():
+            return condition
+        case _:
+            assert_never(condition)
+
+
+def _cases(quantified: Exists | Forall, symbols: Symbols, members: Members) -> tuple[Condition, ...]:
+    bodies = (replaced(quantified.body, {quantified.variable: Individual(iri)}) for iri in members(quantified.cls))
+    return tuple(_ground(body, symbols, members) for body in bodies)

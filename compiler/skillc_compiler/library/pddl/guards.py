@@ -1,0 +1,43 @@
+"""Conditions on what no skill changes, as static predicates that are settled when the problem is built."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass, field
+
+from skillc_compiler.library.conditions import Condition
+from skillc_compiler.library.pddl.domain import GuardFact, Predicate
+from skillc_compiler.library.pddl.formulas import Atom, Formula
+from skillc_compiler.library.pddl.names import fresh, kebab
+from skillc_compiler.library.pddl.reading import free_variables, is_plain
+from skillc_compiler.library.pddl.translate import Scope, Settle, Untranslatable
+
+
+@dataclass
+class Guards:
+    """Collects the guards of one skill; `taken` are names that no guard may have."""
+
+    skill: str
+    taken: Collection[str]
+    found: dict[Condition, Predicate] = field(default_factory=dict)
+
+    def labelled(self, label: str) -> Settle:
+        """Return what makes guards of the condition with this label."""
+
+        def settle(condition: Condition, scope: Scope) -> Formula | None:
+            return None if is_plain(condition) else self._guard(label, condition, scope)
+
+        return settle
+
+    def _guard(self, label: str, condition: Condition, scope: Scope) -> Atom:
+        variables = free_variables(condition)
+        for name in variables:
+            if name not in scope:
+                raise Untranslatable(f"reads `{name}`, which a planner does not bind")
+        places = [scope[name].variable for name in variables]
+        if condition not in self.found:
+            used = {*self.taken, *(each.name for each in self.found.values())}
+            name = fresh(f"guard-{kebab(self.skill)}-{kebab(label)}", used)
+            meaning = GuardFact(variables, condition, self.skill, label)
+            self.found[condition] = Predicate(name, tuple(places), meaning, False)
+        return Atom(self.found[condition].name, tuple(each.name for each in places))

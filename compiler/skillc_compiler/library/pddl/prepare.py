@@ -1,0 +1,95 @@
+"""A problem made palatable for `astar(lmcut())`, which takes no axioms.
+
+Fast Downward turns forall over changing predicates in preconditions, and disjunctive goals, into axioms. So the first
+are expanded over the problem's objects, and the second become an action that costs nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import assert_never
+
+from skillc_compiler.library.pddl.domain import Action, FixedCost, GoalFact, PlanningDomain, Predicate
+from skillc_compiler.library.pddl.formulas import (
+    Atom,
+    Change,
+    Conjunction,
+    Disjunction,
+    Equal,
+    Existential,
+    Formula,
+    Negation,
+    Typed,
+    Universal,
+    conjunction,
+    conjuncts,
+    disjunction,
+)
+from skillc_compiler.library.pddl.problem import Problem
+
+GOAL_REACHED = "goal-reached"
+REACH_GOAL = "reach-goal"
+
+
+def prepared(problem: Problem) -> Problem:
+    """Return an equivalent problem without axioms; its goal action, if any, is no step of a plan."""
+    expanded = replace(problem, domain=expand(problem.domain, problem.objects))
+    literals = all(isinstance(each, Atom | Negation) for each in conjuncts(problem.goal))
+    return expanded if literals else _with_goal_action(expanded)
+
+
+def expand(domain: PlanningDomain, objects: Sequence[Typed]) -> PlanningDomain:
+    """Return the domain with every forall in a condition written out for the objects, which become constants."""
+    actions = tuple(
+        replace(
+            action,
+            precondition=_expanded(action.precondition, domain, objects, {}),
+            hold=_expanded(action.hold, domain, objects, {}),
+        )
+        for action in domain.actions
+    )
+    return domain if actions == domain.actions else replace(domain, actions=actions, constants=tuple(objects))
+
+
+def _with_goal_action(problem: Problem) -> Problem:
+    domain, reached = problem.domain, Atom(GOAL_REACHED, ())
+    action = Action(
+        name=REACH_GOAL,
+        skill=None,
+        parameters=(),
+        binds=(),
+        precondition=problem.goal,
+        hold=Conjunction(()),
+        effects=(Change(reached, True),),
+        cost=FixedCost(0),
+    )
+    extended = replace(
+        domain,
+        predicates=(*domain.predicates, Predicate(GOAL_REACHED, (), GoalFact(), True)),
+        actions=(*domain.actions, action),
+        constants=problem.objects,
+    )
+    return replace(problem, domain=extended, goal=reached)
+
+
+def _expanded(formula: Formula, domain: PlanningDomain, objects: Sequence[Typed], values: dict[str, str]) -> Formula:
+    match formula:
+        case Atom(predicate=predicate, terms=terms):
+            return Atom(predicate, tuple(values.get(each, each) for each in terms))
+        case Equal(left=left, right=right):
+            return Equal(values.get(left, left), values.get(right, right))
+        case Negation(body=body):
+            inner = _expanded(body, domain, objects, values)
+            return Negation(inner) if isinstance(inner, Atom | Equal) else inner
+        case Conjunction(parts=parts):
+            return conjunction(_expanded(part, domain, objects, values) for part in parts)
+        case Disjunction(parts=parts):
+            return disjunction(_expanded(part, domain, objects, values) for part in parts)
+        case Existential(variable=variable, body=body):
+            return Existential(variable, _expanded(body, domain, objects, values))
+        case Universal(variable=variable, body=body):
+            names = domain.of_type(objects, variable.type)
+            return conjunction(_expanded(body, domain, objects, {**values, variable.name: name}) for name in names)
+        case _:
+            assert_never(formula)

@@ -1,0 +1,142 @@
+"""Looking through conditions and expressions: what they read, which variables are free, and values for variables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TypeVar, assert_never
+
+import msgspec
+
+from skillc_compiler.library.conditions import (
+    And,
+    Anything,
+    Arithmetic,
+    Compare,
+    Condition,
+    Exists,
+    Expression,
+    Forall,
+    Given,
+    HasProperty,
+    Holds,
+    Individual,
+    Invoke,
+    IsA,
+    Literal,
+    Not,
+    Or,
+    PropertyOf,
+    Same,
+    Term,
+    Variable,
+)
+
+T = TypeVar("T", bound=Condition | Expression | Term)
+ALWAYS, NEVER = And(()), Or(())
+
+
+def walk(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
+    """Yield a condition or expression and everything inside it."""
+    yield item
+    for part in _inside(item):
+        yield from walk(part)
+
+
+def _inside(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
+    for name in item.__struct_fields__:
+        value = getattr(item, name)
+        yield from (
+            part for part in (value if isinstance(value, tuple) else (value,)) if isinstance(part, msgspec.Struct)
+        )
+
+
+def terms_read(condition: Condition) -> frozenset[str]:
+    """Return the IRIs of the relations and properties that decide whether the condition holds."""
+    read: set[str] = set()
+    for each in walk(condition):
+        match each:
+            case Holds(relation=iri) | HasProperty(property=iri) | PropertyOf(property=iri):
+                read.add(iri)
+    return frozenset(read)
+
+
+def free_variables(item: Condition | Expression) -> tuple[str, ...]:
+    """Return the variables that stand for values from outside, in the order in which they first occur."""
+    return tuple(dict.fromkeys(_free(item)))
+
+
+def _free(item: msgspec.Struct) -> Iterator[str]:
+    if isinstance(item, Variable):
+        yield item.name
+    bound = item.variable if isinstance(item, Exists | Forall) else None
+    yield from (name for part in _inside(item) for name in _free(part) if name != bound)
+
+
+def has(item: Condition, *kinds: type[msgspec.Struct]) -> bool:
+    """Whether anything of these kinds occurs in the condition."""
+    return any(isinstance(each, kinds) for each in walk(item))
+
+
+def replaced(item: T, values: Mapping[str, Expression]) -> T:
+    """Return the condition, expression or term with expressions in the place of these variables."""
+    if isinstance(item, Variable):
+        return values.get(item.name, item)  # type: ignore[return-value]
+    if isinstance(item, Exists | Forall):
+        values = {name: value for name, value in values.items() if name != item.variable}
+    changes = {name: _replaced(getattr(item, name), values) for name in item.__struct_fields__}
+    return msgspec.structs.replace(item, **changes)
+
+
+def _replaced(value: object, values: Mapping[str, Expression]) -> object:
+    if isinstance(value, tuple):
+        return tuple(_replaced(each, values) for each in value)
+    return replaced(value, values) if isinstance(value, msgspec.Struct) else value  # type: ignore[type-var]
+
+
+def decided(condition: Condition, given: Mapping[str, bool]) -> Condition:
+    """Return the condition with every `given` answered and what is then certain taken out."""
+    match condition:
+        case Given(parameter=name):
+            return ALWAYS if given[name] else NEVER
+        case Not(body=body):
+            inner = decided(body, given)
+            return NEVER if inner == ALWAYS else ALWAYS if inner == NEVER else Not(inner)
+        case And(parts=parts):
+            kept = tuple(each for each in (decided(part, given) for part in parts) if each != ALWAYS)
+            return NEVER if NEVER in kept else kept[0] if len(kept) == 1 else And(kept)
+        case Or(parts=parts):
+            kept = tuple(each for each in (decided(part, given) for part in parts) if each != NEVER)
+            return ALWAYS if ALWAYS in kept else kept[0] if len(kept) == 1 else Or(kept)
+        case Exists() | Forall():
+            return msgspec.structs.replace(condition, body=decided(condition.body, given))
+        case Holds() | Compare() | Same() | HasProperty() | IsA():
+            return condition
+        case _:
+            assert_never(condition)
+
+
+def constant(expression: Expression) -> float | None:
+    """Return the value of a number made of constants alone, None when it depends on anything."""
+    match expression:
+        case Literal(value=bool() | str()):
+            return None
+        case Literal(value=value):
+            return float(value)
+        case Arithmetic(operator=operator, left=left, right=right):
+            a, b = constant(left), constant(right)
+            return None if a is None or b is None else _applied(operator, a, b)
+        case Variable() | Individual() | PropertyOf() | Invoke():
+            return None
+        case _:
+            assert_never(expression)
+
+
+def _applied(operator: str, a: float, b: float) -> float | None:
+    if operator == "/":
+        return a / b if b else None
+    return {"+": a + b, "-": a - b, "*": a * b}[operator]
+
+
+def is_plain(condition: Condition) -> bool:
+    """Whether a fact about variables alone, which a predicate can say: a relation, identity or class."""
+    return isinstance(condition, Holds | Same | IsA) and not has(condition, Individual, Anything)

@@ -1,0 +1,115 @@
+"""The predicates of a library: which there are, what they mean and which of them skills change."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from skillc_compiler.library.pddl.domain import ROOT, ClassFact, Predicate, PropertyFact, RelationFact
+from skillc_compiler.library.pddl.formulas import Typed
+from skillc_compiler.library.pddl.hierarchy import Hierarchy
+from skillc_compiler.library.pddl.names import finite_values, fresh, value_key
+from skillc_compiler.library.pddl.relations import Reading, Relations
+from skillc_compiler.library.vocabulary import Vocabulary
+
+
+@dataclass(frozen=True)
+class Symbols:
+    """Predicates by what they say.
+
+    `names` leads from PDDL names to terms; `changing` are canonical relations and properties that skills change.
+    """
+
+    vocabulary: Vocabulary
+    names: dict[str, str]
+    hierarchy: Hierarchy
+    relations: Relations
+    changing: frozenset[str]
+
+    @cached_property
+    def _by_term(self) -> dict[str, str]:
+        return {term: name for name, term in self.names.items()}
+
+    @cached_property
+    def _members(self) -> dict[str, str]:
+        chosen: dict[str, str] = {}
+        for cls in sorted(self.vocabulary.classes):
+            chosen[cls] = fresh(f"is-{self._by_term[cls]}", {*self.names, *chosen.values()})
+        return chosen
+
+    def affected(self, iri: str) -> bool:
+        """Whether skills change what holds of a relation or property, be it through another relation."""
+        if iri in self.vocabulary.relations:
+            return any(each.relation in self.changing for each in self.relations.below(iri))
+        return iri in self.changing
+
+    def short(self, iri: str) -> str:
+        """Return what messages call a term."""
+        return self.vocabulary.short(iri)
+
+    def is_a(self, cls: str, ancestor: str) -> bool:
+        """Whether every individual of `cls` is one of `ancestor`."""
+        return self.vocabulary.is_a(cls, ancestor)
+
+    def member(self, cls: str) -> str:
+        """Return the unary predicate of a class."""
+        return self._members[cls]
+
+    def relation(self, iri: str) -> str:
+        """Return the predicate of a canonical relation."""
+        return self._by_term[iri]
+
+    def value(self, iri: str, value: bool | str) -> str:
+        """Return the predicate that says that the property has the value."""
+        return self._by_term[value_key(iri, value)]
+
+    def values(self, iri: str) -> tuple[bool | str, ...]:
+        """Return the values of the property that have predicates."""
+        return finite_values(self.vocabulary.properties[iri])
+
+    def readings(self, relation: str) -> tuple[Reading, ...]:
+        """Return the predicates of which any makes the relation hold: its own and the changing ones below it."""
+        below = (each for each in self.relations.below(relation) if each.relation in self.changing)
+        return tuple(sorted({self.relations.canonical(relation), *below}))
+
+    def changing_transitive(self, relation: str) -> tuple[str, ...]:
+        """Return those transitive relations below this one whose facts skills change."""
+        return tuple(
+            iri
+            for iri in self.relations.transitive_below(relation)
+            if any(each.relation in self.changing for each in self.relations.below(iri))
+        )
+
+    def side_class(self, relation: str, side: int) -> str:
+        """Return the class of everything on one side (0 subject, 1 object) of the relation."""
+        signatures = self.vocabulary.relations[relation].signatures
+        return self.hierarchy.common([(each.domain, each.range)[side] for each in signatures])
+
+    def predicate(self, name: str) -> Predicate:
+        """Return the declaration of a predicate that stands for a class, a relation or a property."""
+        subject = "?subject"
+        if name in self._classes:
+            cls = self._classes[name]
+            return Predicate(name, (Typed(subject, ROOT),), ClassFact(cls), False)
+        term = self.names[name]
+        if term in self.vocabulary.relations:
+            return self._relation_predicate(name, term)
+        iri, value = self._values[name]
+        domain = self.hierarchy.common(self.vocabulary.properties[iri].domains)
+        typed = Typed(subject, self.hierarchy.type_name(domain))
+        return Predicate(name, (typed,), PropertyFact(iri, value), iri in self.changing)
+
+    @cached_property
+    def _classes(self) -> dict[str, str]:
+        return {name: cls for cls, name in self._members.items()}
+
+    @cached_property
+    def _values(self) -> dict[str, tuple[str, bool | str]]:
+        pairs = [(iri, value) for iri in self.vocabulary.properties for value in self.values(iri)]
+        return {self.value(iri, value): (iri, value) for iri, value in pairs}
+
+    def _relation_predicate(self, name: str, iri: str) -> Predicate:
+        sides = [self.hierarchy.type_name(self.side_class(iri, side)) for side in (0, 1)]
+        narrower = tuple((each.relation, each.swapped) for each in self.readings(iri) if each.relation != iri)
+        typed = (Typed("?subject", sides[0]), Typed("?value", sides[1]))
+        return Predicate(name, typed, RelationFact(iri, narrower), iri in self.changing)

@@ -1,0 +1,165 @@
+"""PDDL text of domains and problems: Jinja2 templates lay out the page, this module writes formulas and effects."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import cache
+from itertools import groupby
+from typing import assert_never
+
+from jinja2 import Environment, PackageLoader, StrictUndefined, Template
+
+from skillc_compiler.library.pddl.domain import Action, ComputedCost, Cost, FixedCost, PlanningDomain
+from skillc_compiler.library.pddl.formulas import (
+    TRUE,
+    Atom,
+    Change,
+    Conjunction,
+    Disjunction,
+    Equal,
+    Existential,
+    Formula,
+    Negation,
+    Typed,
+    Universal,
+    conjunction,
+    conjuncts,
+)
+from skillc_compiler.library.pddl.problem import Problem
+from skillc_compiler.library.pddl.requirements import requirements
+
+WIDTH = 100
+
+
+def domain_text(domain: PlanningDomain) -> str:
+    """Return the classical domain with action costs; hold conditions join the preconditions."""
+    return _template("domain.pddl.j2").render(domain=domain, requirements=requirements(domain))
+
+
+def temporal_text(domain: PlanningDomain) -> str:
+    """Return the domain with durative actions: hold conditions hold over all, devices in use are locked."""
+    needed = [each for each in requirements(domain) if each != ":action-costs"]
+    numbers = [":numeric-fluents"] if domain.costs else []
+    return _template("temporal.pddl.j2").render(domain=domain, requirements=(*needed, *numbers, ":durative-actions"))
+
+
+def problem_text(problem: Problem) -> str:
+    """Return the problem for the classical domain."""
+    return _template("problem.pddl.j2").render(problem=problem, objects=_declared(problem), temporal=False)
+
+
+def temporal_problem_text(problem: Problem) -> str:
+    """Return the problem for the temporal domain: no device is in use at first, and the makespan counts."""
+    return _template("problem.pddl.j2").render(problem=problem, objects=_declared(problem), temporal=True)
+
+
+def _declared(problem: Problem) -> list[Typed]:
+    constants = set(problem.domain.constants)
+    return [each for each in problem.objects if each not in constants]
+
+
+@cache
+def _template(name: str) -> Template:
+    environment = Environment(
+        loader=PackageLoader("skillc_compiler.library.pddl", "."),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,
+    )
+    environment.filters |= {
+        "cost": cost_text,
+        "declared": declared_text,
+        "effect": effect_text,
+        "formula": formula_text,
+        "lines": str.splitlines,
+        "precondition": lambda action: formula_text(_classical(action), 4),
+        "start": lambda action: conjuncts(_classical(action)),
+        "conjuncts": conjuncts,
+        "end": _end,
+        "types": _type_lines,
+    }
+    return environment.get_template(name)
+
+
+def _classical(action: Action) -> Formula:
+    return conjunction((action.precondition, action.hold))
+
+
+def declared_text(typed: Iterable[Typed]) -> str:
+    """Return `?a - type ?b - type`."""
+    return " ".join(f"{each.name} - {each.type}" for each in typed)
+
+
+def cost_text(cost: Cost) -> str:
+    """Return the number or the function that an action costs."""
+    match cost:
+        case FixedCost(units=units):
+            return str(units)
+        case ComputedCost(function=function, arguments=arguments):
+            return _list(function, arguments)
+        case _:
+            assert_never(cost)
+
+
+def formula_text(formula: Formula, indent: int = 0) -> str:
+    """Return the formula, on one line where it fits and with a part per line where it does not."""
+    match formula:
+        case Atom(predicate=predicate, terms=terms):
+            return _list(predicate, terms)
+        case Equal(left=left, right=right):
+            return f"(= {left} {right})"
+        case Negation(body=body):
+            return f"(not {formula_text(body)})"
+        case Conjunction(parts=parts):
+            return _block("and", parts, indent)
+        case Disjunction(parts=parts):
+            return _block("or", parts, indent)
+        case Existential(variable=variable, body=body):
+            return f"(exists ({declared_text((variable,))}) {formula_text(body, indent)})"
+        case Universal(variable=variable, body=body):
+            return f"(forall ({declared_text((variable,))}) {formula_text(body, indent)})"
+        case _:
+            assert_never(formula)
+
+
+def effect_text(change: Change) -> str:
+    """Return one effect of a classical action."""
+    effect = _literal(change)
+    if change.condition != TRUE:
+        effect = f"(when {formula_text(change.condition)} {effect})"
+    return f"(forall ({declared_text(change.variables)}) {effect})" if change.variables else effect
+
+
+def _end(change: Change) -> str:
+    """Return one effect at the end of a durative action."""
+    effect = f"(at end {_literal(change)})"
+    if change.condition != TRUE:
+        effect = f"(when (at end {formula_text(change.condition)}) {effect})"
+    return f"(forall ({declared_text(change.variables)}) {effect})" if change.variables else effect
+
+
+def _literal(change: Change) -> str:
+    return formula_text(change.atom if change.positive else Negation(change.atom))
+
+
+def _list(head: str, terms: Sequence[str]) -> str:
+    return f"({' '.join((head, *terms))})"
+
+
+def _block(word: str, parts: Sequence[Formula], indent: int) -> str:
+    flat = _list(word, [formula_text(part) for part in parts])
+    if word == "or" and not parts:
+        raise ValueError("PDDL has no word for false: a condition that can never hold must be told before printing")
+    if len(flat) + indent <= WIDTH:
+        return flat
+    inner = " " * (indent + 2)
+    lines = "".join(f"\n{inner}{formula_text(part, indent + 2)}" for part in parts)
+    return f"({word}{lines}\n{' ' * indent})"
+
+
+def _type_lines(domain: PlanningDomain) -> list[str]:
+    by_parent = sorted(domain.types, key=lambda each: (each.depth, each.parent, each.name))
+    groups = groupby(by_parent, key=lambda each: each.parent)
+    return [f"{' '.join(each.name for each in group)} - {parent}" for parent, group in groups]

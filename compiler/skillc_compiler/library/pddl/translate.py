@@ -1,0 +1,221 @@
+"""Library conditions as formulas over predicates: what skills change becomes atoms, the rest is settled beforehand."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Protocol, TypeAlias, assert_never
+
+from skillc_compiler.library.conditions import (
+    And,
+    Anything,
+    Compare,
+    Condition,
+    Exists,
+    Expression,
+    Forall,
+    Given,
+    HasProperty,
+    Holds,
+    Individual,
+    IsA,
+    Literal,
+    Not,
+    Or,
+    PropertyOf,
+    Same,
+    Term,
+    Variable,
+)
+from skillc_compiler.library.pddl.formulas import (
+    FALSE,
+    TRUE,
+    Atom,
+    Conjunction,
+    Disjunction,
+    Equal,
+    Existential,
+    Formula,
+    Negation,
+    Typed,
+    Universal,
+    conjunction,
+    disjunction,
+)
+from skillc_compiler.library.pddl.names import variable
+from skillc_compiler.library.pddl.reading import terms_read
+from skillc_compiler.library.pddl.symbols import Symbols
+
+
+class Untranslatable(Exception):  # noqa: N818  (an answer about a skill, not an accident)
+    """Something a classical planner cannot reason about; the message says what, to end a sentence about the skill."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """What a variable of the library is called in PDDL, and its class."""
+
+    variable: Typed
+    cls: str
+
+
+Scope: TypeAlias = Mapping[str, Place]
+
+
+class Settle(Protocol):
+    """What becomes of a condition that nothing changes."""
+
+    def __call__(self, condition: Condition, scope: Scope) -> Formula | None:
+        """Return what it amounts to; None leaves it to be translated like any other."""
+        ...
+
+
+@dataclass(frozen=True)
+class Translator:
+    """Turns conditions into formulas; `objects` are the PDDL names of individuals that may be named."""
+
+    symbols: Symbols
+    settle: Settle
+    objects: Mapping[str, str]
+
+    def formula(self, condition: Condition, scope: Scope) -> Formula:
+        """Return the condition as a formula; Untranslatable says why not."""
+        match condition:
+            case Not(body=body):
+                return negated(self.formula(body, scope))
+            case And(parts=parts):
+                return conjunction(self.formula(part, scope) for part in parts)
+            case Or(parts=parts):
+                return disjunction(self.formula(part, scope) for part in parts)
+            case Given(parameter=name):
+                raise Untranslatable(f"reads whether `{name}` was given")
+            case Holds() | Compare() | Same() | HasProperty() | IsA() | Exists() | Forall():
+                return self._leaf(condition, scope)
+            case _:
+                assert_never(condition)
+
+    def _leaf(self, condition: Holds | Compare | Same | HasProperty | IsA | Exists | Forall, scope: Scope) -> Formula:
+        if not any(self.symbols.affected(iri) for iri in terms_read(condition)):
+            settled = self.settle(condition, scope)
+            if settled is not None:
+                return settled
+        match condition:
+            case Holds():
+                return self._holds(condition, scope)
+            case Same(left=left, right=right):
+                return Equal(self.term(left, scope), self.term(right, scope))
+            case IsA(subject=subject, cls=cls):
+                return self._is_a(subject, cls, scope)
+            case HasProperty(subject=subject, property=iri):
+                return self._one_of(iri, self.symbols.values(iri), self.term(subject, scope))
+            case Compare():
+                return self._compare(condition, scope)
+            case Exists(variable=name, cls=cls, body=body):
+                return self._exists(name, cls, body, scope)
+            case Forall(variable=name, cls=cls, body=body):
+                return negated(self._exists(name, cls, Not(body), scope))
+            case _:
+                assert_never(condition)
+
+    def term(self, term: Term | Expression, scope: Scope) -> str:
+        """Return the PDDL name of a term."""
+        match term:
+            case Variable(name=name) if name in scope:
+                return scope[name].variable.name
+            case Individual(iri=iri) if iri in self.objects:
+                return self.objects[iri]
+            case Variable(name=name):
+                raise Untranslatable(f"reads `{name}`, which a planner does not bind")
+            case Individual(iri=iri):
+                raise Untranslatable(f"names `{self.symbols.short(iri)}`; a planner needs it as a parameter")
+            case _:
+                raise Untranslatable("reads something a skill changes through another value")
+
+    def _holds(self, condition: Holds, scope: Scope) -> Formula:
+        relation = condition.relation
+        self._refuse_transitive(relation)
+        subject, first = self._side(condition.subject, relation, 0, scope)
+        object_, second = self._side(condition.object, relation, 1, {**scope, **first})
+        atoms = [
+            Atom(self.symbols.relation(each.relation), (object_, subject) if each.swapped else (subject, object_))
+            for each in self.symbols.readings(relation)
+        ]
+        formula = disjunction(atoms)
+        for place in (*second.values(), *first.values()):
+            formula = Existential(place.variable, formula)
+        return formula
+
+    def _side(self, term: Term, relation: str, side: int, scope: Scope) -> tuple[str, dict[str, Place]]:
+        if not isinstance(term, Anything):
+            return self.term(term, scope), {}
+        place = self._place("any", self.symbols.side_class(relation, side), scope)
+        return place.variable.name, {place.variable.name: place}
+
+    def _refuse_transitive(self, relation: str) -> None:
+        changing = self.symbols.changing_transitive(relation)
+        if changing:
+            raise Untranslatable(
+                f"reads `{self.symbols.short(relation)}`, which follows over any number of steps, and skills change it"
+            )
+
+    def _place(self, name: str, cls: str, scope: Scope) -> Place:
+        taken = {place.variable.name for place in scope.values()}
+        return Place(Typed(variable(name, taken), self.symbols.hierarchy.type_name(cls)), cls)
+
+    def _exists(self, name: str, cls: str, body: Condition, scope: Scope) -> Formula:
+        place = self._place(name, cls, scope)
+        member = self.membership(cls, place)
+        return Existential(place.variable, conjunction((member, self.formula(body, {**scope, name: place}))))
+
+    def membership(self, cls: str, place: Place) -> Formula:
+        """Return what remains to be tested for the variable to be of the class, given its PDDL type."""
+        hierarchy = self.symbols.hierarchy
+        exact = hierarchy.is_exact(cls) and hierarchy.type_name(cls) == place.variable.type
+        return TRUE if exact else Atom(self.symbols.member(cls), (place.variable.name,))
+
+    def _is_a(self, subject: Term, cls: str, scope: Scope) -> Formula:
+        if isinstance(subject, Variable) and subject.name in scope:
+            place = scope[subject.name]
+            return TRUE if self.symbols.is_a(place.cls, cls) else self.membership(cls, place)
+        return Atom(self.symbols.member(cls), (self.term(subject, scope),))
+
+    def _compare(self, condition: Compare, scope: Scope) -> Formula:
+        match condition:
+            case Compare(left=PropertyOf() as read, operator="==" | "!=" as operator, right=Literal(value=value)):
+                pass
+            case Compare(left=Literal(value=value), operator="==" | "!=" as operator, right=PropertyOf() as read):
+                pass
+            case _:
+                names = ", ".join(f"`{self.symbols.short(each)}`" for each in sorted(terms_read(condition)))
+                raise Untranslatable(f"compares {names}, which skills change, with something else than one value")
+        values = self.symbols.values(read.property)
+        equal = operator == "=="
+        # bool is an int: compare kinds too, so that 1 is not taken for true
+        wanted = [each for each in values if (each == value and type(each) is type(value)) == equal]
+        return self._one_of(read.property, wanted, self.term(read.of, scope))
+
+    def _one_of(self, iri: str, values: tuple[bool | str, ...] | list[bool | str], subject: str) -> Formula:
+        if not self.symbols.values(iri):
+            raise Untranslatable(
+                f"reads `{self.symbols.short(iri)}`, which skills change and which has no finite values"
+            )
+        return disjunction(Atom(self.symbols.value(iri, value), (subject,)) for value in values)
+
+
+def negated(formula: Formula) -> Formula:
+    """Return the negation of a formula, pushed inwards to its atoms."""
+    match formula:
+        case Atom() | Equal():
+            return Negation(formula)
+        case Negation(body=body):
+            return body
+        case Conjunction(parts=parts):
+            return disjunction(negated(part) for part in parts) if parts else FALSE
+        case Disjunction(parts=parts):
+            return conjunction(negated(part) for part in parts) if parts else TRUE
+        case Existential(variable=variable, body=body):
+            return Universal(variable, negated(body))
+        case Universal(variable=variable, body=body):
+            return Existential(variable, negated(body))
+        case _:
+            assert_never(formula)

@@ -1,0 +1,291 @@
+"""The planning domain of a library: what becomes of conditions and effects, and that a planner solves it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from emit import samples
+from emit.planner import search_binary, solve
+from emit.samples import DRIVE, PICK, WIPE, assign, holds, iri, library, need, number, parameter, post, read
+from skillc_compiler.library.conditions import (
+    Compare,
+    Condition,
+    Exists,
+    Forall,
+    Given,
+    Holds,
+    Individual,
+    IsA,
+    Literal,
+    Not,
+    Or,
+    PropertyOf,
+    Variable,
+)
+from skillc_compiler.library.pddl.domain import Action, GuardFact, PlanningDomain, RelationFact
+from skillc_compiler.library.pddl.formulas import FALSE, TRUE, Atom, Change, Formula, Negation, Typed, conjuncts
+from skillc_compiler.library.pddl.goals import ground_goal
+from skillc_compiler.library.pddl.planning import planning_domain
+from skillc_compiler.library.pddl.prepare import prepared
+from skillc_compiler.library.pddl.problem import Problem
+from skillc_compiler.library.skills import Post, Skill
+
+needs_planner = pytest.mark.skipif(search_binary() is None, reason="the planner is an extra")
+
+OBJECTS = {
+    "ur": "mobile-robot", "arm-1": "compliant-arm", "wsg": "gripper", "dock": "place", "store": "place",
+    "wall": "place", "felt": "eraser", "board": "surface",
+}  # fmt: skip
+FACTS = (
+    "core-at ur dock", "has-a ur arm-1", "has-a arm-1 wsg", "contain store felt", "contain wall board",
+    "guard-pick-light felt", "guard-pick-ready arm-1", "guard-wipe-ready arm-1", "is-compliant-arm arm-1",
+)  # fmt: skip
+
+
+def problem(domain: PlanningDomain, goal: Formula) -> Problem:
+    init = tuple(Atom(name, tuple(terms)) for name, *terms in (fact.split() for fact in FACTS))
+    objects = tuple(Typed(name, type_) for name, type_ in OBJECTS.items())
+    names = {name: iri(name) for name in OBJECTS}
+    return Problem("sample", domain, objects, names, init, (), goal)
+
+
+def varied(skill: Skill, **changes: object) -> Skill:
+    return msgspec.structs.replace(skill, **changes)
+
+
+def action(skill: Skill, *others: Skill) -> Action:
+    domain = planning_domain(library(skill, *others))
+    assert not domain.excluded
+    return next(each for each in domain.actions if each.skill == skill.name)
+
+
+def reason(skill: Skill, *others: Skill) -> str:
+    domain = planning_domain(library(skill, *others))
+    return next(each.reason for each in domain.excluded if each.skill == skill.name)
+
+
+def with_pre(skill: Skill, condition: Condition) -> Skill:
+    return varied(skill, pre=(need("tested", condition),))
+
+
+@needs_planner
+def test_the_planner_fetches_the_eraser_and_wipes(tmp_path: Path) -> None:
+    goal = Atom("is-clean", ("board",))
+    plan = solve(prepared(problem(planning_domain(samples.wiping()), goal)), tmp_path)
+    assert plan == [
+        "drive ur store dock",
+        "pick arm-1 felt ur wsg store",
+        "drive ur wall store",
+        "wipe board arm-1 wsg felt ur wall",
+    ]
+
+
+@needs_planner
+def test_a_disjunctive_goal_is_reached_by_its_cheapest_case(tmp_path: Path) -> None:
+    made = samples.wiping()
+    domain = planning_domain(made)
+    wanted = Or(
+        (
+            Holds(Individual(iri("ur")), iri("at"), Individual(iri("wall"))),
+            Compare(PropertyOf(Individual(iri("board")), iri("isClean")), "==", Literal(True)),
+        )
+    )
+    goal = ground_goal(wanted, made, domain, {iri(n): n for n in OBJECTS}, lambda _: (), lambda _: False)
+    assert solve(prepared(problem(domain, goal)), tmp_path) == ["drive ur wall dock", "reach-goal"]
+
+
+def test_the_former_value_is_deleted_plainly_where_the_precondition_names_it() -> None:
+    assert action(DRIVE).effects == (
+        Change(Atom("core-at", ("?robot", "?to")), True),
+        Change(Atom("core-at", ("?robot", "?from")), False),
+    )
+
+
+def test_the_former_value_is_searched_for_where_the_precondition_does_not_name_it() -> None:
+    blind = varied(DRIVE, pre=(), parameters=DRIVE.parameters[:2])
+    former = Typed("?former", "place")
+    old = Atom("core-at", ("?robot", "?former"))
+    assert action(blind).effects == (
+        Change(Atom("core-at", ("?robot", "?to")), True),
+        Change(old, False, (former,), old),
+    )
+
+
+def test_the_former_holder_is_deleted_even_if_no_post_says_so() -> None:
+    silent = varied(PICK, post=PICK.post[:1])
+    assert Change(Atom("contain", ("?from", "?the-object")), False) in action(silent).effects
+
+
+def test_an_inverse_is_the_same_predicate_with_its_sides_exchanged() -> None:
+    turned = varied(PICK, post=(post("held", "object containedIn gripper"),))
+    assert action(turned).effects == action(varied(PICK, post=PICK.post[:1])).effects
+
+
+def test_a_condition_on_a_relation_reads_its_changing_subrelations() -> None:
+    mount = Skill(
+        name="Mount",
+        parameters=(parameter("arm", "Arm"), parameter("gripper", "Gripper")),
+        post=(post("mounted", "arm hasGripper gripper"),),
+        implementations=("screws",),
+        source=samples.HERE,
+    )
+    reads = conjuncts(action(with_pre(DRIVE, holds("robot hasA to")), mount).precondition)
+    assert {each.predicate for each in reads[0].parts} == {"has-a", "has-gripper"}  # type: ignore[union-attr]
+    domain = planning_domain(library(mount))
+    assert domain.predicate["has-a"].meaning == RelationFact(iri("hasA"), ((iri("hasGripper"), False),))
+
+
+def test_a_transitive_relation_may_be_read_only_while_nothing_changes_it() -> None:
+    static = with_pre(DRIVE, holds("robot holdsDeep to"))
+    assert "follows over any number of steps" in reason(static, PICK)
+    assert Atom("holds-deep", ("?robot", "?to")) in conjuncts(action(static).precondition)
+
+
+def test_an_enumerated_property_has_a_predicate_per_value() -> None:
+    soften = Skill(
+        name="Soften",
+        parameters=(parameter("arm", "Arm"),),
+        pre=(need("stiff", Compare(read("arm", "mode"), "!=", Literal("Soft"))),),
+        post=(assign("soft", "arm", "mode", "Soft"),),
+        implementations=("slowly",),
+        source=samples.HERE,
+    )
+    made = action(soften)
+    assert made.precondition == Atom("mode-stiff", ("?arm",))
+    assert made.effects == (
+        Change(Atom("mode-soft", ("?arm",)), True),
+        Change(Atom("mode-stiff", ("?arm",)), False),
+    )
+
+
+def test_what_nothing_changes_becomes_a_guard_with_defaults_put_in() -> None:
+    domain = planning_domain(library(PICK))
+    meaning = domain.predicate["guard-pick-light"].meaning
+    assert isinstance(meaning, GuardFact)
+    assert meaning.variables == ("object",)
+    assert meaning.condition == Compare(PropertyOf(Variable("object"), iri("weight")), "<=", Literal(2.0))
+
+
+def test_an_unset_optional_parameter_counts_as_not_given() -> None:
+    unset = number("limit")
+    light = Compare(read("object", "weight"), "<=", Variable("limit"))
+    guarded = varied(
+        PICK,
+        parameters=(*PICK.parameters[:-1], unset),
+        pre=(*PICK.pre[:-1], need("light", Or((Not(Given("limit")), light)))),
+    )
+    assert [each.name for each in planning_domain(library(guarded)).predicates if "light" in each.name] == []
+    unguarded = varied(guarded, pre=(*PICK.pre[:-1], need("light", light)))
+    assert "reads `limit`" in reason(unguarded)
+
+
+def test_implementations_stand_in_the_precondition_by_their_types_and_conditions() -> None:
+    two = varied(WIPE, implementations=("lanes", "spot"))
+    free = need("spotless", Not(holds("gripper contain _")), "not gripper contain _")
+    made = planning_domain(
+        library(
+            two,
+            implementations=(
+                samples.implementation(two, "lanes", arm="CompliantArm"),
+                samples.implementation(two, "spot", free, robot="MobileRobot"),
+            ),
+        )
+    )
+    choice = conjuncts(made.action["wipe"].precondition)[-1]
+    assert Atom("is-compliant-arm", ("?arm",)) in choice.parts  # type: ignore[union-attr]
+    without_demands = library(two)
+    assert planning_domain(without_demands).action["wipe"].precondition == action(WIPE).precondition
+
+
+def test_a_class_with_several_parents_is_a_type_below_one_and_a_predicate_for_the_other() -> None:
+    carry = Skill(
+        name="Carry",
+        parameters=(parameter("holder", "Holder"), parameter("thing", "Product")),
+        post=(post("held", "holder contain thing"),),
+        implementations=("by_hand",),
+        source=samples.HERE,
+    )
+    made = action(carry)
+    assert made.parameters[0].type == "item"
+    assert made.precondition == Atom("is-holder", ("?holder",))
+    assert planning_domain(library(carry)).type_of([iri("Robot"), iri("Device")]) == "robot"
+
+
+def test_individuals_of_several_classes_widen_the_types_of_parameters() -> None:
+    both = frozenset({iri("Surface"), iri("Place")})
+    domain = planning_domain(library(DRIVE), [both])
+    place_or_surface = domain.type_of(both)
+    drive = domain.action["drive"]
+    assert all(domain.is_a(place_or_surface, each.type) for each in drive.parameters if each.name != "?robot")
+
+
+LEFT_OUT = {
+    "a number to choose": (varied(PICK, parameters=(*PICK.parameters, number("force", "in"))), "`force` is no thing"),
+    "a changing number": (varied(PICK, post=(assign("x", "object", "weight", 3.0),)), "sets `core:weight`"),
+    "no effect": (varied(PICK, post=()), "it changes nothing"),
+    "no implementation": (varied(PICK, implementations=()), "no implementation"),
+    "never possible": (with_pre(DRIVE, Or(())), "can never hold"),
+    "an individual that moves": (
+        with_pre(DRIVE, Holds(Variable("robot"), iri("at"), Individual(iri("dock")))),
+        "names `core:dock`",
+    ),
+    "a hold that the effect ends": (
+        varied(DRIVE, hold=(need("stay", holds("robot at from"), "robot at from"),)),
+        "undo what its hold conditions keep",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", LEFT_OUT)
+def test_what_a_planner_cannot_reason_about_is_left_out_with_the_reason(case: str) -> None:
+    skill, words = LEFT_OUT[case]
+    assert words in reason(skill)
+
+
+def test_a_measured_number_is_not_taken_for_static() -> None:
+    condition = Compare(read("surface", "weight"), ">=", Literal(1.0))
+    measured = Post(label="m", condition=condition, effects=(), sensed=True, text="m", source=samples.HERE)
+    weigh = varied(WIPE, name="Weigh", post=(*WIPE.post, measured))
+    assert "`core:weight`" in reason(PICK, weigh)
+    assert planning_domain(library(PICK)).excluded == ()
+
+
+def test_skills_kept_out_of_planning_are_not_listed() -> None:
+    domain = planning_domain(library(varied(PICK, planned=False), DRIVE))
+    assert [each.skill for each in domain.actions] == ["Drive"]
+    assert domain.excluded == ()
+
+
+def test_forall_is_written_out_for_the_objects() -> None:
+    before = problem(planning_domain(library(PICK)), TRUE)
+    after = prepared(before)
+    empty = {
+        each.body.terms[1]
+        for each in conjuncts(after.domain.action["pick"].precondition)
+        if isinstance(each, Negation) and isinstance(each.body, Atom)
+    }
+    assert empty == set(OBJECTS)
+    assert after.domain.constants == before.objects
+
+
+def test_goals_are_ground_and_settle_what_never_changes() -> None:
+    made = samples.wiping()
+    domain = planning_domain(made)
+    objects = {iri(name): name for name in OBJECTS}
+    places = [iri("store"), iri("wall")]
+
+    def goal(condition: Condition, holds_now: bool = False) -> Formula:
+        return ground_goal(condition, made, domain, objects, lambda _: places, lambda _: holds_now)
+
+    robot = Individual(iri("ur"))
+    somewhere = Exists("x", iri("Place"), Holds(robot, iri("at"), Variable("x")))
+    everywhere = Forall("x", iri("Place"), Holds(robot, iri("at"), Variable("x")))
+    atoms = (Atom("core-at", ("ur", "store")), Atom("core-at", ("ur", "wall")))
+    assert goal(somewhere).parts == atoms  # type: ignore[union-attr]
+    assert goal(everywhere).parts == atoms  # type: ignore[union-attr]
+    assert goal(Not(somewhere)).parts == tuple(Negation(each) for each in atoms)  # type: ignore[union-attr]
+    assert goal(IsA(robot, iri("Robot")), holds_now=True) == TRUE
+    assert goal(IsA(robot, iri("Robot"))) == FALSE
