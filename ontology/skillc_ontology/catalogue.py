@@ -29,7 +29,7 @@ def scene(name: str) -> Path:
 
 
 def model(path: str) -> Path:
-    """Return the path of a model file that a data sheet names (`robots/ur5e.xml`); FileNotFoundError if there is none."""
+    """Return the path of a model that a data sheet names (`robots/ur5e.xml`); FileNotFoundError if there is none."""
     found = ROOT / path
     if not found.is_file():
         raise FileNotFoundError(f"there is no model {path} in the ontology")

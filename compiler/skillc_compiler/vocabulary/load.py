@@ -30,7 +30,7 @@ SKILLC = "https://w3id.org/skillc/core#"
 
 
 def load(sources: Sequence[Source]) -> Outcome[Vocabulary]:
-    """Read vocabularies in Turtle. Diagnostics: a broken file, a data property with a range the language does not know."""
+    """Read vocabularies in Turtle. Diagnostics: a broken file, a property with an unknown range."""
     graph = read(sources)
     places = positions(sources)
     aliases = _aliases(graph.value)

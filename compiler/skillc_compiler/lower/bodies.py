@@ -1,0 +1,111 @@
+"""From understood nodes to the library's tree."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import assert_never
+
+from skillc_compiler.library import tree as t
+from skillc_compiler.library.conditions import Condition, Expression
+from skillc_compiler.lower.folding import fold, fold_condition
+from skillc_compiler.program import Step, position
+from skillc_dsl import syntax as s
+
+
+def node(step: Step) -> t.Node:
+    """Return the tree node that a step stands for."""
+    written = step.written
+    source = position(written.span)
+    match written:
+        case s.Block():
+            return _block(step, written)
+        case s.Counted() | s.Timeout() | s.While() | s.For() | s.With():
+            return _around(step, written)
+        case s.If(text=text, orelse=orelse):
+            otherwise = None if orelse is None else _together(step.orelse, step)
+            return t.If(_condition(step), text, _together(step.children, step), otherwise, source)
+        case s.Wait():
+            return t.Wait(_value(step), source)
+        case s.WaitUntil(text=text):
+            return t.WaitUntil(_condition(step), text, source)
+        case s.CheckNode(text=text):
+            return t.Check(_condition(step), text, source)
+        case s.ApplyPosts(labels=labels):
+            return t.Apply(tuple(label.text for label in labels), source)
+        case s.CallSkill():
+            return _call(step)
+        case _:
+            assert_never(written)
+
+
+def _around(step: Step, written: s.Counted | s.Timeout | s.While | s.For | s.With) -> t.Node:
+    source = position(written.span)
+    child = _together(step.children, step)
+    match written:
+        case s.Counted(kind="retry", count=count):
+            return t.Retry(int(count.value), child, source)
+        case s.Counted(count=count):
+            return t.Repeat(int(count.value), child, source)
+        case s.Timeout():
+            return t.Timeout(_value(step), child, source)
+        case s.While(text=text, limit=limit):
+            return t.While(_condition(step), text, int(limit.value), child, source)
+        case s.For(variable=variable):
+            return t.ForEach(variable.text, _value(step), child, source)
+        case s.With():
+            return t.With(_call(step), child, source)
+        case _:
+            assert_never(written)
+
+
+def _block(step: Step, written: s.Block) -> t.Node:
+    source = position(written.span)
+    children = tuple(node(child) for child in step.children)
+    match written.kind:
+        case "seq" | "reactive seq":
+            return t.Sequence(children, written.kind == "reactive seq", source)
+        case "sel" | "reactive sel":
+            return t.Selector(children, written.kind == "reactive sel", source)
+        case "par all":
+            return t.Parallel("all", children, source)
+        case "par any":
+            return t.Parallel("any", children, source)
+        case "par race":
+            return t.Parallel("race", children, source)
+        case "par lead":
+            return t.Parallel("lead", children, source)
+        case "try":
+            return t.Try(_together(step.children, step), source)
+        case "invert":
+            return t.Invert(_together(step.children, step), source)
+        case "once":
+            return t.Once(_together(step.children, step), source)
+        case _:
+            assert_never(written.kind)
+
+
+def _together(children: Sequence[Step], of: Step) -> t.Node:
+    """Return the one child, or several as a sequence."""
+    if len(children) == 1:
+        return node(children[0])
+    return t.Sequence(tuple(node(child) for child in children), False, position(of.written.span))
+
+
+def _call(step: Step) -> t.Call:
+    call = step.call
+    assert call is not None and call.skill is not None, "calls of unknown skills are left out with their implementation"
+    return t.Call(
+        skill=call.skill.name,
+        implementation=call.implementation,
+        arguments={argument.name.text: fold(argument.value.meaning) for argument in call.arguments},
+        out=call.out.text if call.out else None,
+        source=position(call.written.span),
+    )
+
+
+def _value(step: Step) -> Expression:
+    return fold(step.values[0].meaning)
+
+
+def _condition(step: Step) -> Condition:
+    return fold_condition(step.clauses[0].meaning)

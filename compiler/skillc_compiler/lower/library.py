@@ -1,0 +1,63 @@
+"""Lowers a program: what is sound becomes the library, what has errors is left out."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Iterator, Sequence
+
+from skillc_compiler.library import skills as library
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_compiler.lower import flattening
+from skillc_compiler.lower.ranking import ranked
+from skillc_compiler.program import Call, Implementation, Program, ReadFile, Step
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Span
+
+
+def lower(program: Program, problems: Sequence[Diagnostic]) -> SkillLibrary:
+    """Return the library of everything in which no error was found, and which calls only such skills."""
+    errors = [problem.span for problem in problems if problem.severity == "error"]
+    skills = {name: s for name, s in sorted(program.skills.items()) if not _touched(s.span, errors)}
+    sound = [i for i in program.implementations if i.body is not None and not _touched(i.span, errors)]
+    kept = [i for i in sound if i.skill.name in skills and _calls_known(i.body, skills)]
+    by_skill = {name: ranked(program.vocabulary, [i for i in kept if i.skill.name == name]) for name in skills}
+    return SkillLibrary(
+        name=program.name,
+        hash=_hash(program.files),
+        vocabulary=program.vocabulary,
+        skills={name: flattening.skill(s, [i.name for i in by_skill[name]]) for name, s in skills.items()},
+        implementations={i.key: _implementation(i) for i in sorted(kept, key=lambda i: i.key)},
+        tasks={
+            task.name: flattening.task(task)
+            for task in sorted(program.tasks, key=lambda task: task.name)
+            if not _touched(task.span, errors) and _calls_known(task.body, skills)
+        },
+    )
+
+
+def calls(step: Step) -> Iterator[Call]:
+    """Yield every call in a body, in order."""
+    if step.call:
+        yield step.call
+    for child in (*step.children, *step.orelse):
+        yield from calls(child)
+
+
+def _implementation(understood: Implementation) -> library.Implementation:
+    assert understood.body is not None
+    return flattening.implementation(understood, understood.body)
+
+
+def _touched(span: Span, errors: Iterable[Span]) -> bool:
+    return any(e.path == span.path and span.line <= e.line <= span.end_line for e in errors)
+
+
+def _calls_known(body: object, skills: Iterable[str]) -> bool:
+    return not isinstance(body, Step) or all(call.skill and call.skill.name in skills for call in calls(body))
+
+
+def _hash(files: Sequence[ReadFile]) -> str:
+    digest = hashlib.sha256()
+    for path, text in sorted((unit.file.path, unit.text) for unit in files):
+        digest.update(f"{path}\0{text}\0".encode())
+    return digest.hexdigest()

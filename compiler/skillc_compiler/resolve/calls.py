@@ -1,0 +1,123 @@
+"""Understanding calls of skills: who is called, and which value goes to which parameter."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.program import Argument, Call, Parameter, Skill
+from skillc_compiler.resolve.scope import Scope, Setting, Variable
+from skillc_compiler.resolve.values import ANYTHING, Wanted, value
+from skillc_compiler.types import UNKNOWN, Type, fits
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Label, did_you_mean
+
+
+def call(setting: Setting, scope: Scope, written: s.CallSkill) -> tuple[Call, Scope]:
+    """Return what a call means, and the scope after it, in which its output has a value."""
+    name = setting.names.skill(written.skill)
+    skill = setting.skills.get(name) if name else None
+    arguments = tuple(_arguments(setting, scope, written, skill))
+    understood = Call(skill, _implementation(setting, written, skill), arguments, written.out, written)
+    return understood, _after(setting, scope, written, skill)
+
+
+def _arguments(setting: Setting, scope: Scope, written: s.CallSkill, skill: Skill | None) -> Iterator[Argument]:
+    for argument in written.arguments:
+        parameter = skill.parameter(argument.name.text) if skill else None
+        if skill and (parameter is None or parameter.direction == "out"):
+            _not_a_parameter(setting, scope, argument, skill, parameter, written)
+        elif skill is None and _is_shorthand(argument) and argument.name.text not in scope.variables:
+            continue
+        else:
+            wanted = Wanted(parameter.type) if parameter else ANYTHING
+            yield Argument(argument.name, value(setting, scope, argument.value, wanted))
+
+
+def _is_shorthand(argument: s.Argument) -> bool:
+    return isinstance(argument.value, s.Reference) and argument.value.span == argument.name.span
+
+
+def _not_a_parameter(
+    setting: Setting,
+    scope: Scope,
+    argument: s.Argument,
+    skill: Skill,
+    out: Parameter | None,
+    written: s.CallSkill,
+) -> None:
+    """Report an argument that no parameter takes; its value is still looked at unless it is only the name again."""
+    name = argument.name.text
+    kind = UNKNOWN if _is_shorthand(argument) else value(setting, scope, argument.value).type
+    if out is not None:
+        setting.report(
+            "unknown-argument",
+            argument.name.span,
+            f"`{name}` is an output of `{skill.name}`, which cannot be passed in",
+            f"take it with `{skill.name}(..) -> {name}`",
+            Label(out.span, "declared here"),
+        )
+        return
+    setting.report(
+        "unknown-argument",
+        argument.name.span,
+        f"the skill `{skill.name}` has no parameter `{name}`",
+        did_you_mean(name, _free(setting, skill, written, kind)) or f"it takes {_list(skill)}",
+        Label(skill.name_span, "declared here"),
+    )
+
+
+def _free(setting: Setting, skill: Skill, written: s.CallSkill, kind: Type) -> list[str]:
+    """Return the parameters that are not passed yet and take a value of this type."""
+    passed = {a.name.text for a in written.arguments}
+    takes = [p for p in skill.parameters if p.direction != "out" and p.name not in passed]
+    return [p.name for p in takes if fits(setting.vocabulary, kind, p.type)]
+
+
+def _list(skill: Skill) -> str:
+    return ", ".join(f"`{p.name}`" for p in skill.parameters if p.direction != "out") or "no arguments"
+
+
+def _implementation(setting: Setting, written: s.CallSkill, skill: Skill | None) -> str | None:
+    name = written.implementation
+    if name is None or skill is None:
+        return None
+    known = setting.implementations.get(skill.name, ())
+    if name.text not in known:
+        setting.report(
+            "unknown-implementation",
+            name.span,
+            f"the skill `{skill.name}` has no implementation `{name.text}`",
+            did_you_mean(name.text, known),
+        )
+    return name.text
+
+
+def _after(setting: Setting, scope: Scope, written: s.CallSkill, skill: Skill | None) -> Scope:
+    if written.out is None:
+        return scope
+    outputs = [p for p in skill.parameters if p.direction == "out"] if skill else []
+    kind = outputs[0].type if outputs else UNKNOWN
+    if skill and len(outputs) != 1:
+        setting.report(
+            "no-output",
+            written.out.span,
+            f"the skill `{skill.name}` has {len(outputs) or 'no'} outputs, so `->` has nothing to name",
+            "take `->` away, or declare one `out` parameter in the skill",
+            Label(skill.name_span, "declared here"),
+        )
+    return _assigned(setting, scope, written.out, kind)
+
+
+def _assigned(setting: Setting, scope: Scope, name: s.Name, kind: Type) -> Scope:
+    former = scope.variables.get(name.text)
+    if former is None or former.origin not in ("out", "output"):
+        return setting.bind(scope, name, Variable(kind, "output", name.span))
+    if not fits(setting.vocabulary, kind, former.type):
+        setting.report(
+            "wrong-type",
+            name.span,
+            f"this output does not fit `{name.text}`",
+            "give the output another name",
+            Label(former.span, "declared here"),
+        )
+    return scope.having(name.text, Variable(former.type, former.origin, former.span))

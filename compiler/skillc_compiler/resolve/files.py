@@ -1,0 +1,83 @@
+"""Reads a library: its files, and those of the shelf that they import, each after what it imports."""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from skillc_compiler.program import ReadFile
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
+from skillc_dsl.parser import parse
+from skillc_dsl.source import Source
+
+SHELF = "std"
+
+
+def read(sources: Sequence[Source], shelf: Mapping[str, Source], name: str) -> Outcome[tuple[ReadFile, ...]]:
+    """Parse the sources and what they import; `shelf` is keyed by file name, `name` is the library's."""
+    reader = _Reader({source.path: source for source in sources}, shelf, name)
+    for path in sorted(reader.own):
+        reader.read(reader.own[path], name, ())
+    return Outcome(tuple(reader.files.values()), tuple(reader.problems))
+
+
+@dataclass
+class _Reader:
+    own: Mapping[str, Source]
+    shelf: Mapping[str, Source]
+    name: str
+    files: dict[str, ReadFile] = field(default_factory=dict)
+    problems: list[Diagnostic] = field(default_factory=list)
+
+    def read(self, source: Source, library: str, importing: tuple[str, ...]) -> None:
+        """Read a file after the files it imports; `importing` are the files on the way here."""
+        if source.path in self.files:
+            return
+        parsed = parse(source)
+        self.problems.extend(parsed.diagnostics)
+        imports = tuple(self._imports(parsed.value, library, (*importing, source.path)))
+        self.files[source.path] = ReadFile(parsed.value, library, source.text, imports)
+
+    def _imports(self, file: s.File, library: str, chain: tuple[str, ...]) -> Iterable[tuple[s.Import, str]]:
+        for line in (h for h in file.header if isinstance(h, s.Import)):
+            found = self._find(file.path, line.path.value, library)
+            if found is None:
+                self._unknown(file, line, library)
+            elif found[0].path in chain:
+                self._cycle(line, chain[chain.index(found[0].path) :])
+            else:
+                self.read(*found, chain)
+                yield line, found[0].path
+
+    def _find(self, importer: str, wanted: str, library: str) -> tuple[Source, str] | None:
+        beside = posixpath.normpath(posixpath.join(posixpath.dirname(importer), wanted))
+        if library == self.name and beside in self.own:
+            return self.own[beside], library
+        if wanted in self.shelf:
+            return self.shelf[wanted], SHELF
+        return None
+
+    def _unknown(self, file: s.File, line: s.Import, library: str) -> None:
+        folder = posixpath.dirname(file.path)
+        beside = [posixpath.relpath(p, folder or ".") for p in self.own] if library == self.name else []
+        self.problems.append(
+            Diagnostic(
+                "unknown-import",
+                line.path.span,
+                f'there is no file "{line.path.value}" in this library or in `std`',
+                help=did_you_mean(line.path.value, (*beside, *self.shelf)),
+            )
+        )
+
+    def _cycle(self, line: s.Import, chain: Sequence[str]) -> None:
+        way = " imports ".join((*chain, chain[0]))
+        self.problems.append(
+            Diagnostic(
+                "import-cycle",
+                line.path.span,
+                f"the imports go round in a circle: {way}",
+                help="move what both files need into a third file and import that from both",
+            )
+        )

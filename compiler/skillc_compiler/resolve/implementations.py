@@ -1,0 +1,150 @@
+"""Understanding implementations: refinements merged into the description's parameters, lets, own conditions, body."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from skillc_compiler.program import Body, Implementation, Let, Parameter, Refinement, Skill
+from skillc_compiler.resolve.members import constant, duration, only, requirements
+from skillc_compiler.resolve.nodes import step
+from skillc_compiler.resolve.scope import Scope, Setting, Variable
+from skillc_compiler.resolve.skills import scopes
+from skillc_compiler.resolve.typenames import value_type
+from skillc_compiler.resolve.values import value
+from skillc_compiler.types import of_library
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Label, did_you_mean
+from skillc_dsl.source import Span
+
+
+def implementation(
+    setting: Setting, written: s.ImplementationDeclaration, skill: Skill, lines: Sequence[str]
+) -> Implementation:
+    """Return what an implementation means; `lines` is the file's text."""
+    refinements = tuple(_refinements(setting, written, skill))
+    parameters = tuple(_merged(p, refinements) for p in skill.parameters)
+    owner = f"the implementation `{written.name.text}` of `{skill.name}`"
+    before, after = scopes(owner, parameters)
+    lets, inner = _lets(setting, before, written)
+    labels = {r.label.text: r.label for r in skill.requirements if r.label}
+    prefer = only(setting, written.members, s.Prefer, "prefer")
+    return Implementation(
+        name=written.name.text,
+        doc=written.doc,
+        skill=skill,
+        refinements=refinements,
+        parameters=parameters,
+        requirements=tuple(requirements(setting, before, after, written.members, labels)),
+        duration=duration(setting, before, written.members),
+        prefer=prefer.value.value if prefer else 0.0,
+        lets=lets,
+        body=_body(setting, inner, written, skill),
+        verify=tuple(_text(lines, m.span) for m in written.members if isinstance(m, s.Verify)),
+        name_span=written.name.span,
+        span=written.span,
+    )
+
+
+def _refinements(setting: Setting, written: s.ImplementationDeclaration, skill: Skill) -> Iterator[Refinement]:
+    seen: dict[str, s.Refinement] = {}
+    for member in written.members:
+        if not isinstance(member, s.Refinement):
+            continue
+        declared = value_type(setting.names, member.type)
+        kind = of_library(declared)
+        if seen.setdefault(member.name.text, member) is not member:
+            setting.report(
+                "duplicate-parameter",
+                member.name.span,
+                f"`{member.name.text}` is refined twice",
+                "keep one of them",
+                Label(seen[member.name.text].name.span, "first refined here"),
+            )
+            continue
+        yield Refinement(
+            of=_refined(setting, member, skill),
+            declared=declared,
+            type=kind,
+            default=constant(setting, member.default, kind),
+            low=constant(setting, member.range.low if member.range else None, kind),
+            high=constant(setting, member.range.high if member.range else None, kind),
+            written=member,
+        )
+
+
+def _refined(setting: Setting, member: s.Refinement, skill: Skill) -> Parameter | None:
+    parameter = skill.parameter(member.name.text)
+    if parameter is None:
+        setting.report(
+            "unknown-parameter",
+            member.name.span,
+            f"the skill `{skill.name}` has no parameter `{member.name.text}` to refine",
+            did_you_mean(member.name.text, (p.name for p in skill.parameters)),
+            Label(skill.name_span, "declared here"),
+        )
+    return parameter
+
+
+def _merged(parameter: Parameter, refinements: Sequence[Refinement]) -> Parameter:
+    for new in refinements:
+        if new.of is parameter:
+            return replace(
+                parameter,
+                declared=new.declared,
+                type=new.type,
+                default=new.default or parameter.default,
+                low=new.low or parameter.low,
+                high=new.high or parameter.high,
+            )
+    return parameter
+
+
+def _lets(setting: Setting, scope: Scope, written: s.ImplementationDeclaration) -> tuple[tuple[Let, ...], Scope]:
+    lets = []
+    for member in written.members:
+        if isinstance(member, s.Let):
+            named = value(setting, scope, member.value)
+            lets.append(Let(member.name, named))
+            scope = setting.bind(scope, member.name, Variable(named.type, "let", member.name.span))
+    return tuple(lets), scope
+
+
+def _body(setting: Setting, scope: Scope, written: s.ImplementationDeclaration, skill: Skill) -> Body:
+    bodies = [m for m in written.members if isinstance(m, s.Body | s.RunPython)]
+    for extra in bodies[1:]:
+        setting.report(
+            "duplicate-member",
+            extra.span,
+            "an implementation has one body, and there is another",
+            "keep one `do` or `run`, or make two implementations",
+            Label(bodies[0].span, "the first one"),
+        )
+    match bodies[:1]:
+        case [s.Body(node=node)]:
+            understood, after = step(setting, scope, node)
+            _check_outputs(setting, after, written, skill)
+            return understood
+        case [s.RunPython() as python]:
+            return python
+    return None
+
+
+def _check_outputs(setting: Setting, after: Scope, written: s.ImplementationDeclaration, skill: Skill) -> None:
+    for parameter in skill.parameters:
+        if parameter.direction == "out" and not after.variables[parameter.name].sure:
+            setting.report(
+                "out-never-assigned",
+                written.name.span,
+                f"`{written.name.text}` does not give the output `{parameter.name}` a value on every path",
+                f"take it from a call: `.. -> {parameter.name}`",
+                Label(parameter.span, "declared here"),
+            )
+
+
+def _text(lines: Sequence[str], span: Span) -> str:
+    """Return what a span covers, in one line."""
+    covered = list(lines[span.line - 1 : span.end_line])
+    covered[-1] = covered[-1][: span.end_column - 1]
+    covered[0] = covered[0][span.column - 1 :]
+    return " ".join(" ".join(covered).split())

@@ -1,0 +1,78 @@
+"""Understanding what skills and implementations share: parameter heads, requirements, durations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TypeVar
+
+from skillc_compiler.program import Requirement, Valued
+from skillc_compiler.resolve.conditions import clause
+from skillc_compiler.resolve.scope import Scope, Setting
+from skillc_compiler.resolve.values import Wanted, value
+from skillc_compiler.types import Measure, Type
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Label
+from skillc_dsl.units import TIME
+
+Member = TypeVar("Member", s.Duration, s.Prefer)
+CONSTANT = Scope("a default or range, which is a constant,")
+
+
+def requirements(
+    setting: Setting, before: Scope, after: Scope, members: Sequence[object], labels: dict[str, s.Name]
+) -> Iterator[Requirement]:
+    """Yield the conditions; posts are understood in the scope `after`, where outputs have values.
+
+    `labels` holds the labels taken so far and is added to.
+    """
+    for member in members:
+        if isinstance(member, s.Requirement):
+            _note_label(setting, member, labels)
+            scope = after if member.kind == "post" else before
+            yield Requirement(
+                member.kind,
+                member.label,
+                member.sensed,
+                clause(setting, scope, member.condition),
+                member.text,
+                member.span,
+            )
+
+
+def duration(setting: Setting, scope: Scope, members: Sequence[object]) -> Valued | None:
+    """Return the expected time; a second one is reported."""
+    written = only(setting, members, s.Duration, "duration")
+    return value(setting, scope, written.value, Wanted(Measure(TIME))) if written else None
+
+
+def only(setting: Setting, members: Sequence[object], kind: type[Member], word: str) -> Member | None:
+    """Return the one member of a kind; every further one is reported."""
+    found = [member for member in members if isinstance(member, kind)]
+    for extra in found[1:]:
+        setting.report(
+            "duplicate-member",
+            extra.span,
+            f"there is already a `{word}` here",
+            "keep one of them",
+            Label(found[0].span, "the first one"),
+        )
+    return found[0] if found else None
+
+
+def constant(setting: Setting, written: s.Value | None, kind: Type) -> Valued | None:
+    """Return a default or a bound of a range."""
+    return value(setting, CONSTANT, written, Wanted(kind)) if written is not None else None
+
+
+def _note_label(setting: Setting, member: s.Requirement, labels: dict[str, s.Name]) -> None:
+    if member.label is None:
+        return
+    former = labels.setdefault(member.label.text, member.label)
+    if former is not member.label:
+        setting.report(
+            "duplicate-label",
+            member.label.span,
+            f"`{member.label.text}` labels another condition already",
+            "choose another label",
+            Label(former.span, "the other one"),
+        )

@@ -1,0 +1,161 @@
+"""What a file can name, and looking names up in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Set
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
+
+from skillc_compiler.library.vocabulary import THING, FunctionTerm, Vocabulary, local_name
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, did_you_mean
+
+Kind: TypeAlias = Literal["class", "relation", "property"]
+KINDS: tuple[Kind, ...] = ("class", "relation", "property")
+
+
+@dataclass
+class Names:
+    """The names visible in one file, and what went wrong in looking some up.
+
+    `bare` gives the IRIs that a bare name may mean, `known` all IRIs there are; `elsewhere` tells which file of the
+    library declares what this file does not import.
+    """
+
+    bare: Mapping[Kind, Mapping[str, tuple[str, ...]]]
+    known: Mapping[Kind, Set[str]]
+    vocabulary: Vocabulary
+    prefixes: Mapping[str, str]
+    functions: Mapping[str, FunctionTerm]
+    skills: Set[str]
+    elsewhere: Mapping[str, str]
+    problems: list[Diagnostic] = field(default_factory=list)
+    used: set[str] = field(default_factory=set)
+
+    def term(self, kind: Kind, name: s.Name, fits: Callable[[str], bool] = lambda _: True) -> str | None:
+        """Return the IRI that a name means, or report that it means none or several. Near misses satisfy `fits`."""
+        self.used.add(name.text)
+        if ":" in name.text:
+            return self._qualified_term(kind, name, fits)
+        found = self._bare(kind).get(name.text, ())
+        if len(found) > 1:
+            self._ambiguous(name, found)
+        elif not found:
+            self._unknown(kind, name, fits)
+        return found[0] if found else None
+
+    def individual(self, name: s.Name) -> str | None:
+        """Return the IRI of a qualified name; report an unknown prefix."""
+        self.used.add(name.text)
+        prefix, _, local = name.text.partition(":")
+        if prefix in self.prefixes:
+            return self.prefixes[prefix] + local
+        self.problems.append(
+            Diagnostic(
+                "unknown-prefix",
+                name.span,
+                f"the prefix `{prefix}` is not declared",
+                help=did_you_mean(prefix, self.prefixes) or f"add `prefix {prefix}: <..>` at the top of the file",
+            )
+        )
+        return None
+
+    def function(self, name: s.Name) -> FunctionTerm | None:
+        """Return the function of that name, or report that there is none."""
+        self.used.add(name.text)
+        if name.text not in self.functions:
+            self._report_unknown("function", name, self.functions)
+        return self.functions.get(name.text)
+
+    def skill(self, name: s.Name) -> str | None:
+        """Return the name if it is a visible skill's, or report that there is none."""
+        self.used.add(name.text)
+        if name.text in self.skills:
+            return name.text
+        self._report_unknown("skill", name, self.skills)
+        return None
+
+    def kind_of(self, iri: str) -> Kind | None:
+        """Return what kind of term an IRI is, None for an individual."""
+        return next((kind for kind in KINDS if iri in self.known[kind]), None)
+
+    def is_visible(self, kind: Kind, text: str) -> bool:
+        """Whether a bare name means a term of this kind here."""
+        return text in self._bare(kind)
+
+    def _bare(self, kind: Kind) -> Mapping[str, tuple[str, ...]]:
+        return self.bare[kind]
+
+    def _qualified_term(self, kind: Kind, name: s.Name, fits: Callable[[str], bool]) -> str | None:
+        written = self.individual(name)
+        if written is None:
+            return None
+        iri = self.vocabulary.aliases.get(written, written)
+        if iri in self.known[kind]:
+            return iri
+        base = self.prefixes[name.text.partition(":")[0]]
+        there = (i for i in self.known[kind] if i.startswith(base) and fits(i))
+        candidates = [self.vocabulary.short(i) for i in there]
+        self._report_unknown(kind, name, candidates)
+        return None
+
+    def _ambiguous(self, name: s.Name, found: tuple[str, ...]) -> None:
+        ways = " and ".join(f"`{self.vocabulary.short(iri)}`" for iri in found)
+        self.problems.append(
+            Diagnostic(
+                "ambiguous-name",
+                name.span,
+                f"`{name.text}` may mean {ways}",
+                help=f"write the prefix, such as `{self.vocabulary.short(found[0])}`",
+            )
+        )
+
+    def _unknown(self, kind: Kind, name: s.Name, fits: Callable[[str], bool]) -> None:
+        homes = sorted(
+            prefix
+            for prefix, base in self.prefixes.items()
+            if base + name.text in self.known[kind] or base + name.text in self.vocabulary.aliases
+        )
+        if homes and name.text not in self.elsewhere:
+            self.problems.append(
+                Diagnostic(
+                    f"unknown-{kind}",
+                    name.span,
+                    f"there is no {kind} `{name.text}` in the vocabularies this file uses",
+                    help=f"it is in `{homes[0]}`: write `use {homes[0]}` at the top, or `{homes[0]}:{name.text}` here",
+                )
+            )
+            return
+        candidates = (text for text, iris in self._bare(kind).items() if fits(iris[0]))
+        self._report_unknown(kind, name, candidates)
+
+    def _report_unknown(self, what: str, name: s.Name, candidates: Iterable[str]) -> None:
+        home = self.elsewhere.get(name.text)
+        help_ = f'it is declared in {home}: write `import "{home.rpartition("/")[2]}"` at the top' if home else ""
+        self.problems.append(
+            Diagnostic(
+                f"unknown-{what}",
+                name.span,
+                f"there is no {what} `{name.text}`",
+                help=help_
+                or did_you_mean(name.text, candidates)
+                or f"declare the {what}, or import the file that does",
+            )
+        )
+
+
+def bare_terms(vocabulary: Vocabulary, used: Iterable[str]) -> dict[Kind, dict[str, tuple[str, ...]]]:
+    """Return what bare names mean in a file that uses these vocabularies; `Thing` is always there."""
+    tables: dict[Kind, Mapping[str, object]] = {
+        "class": vocabulary.classes,
+        "relation": vocabulary.relations,
+        "property": vocabulary.properties,
+    }
+    bases = tuple(vocabulary.prefixes[prefix] for prefix in used if prefix in vocabulary.prefixes)
+    found: dict[Kind, dict[str, tuple[str, ...]]] = {"class": {"Thing": (THING,)}, "relation": {}, "property": {}}
+    for kind, table in tables.items():
+        targets = {**{iri: iri for iri in table}, **{a: t for a, t in vocabulary.aliases.items() if t in table}}
+        for iri, target in sorted(targets.items()):
+            if bases and iri.startswith(bases) and target not in found[kind].get(local_name(iri), ()):
+                found[kind][local_name(iri)] = (*found[kind].get(local_name(iri), ()), target)
+    return found

@@ -1,0 +1,148 @@
+"""Resolves a library: vocabulary first, then all skills, then what calls them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.program import Implementation, Program, ReadFile, Skill, Task
+from skillc_compiler.resolve.declared import Declared, declare, used, visible
+from skillc_compiler.resolve.implementations import implementation
+from skillc_compiler.resolve.names import KINDS, Kind, Names, bare_terms
+from skillc_compiler.resolve.scope import Setting
+from skillc_compiler.resolve.skills import skill
+from skillc_compiler.resolve.tasks import task
+from skillc_compiler.resolve.terms import extend, repeated
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
+
+
+def resolve(files: Sequence[ReadFile], base: Vocabulary, name: str) -> Outcome[Program]:
+    """Return the program that the files mean together; what cannot be understood is reported and left unknown."""
+    declared = declare(files, base)
+    names = _names(files, declared, base)
+    vocabulary = extend(base, files, declared, names)
+    for visible_names in names.values():
+        visible_names.vocabulary = vocabulary
+    _make_functions_visible(files, declared, names, vocabulary)
+    settings = {path: Setting(visible_names, vocabulary) for path, visible_names in names.items()}
+    skills = _skills(files, settings)
+    by_skill = _implementation_names(files)
+    settings = {path: replace(st, skills=skills, implementations=by_skill) for path, st in settings.items()}
+    program = Program(
+        name=name,
+        vocabulary=vocabulary,
+        files=tuple(files),
+        skills=skills,
+        implementations=tuple(_implementations(files, settings)),
+        tasks=tuple(_tasks(files, settings)),
+        used={path: frozenset(visible_names.used) for path, visible_names in names.items()},
+    )
+    problems = (problem for path in names for problem in names[path].problems)
+    return Outcome(program, (*_headers(files, base), *repeated(files, declared), *problems))
+
+
+def _names(files: Sequence[ReadFile], declared: Mapping[str, Declared], base: Vocabulary) -> dict[str, Names]:
+    known = _known(declared, base)
+    homes = {name: path for path, there in sorted(declared.items(), reverse=True) for name in there.names()}
+    found = {}
+    for unit in files:
+        here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports)]
+        visible_here = {name for there in here for name in there.names()}
+        own = {line.name.text: line.iri for line in unit.file.header if isinstance(line, s.Prefix)}
+        found[unit.file.path] = Names(
+            bare=visible(bare_terms(base, used(unit.file)), here),
+            known=known,
+            vocabulary=base,
+            prefixes={**base.prefixes, **own},
+            functions={},
+            skills={name for there in here for name in there.skills},
+            elsewhere={name: path for name, path in homes.items() if name not in visible_here},
+        )
+    return found
+
+
+def _known(declared: Mapping[str, Declared], base: Vocabulary) -> dict[Kind, set[str]]:
+    known: dict[Kind, set[str]] = {
+        "class": set(base.classes),
+        "relation": set(base.relations),
+        "property": set(base.properties),
+    }
+    for there in declared.values():
+        for kind in KINDS:
+            known[kind].update(there.terms[kind].values())
+    return known
+
+
+def _make_functions_visible(
+    files: Sequence[ReadFile], declared: Mapping[str, Declared], names: Mapping[str, Names], vocabulary: Vocabulary
+) -> None:
+    for unit in files:
+        here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports)]
+        own = {name for there in here for name in there.functions}
+        names[unit.file.path].functions = {name: vocabulary.functions[name] for name in sorted(own)}
+
+
+def _skills(files: Sequence[ReadFile], settings: Mapping[str, Setting]) -> dict[str, Skill]:
+    found: dict[str, Skill] = {}
+    for unit in files:
+        for declaration in unit.file.declarations:
+            if isinstance(declaration, s.SkillDeclaration):
+                found.setdefault(declaration.name.text, skill(settings[unit.file.path], declaration))
+    return found
+
+
+def _implementation_names(files: Sequence[ReadFile]) -> dict[str, list[str]]:
+    found: dict[str, list[str]] = {}
+    for unit in files:
+        for declaration in unit.file.declarations:
+            if isinstance(declaration, s.ImplementationDeclaration):
+                found.setdefault(declaration.skill.text, []).append(declaration.name.text)
+    return found
+
+
+def _implementations(files: Sequence[ReadFile], settings: Mapping[str, Setting]) -> Iterator[Implementation]:
+    seen: set[tuple[str, str]] = set()
+    for unit in files:
+        setting = settings[unit.file.path]
+        for declaration in unit.file.declarations:
+            if not isinstance(declaration, s.ImplementationDeclaration):
+                continue
+            of = setting.names.skill(declaration.skill)
+            if of is not None and (of, declaration.name.text) not in seen:
+                seen.add((of, declaration.name.text))
+                yield implementation(setting, declaration, setting.skills[of], unit.text.splitlines())
+
+
+def _tasks(files: Sequence[ReadFile], settings: Mapping[str, Setting]) -> Iterator[Task]:
+    seen: set[str] = set()
+    for unit in files:
+        for declaration in unit.file.declarations:
+            if isinstance(declaration, s.TaskDeclaration) and declaration.name.text not in seen:
+                seen.add(declaration.name.text)
+                yield task(settings[unit.file.path], declaration)
+
+
+def _headers(files: Sequence[ReadFile], base: Vocabulary) -> Iterator[Diagnostic]:
+    """Report vocabularies that there are not, and prefixes that mean something else already."""
+    for unit in files:
+        for line in unit.file.header:
+            match line:
+                case s.Use(vocabularies=vocabularies):
+                    for name in (n for n in vocabularies if n.text not in base.prefixes):
+                        yield Diagnostic(
+                            "unknown-vocabulary",
+                            name.span,
+                            f"there is no vocabulary `{name.text}`",
+                            did_you_mean(name.text, base.prefixes),
+                        )
+                case s.Prefix(name=name, iri=iri) if base.prefixes.get(name.text, iri) != iri:
+                    yield Diagnostic(
+                        "duplicate-prefix",
+                        name.span,
+                        f"the prefix `{name.text}` is that of the vocabulary <{base.prefixes[name.text]}>",
+                        "choose another prefix",
+                    )
+                case _:
+                    pass

@@ -1,0 +1,66 @@
+"""The local names that a value or condition can read, and the setting in which it is understood."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Literal, TypeAlias
+
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.program import Skill
+from skillc_compiler.resolve.names import Names
+from skillc_compiler.types import Type
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.source import Span
+
+Origin: TypeAlias = Literal["parameter", "out", "let", "output", "loop variable", "variable"]
+
+
+@dataclass(frozen=True, slots=True)
+class Variable:
+    """A local name; `sure` unless it is an output that has no value yet on some path."""
+
+    type: Type
+    origin: Origin
+    span: Span
+    sure: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Scope:
+    """Local names; `owner` says in messages what they belong to: "skill `Pick`"."""
+
+    owner: str
+    variables: Mapping[str, Variable] = field(default_factory=dict)
+
+    def having(self, name: str, variable: Variable) -> Scope:
+        """Return the scope with one more name."""
+        return replace(self, variables={**self.variables, name: variable})
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """What does not change within a declaration: the file's names, the vocabulary, the skills."""
+
+    names: Names
+    vocabulary: Vocabulary
+    skills: Mapping[str, Skill] = field(default_factory=dict)
+    implementations: Mapping[str, Sequence[str]] = field(default_factory=dict)
+
+    def report(self, name: str, span: Span, message: str, help: str = "", *labels: Label) -> None:
+        """Note a problem."""
+        self.names.problems.append(Diagnostic(name, span, message, help, labels=labels))
+
+    def bind(self, scope: Scope, name: s.Name, variable: Variable) -> Scope:
+        """Return the scope with a new name; a name that is taken is reported."""
+        former = scope.variables.get(name.text)
+        if former is not None:
+            self.report(
+                "duplicate-name",
+                name.span,
+                f"`{name.text}` is already a {former.origin} here",
+                "choose another name",
+                Label(former.span, "declared here"),
+            )
+        return scope.having(name.text, variable)

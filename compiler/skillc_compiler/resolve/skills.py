@@ -1,0 +1,89 @@
+"""Understanding skills: parameters, conditions, devices, flags."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.program import Parameter, Skill
+from skillc_compiler.resolve.members import constant, duration, requirements
+from skillc_compiler.resolve.scope import Scope, Setting, Variable
+from skillc_compiler.resolve.typenames import value_type
+from skillc_compiler.types import of_library
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Label, did_you_mean
+
+
+def skill(setting: Setting, written: s.SkillDeclaration) -> Skill:
+    """Return what a description means."""
+    parameters = tuple(_parameters(setting, written))
+    before, after = scopes(f"the skill `{written.name.text}`", parameters)
+    return Skill(
+        name=written.name.text,
+        doc=written.doc,
+        parameters=parameters,
+        requirements=tuple(requirements(setting, before, after, written.members, {})),
+        duration=duration(setting, before, written.members),
+        devices=tuple(_devices(setting, written, parameters)),
+        flags=frozenset(m.flag for m in written.members if isinstance(m, s.Flag)),
+        name_span=written.name.span,
+        span=written.span,
+    )
+
+
+def scopes(owner: str, parameters: tuple[Parameter, ...]) -> tuple[Scope, Scope]:
+    """Return the names that can be read before a skill has run, when outputs have no values, and after."""
+    inputs = {p.name: Variable(p.type, "parameter", p.span) for p in parameters if p.direction != "out"}
+    outputs = {p.name: p for p in parameters if p.direction == "out"}
+    before = Scope(owner, {**inputs, **{n: Variable(p.type, "out", p.span, sure=False) for n, p in outputs.items()}})
+    after = Scope(owner, {**inputs, **{n: Variable(p.type, "out", p.span) for n, p in outputs.items()}})
+    return before, after
+
+
+def _parameters(setting: Setting, written: s.SkillDeclaration) -> Iterator[Parameter]:
+    seen: dict[str, s.Parameter] = {}
+    for member in written.members:
+        if not isinstance(member, s.Parameter):
+            continue
+        first = seen.setdefault(member.name.text, member)
+        if first is member:
+            yield _parameter(setting, member)
+            continue
+        setting.report(
+            "duplicate-parameter",
+            member.name.span,
+            f"the parameter `{member.name.text}` is declared twice",
+            "give it another name, or take one away",
+            Label(first.name.span, "first declared here"),
+        )
+
+
+def _parameter(setting: Setting, written: s.Parameter) -> Parameter:
+    declared = value_type(setting.names, written.type)
+    kind = of_library(declared)
+    return Parameter(
+        name=written.name.text,
+        direction=written.direction,
+        any_=written.any,
+        declared=declared,
+        type=kind,
+        default=constant(setting, written.default, kind),
+        low=constant(setting, written.range.low if written.range else None, kind),
+        high=constant(setting, written.range.high if written.range else None, kind),
+        doc=written.doc,
+        span=written.name.span,
+    )
+
+
+def _devices(setting: Setting, written: s.SkillDeclaration, parameters: tuple[Parameter, ...]) -> Iterator[s.DeviceUse]:
+    names = [p.name for p in parameters]
+    for member in written.members:
+        if isinstance(member, s.DeviceUse):
+            if member.parameter.text in names:
+                yield member
+                continue
+            setting.report(
+                "unknown-parameter",
+                member.parameter.span,
+                f"the skill `{written.name.text}` has no parameter `{member.parameter.text}`",
+                did_you_mean(member.parameter.text, names),
+            )

@@ -1,0 +1,23 @@
+"""Understanding tasks: a scene with a goal or a body, spoken of individuals."""
+
+from __future__ import annotations
+
+from skillc_compiler.program import Task
+from skillc_compiler.resolve.conditions import clause
+from skillc_compiler.resolve.nodes import step
+from skillc_compiler.resolve.scope import Scope, Setting
+from skillc_dsl import syntax as s
+
+
+def task(setting: Setting, written: s.TaskDeclaration) -> Task:
+    """Return what a task means."""
+    scope = Scope(f"the task `{written.name.text}`")
+    return Task(
+        name=written.name.text,
+        doc=written.doc,
+        scene=written.scene.value if written.scene else None,
+        goal=clause(setting, scope, written.goal) if written.goal is not None else None,
+        goal_text=written.goal_text,
+        body=step(setting, scope, written.body.node)[0] if written.body else None,
+        span=written.span,
+    )

@@ -1,0 +1,187 @@
+"""The vocabulary of a program: the loaded one with the terms and functions that the library declares."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TypeVar
+
+import msgspec
+
+from skillc_compiler.library.vocabulary import (
+    ClassTerm,
+    FunctionTerm,
+    PropertyTerm,
+    RelationTerm,
+    Signature,
+    Vocabulary,
+)
+from skillc_compiler.program import ReadFile, position
+from skillc_compiler.resolve.declared import Declared, namespace, prefix
+from skillc_compiler.resolve.names import Names
+from skillc_compiler.resolve.typenames import value_type
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.source import Span
+
+Term = TypeVar("Term", ClassTerm, RelationTerm, PropertyTerm)
+
+
+def extend(
+    vocabulary: Vocabulary, files: Sequence[ReadFile], declared: Mapping[str, Declared], names: Mapping[str, Names]
+) -> Vocabulary:
+    """Return the vocabulary with everything the files declare; problems are told to the files' names."""
+    classes, relations = dict(vocabulary.classes), dict(vocabulary.relations)
+    properties, functions = dict(vocabulary.properties), dict(vocabulary.functions)
+    for unit in files:
+        here, look_up = declared[unit.file.path], names[unit.file.path]
+        for declaration in unit.file.declarations:
+            match declaration:
+                case s.ClassDeclaration():
+                    iri = here.terms["class"][declaration.name.text]
+                    classes[iri] = _class(declaration, iri, classes.get(iri), look_up)
+                case s.RelationDeclaration():
+                    iri = here.terms["relation"][declaration.name.text]
+                    relations[iri] = _relation(declaration, iri, relations.get(iri), look_up)
+                case s.PropertyDeclaration():
+                    iri = here.terms["property"][declaration.name.text]
+                    properties[iri] = _property(declaration, iri, properties.get(iri), look_up)
+                case s.FunctionDeclaration():
+                    functions.setdefault(declaration.name.text, _function(declaration, look_up))
+                case _:
+                    pass
+    return msgspec.structs.replace(
+        vocabulary,
+        prefixes=_prefixes(vocabulary, files, declared),
+        classes=classes,
+        relations=_with_inverses(relations),
+        properties=properties,
+        functions=functions,
+    )
+
+
+def repeated(files: Sequence[ReadFile], declared: Mapping[str, Declared]) -> Iterator[Diagnostic]:
+    """Report what a library declares twice, each with the place of the first."""
+    first: dict[tuple[str, ...], Span] = {}
+    for unit in files:
+        for declaration in unit.file.declarations:
+            key = _identity(declaration, declared[unit.file.path])
+            if key not in first:
+                first[key] = declaration.name.span
+                continue
+            yield Diagnostic(
+                "duplicate-declaration",
+                declaration.name.span,
+                f"the {key[0]} `{declaration.name.text}` is declared twice",
+                help="give one of them another name, or take one away",
+                labels=(Label(first[key], "first declared here"),),
+            )
+
+
+def _identity(declaration: s.Declaration, declared: Declared) -> tuple[str, ...]:
+    name = declaration.name.text
+    match declaration:
+        case s.ClassDeclaration():
+            return ("class", declared.terms["class"][name])
+        case s.RelationDeclaration(domain=domain, range=range_):
+            return ("relation", declared.terms["relation"][name], domain.text, range_.text)
+        case s.PropertyDeclaration(domain=domain):
+            return ("property", declared.terms["property"][name], domain.text)
+        case s.FunctionDeclaration():
+            return ("function", name)
+        case s.SkillDeclaration():
+            return ("skill", name)
+        case s.ImplementationDeclaration(skill=skill):
+            return ("implementation", skill.text, name)
+        case s.TaskDeclaration():
+            return ("task", name)
+
+
+def _class(written: s.ClassDeclaration, iri: str, old: ClassTerm | None, names: Names) -> ClassTerm:
+    parents = _all(names, written.parents)
+    disjoint = _all(names, written.disjoint)
+    if old is None:
+        return ClassTerm(
+            iri=iri, parents=parents, disjoint=disjoint, comment=written.doc, source=position(written.span)
+        )
+    return msgspec.structs.replace(old, parents=_union(old.parents, parents), disjoint=_union(old.disjoint, disjoint))
+
+
+def _relation(written: s.RelationDeclaration, iri: str, old: RelationTerm | None, names: Names) -> RelationTerm:
+    domain, range_ = names.term("class", written.domain), names.term("class", written.range)
+    signatures = (Signature(domain, range_),) if domain and range_ else ()
+    traits = {trait.kind: trait for trait in written.traits}
+    others = {kind: names.term("relation", t.name) for kind, t in traits.items() if t.name is not None}
+    term = old or RelationTerm(iri=iri, signatures=(), comment=written.doc, source=position(written.span))
+    parent = others.get("sub")
+    return msgspec.structs.replace(
+        term,
+        signatures=tuple(dict.fromkeys((*term.signatures, *signatures))),
+        parents=_union(term.parents, (parent,) if parent else ()),
+        inverse=others.get("inverse") or term.inverse,
+        functional=term.functional or "functional" in traits,
+        symmetric=term.symmetric or "symmetric" in traits,
+        transitive=term.transitive or "transitive" in traits,
+    )
+
+
+def _property(written: s.PropertyDeclaration, iri: str, old: PropertyTerm | None, names: Names) -> PropertyTerm:
+    domain = names.term("class", written.domain)
+    domains = (domain,) if domain else ()
+    declared = value_type(names, written.type)
+    if old is None:
+        return PropertyTerm(iri=iri, domains=domains, type=declared, comment=written.doc, source=position(written.span))
+    if old.type != declared:
+        names.problems.append(_contradicted(written, old, names))
+    return msgspec.structs.replace(old, domains=_union(old.domains, domains))
+
+
+def _contradicted(written: s.PropertyDeclaration, old: PropertyTerm, names: Names) -> Diagnostic:
+    place = old.source
+    labels = (Label(Span(place.path, place.line, 1, place.line, 2), "declared here"),) if place else ()
+    return Diagnostic(
+        "contradicting-declaration",
+        written.type.span,
+        f"`{names.vocabulary.short(old.iri)}` is already declared with another type",
+        help="give the property the same type here, or another name",
+        labels=labels,
+    )
+
+
+def _function(written: s.FunctionDeclaration, names: Names) -> FunctionTerm:
+    return FunctionTerm(
+        name=written.name.text,
+        parameters=tuple((p.name.text, value_type(names, p.type)) for p in written.parameters),
+        result=value_type(names, written.result),
+        python=written.python.value,
+        comment=written.doc,
+        source=position(written.span),
+    )
+
+
+def _with_inverses(relations: Mapping[str, RelationTerm]) -> dict[str, RelationTerm]:
+    """Say of both relations that they are inverse, where only one was said to be."""
+    stated = {term.inverse: iri for iri, term in relations.items() if term.inverse}
+    return {
+        iri: term if term.inverse or iri not in stated else msgspec.structs.replace(term, inverse=stated[iri])
+        for iri, term in relations.items()
+    }
+
+
+def _prefixes(vocabulary: Vocabulary, files: Sequence[ReadFile], declared: Mapping[str, Declared]) -> dict[str, str]:
+    prefixes = dict(vocabulary.prefixes)
+    for unit in files:
+        terms = declared[unit.file.path].terms.values()
+        if any(iri.startswith(namespace(unit.library)) for table in terms for iri in table.values()):
+            prefixes[prefix(unit.library, vocabulary.prefixes)] = namespace(unit.library)
+        for line in unit.file.header:
+            if isinstance(line, s.Prefix):
+                prefixes.setdefault(line.name.text, line.iri)
+    return dict(sorted(prefixes.items()))
+
+
+def _all(names: Names, written: Sequence[s.Name]) -> tuple[str, ...]:
+    return tuple(iri for name in written if (iri := names.term("class", name)))
+
+
+def _union(one: tuple[str, ...], other: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys((*one, *other)))

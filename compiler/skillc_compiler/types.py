@@ -1,0 +1,128 @@
+"""The types of values while compiling, and which fits where."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from skillc_compiler.library.vocabulary import (
+    ClassType,
+    ListType,
+    NumberType,
+    PlainType,
+    ValueType,
+    VectorType,
+    Vocabulary,
+    local_name,
+)
+from skillc_dsl.units import DIMENSIONS, NUMBER, Dimension
+
+
+@dataclass(frozen=True, slots=True)
+class Unknown:
+    """The type of what was not understood; it fits everywhere, so that one mistake gives one error."""
+
+
+@dataclass(frozen=True, slots=True)
+class Thing:
+    """An individual; `cls` is the IRI of its class, None where only the scene knows it."""
+
+    cls: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """A number of a dimension, in SI units."""
+
+    dimension: Dimension
+
+
+@dataclass(frozen=True, slots=True)
+class Direction:
+    """Three numbers of a dimension, in the world frame; None accepts every dimension."""
+
+    dimension: Dimension | None
+
+
+@dataclass(frozen=True, slots=True)
+class Plain:
+    """`Bool`, `Int`, `Text` or `Pose`."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class ListOf:
+    """`[T]`"""
+
+    element: Type
+
+
+Type: TypeAlias = Unknown | Thing | Measure | Direction | Plain | ListOf
+UNKNOWN = Unknown()
+BOOL, INT, TEXT, POSE = (Plain(name) for name in ("Bool", "Int", "Text", "Pose"))
+
+
+def of_library(declared: ValueType) -> Type:
+    """Return the type that a declared one stands for; an undeclared dimension is unknown."""
+    match declared:
+        case ClassType(iri=iri):
+            return Thing(iri)
+        case NumberType(dimension=name):
+            return Measure(DIMENSIONS[name]) if name in DIMENSIONS else UNKNOWN
+        case VectorType(dimension="Number"):
+            return Direction(None)
+        case VectorType(dimension=name):
+            return Direction(DIMENSIONS[name]) if name in DIMENSIONS else UNKNOWN
+        case PlainType(name=name):
+            return Plain(name)
+        case ListType(element=element):
+            return ListOf(of_library(element))
+
+
+def of_property(declared: ValueType) -> Type:
+    """Return the type of a property's value: as declared, but a vector without a dimension is a pure number thrice."""
+    return Direction(NUMBER) if declared == VectorType("Number") else of_library(declared)
+
+
+def fits(vocabulary: Vocabulary, given: Type, wanted: Type) -> bool:
+    """Whether a value of type `given` may stand where one of type `wanted` is expected."""
+    match given, wanted:
+        case (Unknown(), _) | (_, Unknown()):
+            return True
+        case Thing(cls=one), Thing(cls=other):
+            return one is None or other is None or vocabulary.is_a(one, other)
+        case Direction(), Direction(dimension=None):
+            return True
+        case Plain(name="Int"), Measure(dimension=dimension):
+            return dimension == NUMBER
+        case ListOf(element=one), ListOf(element=other):
+            return fits(vocabulary, one, other)
+    return given == wanted
+
+
+def describe(kind: Type) -> str:
+    """Return the type in an author's words, with its article: `a Force`, `an ArmDevice`."""
+    match kind:
+        case Unknown():
+            return "something unknown"
+        case Thing(cls=iri):
+            return _with_article(local_name(iri)) if iri else "an individual"
+        case Direction(dimension=dimension):
+            of = f" of dimension {name(dimension)}" if dimension else ""
+            return f"a Vector{of}"
+        case ListOf(element=element):
+            return f"a list, each {describe(element)}"
+        case Measure(dimension=dimension):
+            return _with_article(name(dimension))
+        case Plain(name=text):
+            return _with_article(text)
+
+
+def name(dimension: Dimension) -> str:
+    """Return a dimension's name, in words also for those the language has none for."""
+    return "Number" if dimension == NUMBER else dimension.name
+
+
+def _with_article(word: str) -> str:
+    return f"an {word}" if word[:1] in "AEIOUaeiou" else f"a {word}"
