@@ -1,0 +1,76 @@
+"""Braces left open: found by the indentation, told, and closed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from lark import Token
+
+from skillc_dsl.diagnostics import Diagnostic, Fix, Label, Outcome
+from skillc_dsl.grammar import DECLARATIONS, END, first_on_line
+from skillc_dsl.lexing import span_of
+from skillc_dsl.source import Span
+
+
+def close_braces(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, ...]]:
+    """Return the tokens with a `}` wherever a declaration leaves a brace open."""
+    closed: list[Token] = []
+    problems: list[Diagnostic] = []
+    for start, end in _regions(tokens):
+        region = tokens[start:end]
+        missing = sum((t.type == "LBRACE") - (t.type == "RBRACE") for t in region)
+        if missing > 0:
+            region, found = _close(region, tokens[end], missing, path)
+            problems += found
+        closed += region
+    return Outcome((*closed, tokens[-1]), tuple(problems))
+
+
+def _regions(tokens: tuple[Token, ...]) -> Iterator[tuple[int, int]]:
+    """Yield the stretch of each declaration; a declaration's keyword begins a line."""
+    start = 0
+    for index, token in enumerate(tokens):
+        if token.type == END or (token.type in DECLARATIONS and index > start and first_on_line(tokens, index)):
+            yield start, index
+            start = index
+
+
+def _close(
+    region: Sequence[Token], following: Token, missing: int, path: str
+) -> tuple[tuple[Token, ...], list[Diagnostic]]:
+    """Close the braces that a less indented `}` or the end of the region shows to be open."""
+    result: list[Token] = []
+    problems: list[Diagnostic] = []
+    opened: list[tuple[Token, int]] = []
+    indent = 1
+    for index, token in enumerate(region):
+        if first_on_line(region, index):
+            indent = token.column or 1
+        if token.type == "LBRACE":
+            opened.append((token, indent))
+        elif token.type == "RBRACE" and opened:
+            while len(problems) < missing and len(opened) > 1 and opened[-1][1] > indent:
+                problems.append(_unclosed(*opened.pop(), result[-1], token, path))
+                result.append(_brace(result[-1]))
+            opened.pop()
+        result.append(token)
+    for opener, column in reversed(opened):
+        problems.append(_unclosed(opener, column, result[-1], following, path))
+        result.append(_brace(result[-1]))
+    return tuple(result), problems
+
+
+def _brace(after: Token) -> Token:
+    place = (after.end_pos, after.end_line, after.end_column, after.end_line, after.end_column, after.end_pos)
+    return Token("RBRACE", "", *place)
+
+
+def _unclosed(opener: Token, indent: int, last: Token, found: Token, path: str) -> Diagnostic:
+    """Report at `found`, the token that shows it, that `opener` is open."""
+    where = "at the end of the file" if found.type == END else f"before this `{found}`"
+    gap = span_of(last, path)
+    end = Span(path, gap.end_line, gap.end_column, gap.end_line, gap.end_column)
+    fix = Fix(end, "\n" + " " * (indent - 1) + "}", "close the brace")
+    message = f"the `{{` of line {opener.line} is not closed {where}"
+    label = Label(span_of(opener, path), "opened here")
+    return Diagnostic("unclosed-brace", span_of(found, path), message, "add a `}`", labels=(label,), fix=fix)

@@ -1,0 +1,78 @@
+"""Builds conditions."""
+
+from __future__ import annotations
+
+from typing import Literal, cast
+
+from lark import Token
+
+from skillc_dsl import syntax as s
+from skillc_dsl.building.places import Child, word_at
+from skillc_dsl.building.values import Values
+
+
+class Conditions(Values):
+    """Conditions; a lone value among them becomes `Bare`."""
+
+    def implies(self, children: list[Child]) -> s.Implies:
+        """`if_ implies then`"""
+        return s.Implies(self.condition(children[0]), self.condition(children[2]), self.over(children))
+
+    def or_(self, children: list[Child]) -> s.Or:
+        """`a or b or c`"""
+        parts = [self.condition(child) for child in children[::2]]
+        flat = (inner for part in parts for inner in (part.parts if isinstance(part, s.Or) else (part,)))
+        return s.Or(tuple(flat), self.over(children))
+
+    def and_(self, children: list[Child]) -> s.And:
+        """`a and b and c`"""
+        parts = [self.condition(child) for child in children[::2]]
+        flat = (inner for part in parts for inner in (part.parts if isinstance(part, s.And) else (part,)))
+        return s.And(tuple(flat), self.over(children))
+
+    def not_(self, children: list[Child]) -> s.Not:
+        """`not body`"""
+        return s.Not(self.condition(children[1]), self.over(children))
+
+    def quantified(self, children: list[Child]) -> s.Quantified:
+        """`exists x: Class (body)`, `forall x: Class (body)`"""
+        word: Literal["exists", "forall"] = "exists" if word_at(children, 0) == "exists" else "forall"
+        body = self.condition(children[4])
+        return s.Quantified(word, self.label(children[1]), self.as_name(children[2]), body, self.over(children))
+
+    def compare(self, children: list[Child]) -> s.Compare:
+        """`left == right` and its like"""
+        left, _, right = children
+        operator = cast(s.CompareOperator, word_at(children, 1))
+        return s.Compare(self.value(left), operator, self.value(right), self.over(children))
+
+    def relation_of(self, children: list[Child]) -> s.Relation:
+        """`subject relation object`"""
+        subject, relation, object_ = children
+        span = self.over(children)
+        return s.Relation(self._individual(subject), self.as_name(relation), self._individual(object_), span)
+
+    def anything(self, children: list[Token]) -> s.Anything:
+        """`_`"""
+        return s.Anything(self.place(children[0]))
+
+    def has(self, children: list[Child]) -> s.Has:
+        """`subject has property`"""
+        return s.Has(self.value(children[0]), self.as_name(children[2]), self.over(children))
+
+    def is_(self, children: list[Child]) -> s.Is:
+        """`subject is Class`"""
+        return s.Is(self.value(children[0]), self.as_name(children[2]), self.over(children))
+
+    def given(self, children: list[Child]) -> s.Given:
+        """`given parameter`"""
+        return s.Given(self.as_name(children[1]), self.over(children))
+
+    def condition(self, child: Child) -> s.Condition:
+        """Return a condition; a value becomes `Bare`."""
+        if isinstance(child, s.Condition):
+            return child
+        return s.Bare(self.value(child), self.place(child))
+
+    def _individual(self, child: Child) -> s.Value | s.Anything:
+        return child if isinstance(child, s.Anything) else self.value(child)

@@ -1,0 +1,145 @@
+"""Builds declarations, and the file that holds them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Literal, TypeVar, cast
+
+from lark import Token, Tree
+
+from skillc_dsl import syntax as s
+from skillc_dsl.building.members import Members
+from skillc_dsl.building.places import Child, Part, Placed, every, part_of, word_at
+from skillc_dsl.diagnostics import Diagnostic, Label
+
+P = TypeVar("P", bound=Placed)
+TraitKind = Literal["functional", "symmetric", "transitive", "inverse", "sub"]
+
+
+class Declarations(Members):
+    """Declarations; `start` is the whole file."""
+
+    def file(self, tree: Tree[Token]) -> s.File:
+        """Return the syntax of a whole file's tree."""
+        file = self.transform(tree)
+        if not isinstance(file, s.File):
+            raise TypeError(f"a file was expected, not {file!r}")
+        return file
+
+    def start(self, children: list[Child]) -> s.File:
+        """The file."""
+        header = tuple(child for child in children if isinstance(child, s.Use | s.Prefix | s.Import))
+        declarations = tuple(child for child in children if isinstance(child, s.Declaration))
+        return s.File(self.source.path, header, declarations)
+
+    def use(self, children: list[Child]) -> s.Use:
+        """`use skiros, rparts`"""
+        return s.Use(every(children, s.Name), self.over(children))
+
+    def prefix(self, children: list[Child]) -> s.Prefix:
+        """`prefix lab: <iri>`"""
+        return s.Prefix(self.label(children[1]), word_at(children, 2)[1:-1], self.over(children))
+
+    def import_(self, children: list[Child]) -> s.Import:
+        """`import "file.skill"`"""
+        return s.Import(self.string(children[1]), self.over(children))
+
+    def class_(self, children: list[Child]) -> s.ClassDeclaration:
+        """`class Name < Parent, .. disjoint Other, ..`"""
+        parents, disjoint = part_of(children, "parents"), part_of(children, "disjoint")
+        span = self.over(children)
+        return s.ClassDeclaration(
+            self.as_name(children[1]),
+            every(parents.children, s.Name) if parents else (),
+            every(disjoint.children, s.Name) if disjoint else (),
+            self.doc(span),
+            span,
+        )
+
+    def parents(self, children: list[Child]) -> Part:
+        """`< Parent, ..`"""
+        return self.part("parents", children)
+
+    def disjoint(self, children: list[Child]) -> Part:
+        """`disjoint Other, ..`"""
+        return self.part("disjoint", children)
+
+    def relation(self, children: list[Child]) -> s.RelationDeclaration:
+        """`relation name(Domain, Range) traits`"""
+        name, domain, range_ = every(children, s.Name)
+        span = self.over(children)
+        return s.RelationDeclaration(name, domain, range_, every(children, s.Trait), self.doc(span), span)
+
+    def trait(self, children: list[Child]) -> s.Trait:
+        """`functional`, `inverse NAME` and their like"""
+        name = self.as_name(children[1]) if len(children) > 1 else None
+        return s.Trait(cast(TraitKind, word_at(children, 0)), name, self.over(children))
+
+    def property(self, children: list[Child]) -> s.PropertyDeclaration:
+        """`property name(Domain): Type`"""
+        span = self.over(children)
+        name, domain = self.as_name(children[1]), self.as_name(children[3])
+        return s.PropertyDeclaration(name, domain, self.type_at(children, 6), self.doc(span), span)
+
+    def function(self, children: list[Child]) -> s.FunctionDeclaration:
+        """`function name(parameter, ..) -> Type = python "module:function"`"""
+        span = self.over(children)
+        return s.FunctionDeclaration(
+            self.as_name(children[1]),
+            every(children, s.FunctionParameter),
+            self.type_at(children, len(children) - 4),
+            self.string(children[-1]),
+            self.doc(span),
+            span,
+        )
+
+    def function_parameter(self, children: list[Child]) -> s.FunctionParameter:
+        """`name: Type`"""
+        return s.FunctionParameter(self.label(children[0]), self.type_at(children, 1), self.over(children))
+
+    def skill(self, children: list[Child]) -> s.SkillDeclaration:
+        """`skill Name { members }`"""
+        members = tuple(child for child in children if isinstance(child, s.SkillMember))
+        span = self.over(children)
+        return s.SkillDeclaration(self.as_name(children[1]), members, self.doc(span), span)
+
+    def impl(self, children: list[Child]) -> s.ImplementationDeclaration:
+        """`impl name of Skill { members }`"""
+        name, skill = every(children, s.Name)
+        members = tuple(child for child in children if isinstance(child, s.ImplementationMember))
+        span = self.over(children)
+        return s.ImplementationDeclaration(name, skill, members, self.doc(span), span)
+
+    def task(self, children: list[Child]) -> s.TaskDeclaration:
+        """`task name { scene, goal or do }`"""
+        name, span = self.as_name(children[1]), self.over(children)
+        scene = self._only(part for part in every(children, Part) if part.rule == "scene")
+        goal = self._only(part for part in every(children, Part) if part.rule == "goal")
+        condition = self.condition(goal.children[1]) if goal else None
+        return s.TaskDeclaration(
+            name,
+            self.string(scene.children[1]) if scene else None,
+            condition,
+            self.written(condition.span) if condition else "",
+            self._only(every(children, s.Body)),
+            self.doc(span),
+            span,
+        )
+
+    def scene(self, children: list[Child]) -> Part:
+        """`scene "file.ttl"`"""
+        return self.part("scene", children)
+
+    def goal(self, children: list[Child]) -> Part:
+        """`goal condition`"""
+        return self.part("goal", children)
+
+    def _only(self, found: Iterable[P]) -> P | None:
+        """Return the first member of its kind; any further one is reported."""
+        members = tuple(found)
+        for other in members[1:]:
+            word = self.written(other.span).split()[0]
+            labels = (Label(members[0].span, "the first one"),)
+            message = f"the task has a second `{word}`"
+            self.problems.append(Diagnostic("repeated-member", other.span, message, "keep one", labels=labels))
+        return members[0] if members else None

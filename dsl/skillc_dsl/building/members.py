@@ -1,0 +1,109 @@
+"""Builds the members of skills and implementations."""
+
+from __future__ import annotations
+
+from typing import Literal, cast
+
+from lark import Token
+
+from skillc_dsl import syntax as s
+from skillc_dsl.building.nodes import Nodes
+from skillc_dsl.building.places import Child, Part, first, part_of, word_at
+
+
+class Members(Nodes):
+    """Members; `= value` and `range a .. b` are parts of the member they follow."""
+
+    def parameter(self, children: list[Child]) -> s.Parameter:
+        """`in name: Type = default range a .. b`"""
+        any_ = word_at(children, 1) == "any"
+        at = 2 if any_ else 1
+        span = self.over(children)
+        return s.Parameter(
+            cast(s.Direction, word_at(children, 0)),
+            any_,
+            self.label(children[at]),
+            self.type_at(children, at + 1),
+            self._default(children),
+            first(children, s.Range),
+            self.doc(span),
+            span,
+        )
+
+    def refinement(self, children: list[Child]) -> s.Refinement:
+        """`refine name: Type = default range a .. b`"""
+        name, type_ = self.label(children[1]), self.type_at(children, 2)
+        return s.Refinement(name, type_, self._default(children), first(children, s.Range), self.over(children))
+
+    def default(self, children: list[Child]) -> Part:
+        """`= value`"""
+        return self.part("default", children)
+
+    def range(self, children: list[Child]) -> s.Range:
+        """`range a .. b`"""
+        return s.Range(self.value(children[1]), self.value(children[3]), self.over(children))
+
+    def _default(self, children: list[Child]) -> s.Value | None:
+        default = part_of(children, "default")
+        return self.value(default.children[1]) if default else None
+
+    def requirement(self, children: list[Child]) -> s.Requirement:
+        """`pre|hold|post [sensed] [label:] condition`"""
+        kind = cast(Literal["pre", "hold", "post"], word_at(children, 0))
+        sensed = word_at(children, 1) == "sensed"
+        label = next((self.label(c) for c in children if isinstance(c, Token) and c.type == "LABEL"), None)
+        condition = self.condition(children[-1])
+        return s.Requirement(kind, sensed, label, condition, self.written(condition.span), self.over(children))
+
+    def duration(self, children: list[Child]) -> s.Duration:
+        """`duration value`"""
+        return s.Duration(self.value(children[1]), self.over(children))
+
+    def device_use(self, children: list[Child]) -> s.DeviceUse:
+        """`uses parameter`, `shares parameter`"""
+        kind: Literal["uses", "shares"] = "uses" if word_at(children, 0) == "uses" else "shares"
+        return s.DeviceUse(kind, self.as_name(children[1]), self.over(children))
+
+    def flag(self, children: list[Child]) -> s.Flag:
+        """`scoped`, `noplan`, `fallback`"""
+        return s.Flag(cast(Literal["scoped", "noplan", "fallback"], word_at(children, 0)), self.over(children))
+
+    def let(self, children: list[Child]) -> s.Let:
+        """`let name = value`"""
+        return s.Let(self.as_name(children[1]), self.value(children[3]), self.over(children))
+
+    def prefer(self, children: list[Child]) -> s.Prefer:
+        """`prefer N`; a quantity is reported, its number kept."""
+        value, span = children[1], self.over(children)
+        if isinstance(value, s.Quantity):
+            self.complain(value.span, "`prefer` takes a number without a unit", "such as `prefer 2`")
+            value = s.Number(value.value, f"{value.value:g}", value.span)
+        return s.Prefer(self.as_number(value), span)
+
+    def run(self, children: list[Child]) -> s.RunPython:
+        """`run python "module:Class"`"""
+        return s.RunPython(self.string(children[2]), self.over(children))
+
+    def body(self, children: list[Child]) -> s.Body:
+        """`do node`"""
+        node = children[1]
+        if not isinstance(node, s.Node):
+            raise TypeError(f"a node was expected, not {node!r}")
+        return s.Body(node, self.over(children))
+
+    def verify(self, children: list[Child]) -> s.Verify:
+        """`verify never A [outside B]`, `verify A before B`, `verify after A eventually B`"""
+        words = {child.type for child in children if isinstance(child, Token)}
+        pattern = next((word for word in ("outside", "before", "eventually") if word.upper() in words), "never")
+        events = [self._event(child) for child in children if not isinstance(child, Token)]
+        second = events[1] if len(events) > 1 else None
+        kind = cast(Literal["never", "outside", "before", "eventually"], pattern)
+        return s.Verify(kind, events[0], second, self.over(children))
+
+    def _event(self, child: Child) -> s.Event:
+        condition = self.condition(child)
+        match condition:
+            case s.Bare(value=s.Reference(name=name)):
+                return s.Event(name, condition.span)
+            case _:
+                return s.Event(condition, condition.span)

@@ -1,0 +1,128 @@
+"""Builds behaviour tree nodes."""
+
+from __future__ import annotations
+
+from typing import Literal, cast
+
+from lark import Token
+
+from skillc_dsl import syntax as s
+from skillc_dsl.building.conditions import Conditions
+from skillc_dsl.building.places import Child, Part, every, part_of, word_at
+
+BlockKind = Literal[
+    "seq", "sel", "reactive seq", "reactive sel", "par all", "par any", "par race", "par lead", "try", "invert", "once"
+]
+
+
+class Nodes(Conditions):
+    """Nodes; the braces of a node with children stay among its rule's children, as tokens."""
+
+    def block(self, children: list[Child]) -> s.Block:
+        """`seq { }`, `par lead { }`, `try { }` and their like"""
+        words = [child.value for child in children if isinstance(child, Token) and child.type not in _BRACES]
+        return s.Block(cast(BlockKind, " ".join(words)), self.nodes(children), self.over(children))
+
+    def counted(self, children: list[Child]) -> s.Counted:
+        """`retry N { }`, `repeat N { }`"""
+        kind: Literal["retry", "repeat"] = "retry" if word_at(children, 0) == "retry" else "repeat"
+        return s.Counted(kind, self.as_number(children[1]), self.nodes(children), self.over(children))
+
+    def timeout(self, children: list[Child]) -> s.Timeout:
+        """`timeout Q { }`"""
+        return s.Timeout(self.value(children[1]), self.nodes(children), self.over(children))
+
+    def wait(self, children: list[Child]) -> s.Wait:
+        """`wait Q`"""
+        return s.Wait(self.value(children[1]), self.over(children))
+
+    def wait_until(self, children: list[Child]) -> s.WaitUntil:
+        """`wait until C`"""
+        condition = self.condition(children[2])
+        return s.WaitUntil(condition, self.written(condition.span), self.over(children))
+
+    def if_(self, children: list[Child]) -> s.If:
+        """`if C { } else { }`, `if C { } else if ..`"""
+        condition = self.condition(children[1])
+        then, orelse = part_of(children, "then"), part_of(children, "else_")
+        return s.If(
+            condition,
+            self.written(condition.span),
+            self.nodes(then.children if then else ()),
+            self.nodes(orelse.children) if orelse else None,
+            self.over(children),
+        )
+
+    def then(self, children: list[Child]) -> Part:
+        """`{ }` after the condition of an `if`"""
+        return self.part("then", children)
+
+    def else_(self, children: list[Child]) -> Part:
+        """`else { }`, `else if ..`"""
+        return self.part("else_", children)
+
+    def while_(self, children: list[Child]) -> s.While:
+        """`while C max N { }`"""
+        condition = self.condition(children[1])
+        text, limit = self.written(condition.span), self.as_number(children[3])
+        return s.While(condition, text, limit, self.nodes(children), self.over(children))
+
+    def for_(self, children: list[Child]) -> s.For:
+        """`for x in EXPR { }`"""
+        variable, items = self.as_name(children[1]), self.value(children[3])
+        return s.For(variable, items, self.nodes(children[4:]), self.over(children))
+
+    def check(self, children: list[Child]) -> s.CheckNode:
+        """`check(C)`"""
+        condition = self.condition(children[2])
+        return s.CheckNode(condition, self.written(condition.span), self.over(children))
+
+    def apply_posts(self, children: list[Child]) -> s.ApplyPosts:
+        """`apply LABEL, ..`"""
+        return s.ApplyPosts(every(children, s.Name), self.over(children))
+
+    def call(self, children: list[Child]) -> s.CallSkill:
+        """`Skill[implementation](argument, ..) -> out`"""
+        implementation, out = part_of(children, "implementation"), part_of(children, "out")
+        return s.CallSkill(
+            self.as_name(children[0]),
+            self.as_name(implementation.children[1]) if implementation else None,
+            every(children, s.Argument),
+            self.as_name(out.children[1]) if out else None,
+            self.over(children),
+        )
+
+    def implementation(self, children: list[Child]) -> Part:
+        """`[implementation]`"""
+        return self.part("implementation", children)
+
+    def out(self, children: list[Child]) -> Part:
+        """`-> out`"""
+        return self.part("out", children)
+
+    def argument(self, children: list[Child]) -> s.Argument:
+        """`name: value`, `name`"""
+        span = self.over(children)
+        if isinstance(children[0], s.Name):
+            return s.Argument(children[0], s.Reference(children[0], span), span)
+        return s.Argument(self.label(children[0]), self.value(children[1]), span)
+
+    def with_(self, children: list[Child]) -> s.With:
+        """`with CALL { }`"""
+        call = children[1]
+        if not isinstance(call, s.CallSkill):
+            raise TypeError(f"a call was expected, not {call!r}")
+        return s.With(call, self.nodes(children[2:]), self.over(children))
+
+    def nodes(self, children: list[Child] | tuple[Child, ...]) -> tuple[s.Node, ...]:
+        """Return the nodes among `children`."""
+        return tuple(child for child in children if isinstance(child, s.Node))
+
+    def as_number(self, child: Child) -> s.Number:
+        """Return a child that is a number by the grammar."""
+        if not isinstance(child, s.Number):
+            raise TypeError(f"a number was expected, not {child!r}")
+        return child
+
+
+_BRACES = ("LBRACE", "RBRACE")

@@ -1,0 +1,100 @@
+"""What every builder shares: places, text as written, documentation."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Protocol, TypeVar
+
+from lark import Token
+from lark.visitors import Transformer_NonRecursive
+
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.lexing import span_of
+from skillc_dsl.source import Source, Span
+
+T = TypeVar("T")
+_STRING_OR_COMMENT = re.compile(r'("[^"\n]*")|#[^\n]*')
+
+
+class Placed(Protocol):
+    """A piece of the syntax tree."""
+
+    @property
+    def span(self) -> Span:
+        """Where it stands."""
+        ...
+
+
+Child = Token | Placed
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A piece of a member that has no type of its own in the syntax tree, such as `= value` or `{ nodes }`."""
+
+    rule: str
+    children: tuple[Child, ...]
+    span: Span
+
+
+class Places(Transformer_NonRecursive[Token, Placed]):
+    """Turns trees into syntax from the leaves up; every method is named after the rule whose children it gets."""
+
+    def __init__(self, source: Source) -> None:
+        super().__init__(visit_tokens=False)
+        self.source = source
+        self.lines = source.text.split("\n")
+        self.starts = [0]
+        for line in self.lines:
+            self.starts.append(self.starts[-1] + len(line) + 1)
+        self.problems: list[Diagnostic] = []
+
+    def place(self, child: Child) -> Span:
+        """Return where a token or a piece of syntax stands."""
+        return span_of(child, self.source.path) if isinstance(child, Token) else child.span
+
+    def over(self, children: Sequence[Child]) -> Span:
+        """Return the span from the first of `children` to the last."""
+        first = self.place(children[0])
+        return first if len(children) == 1 else first.to(self.place(children[-1]))
+
+    def part(self, rule: str, children: Sequence[Child]) -> Part:
+        """Keep `children` together under the name of their rule."""
+        return Part(rule, tuple(children), self.over(children))
+
+    def written(self, span: Span) -> str:
+        """Return the text of `span` on one line, without comments."""
+        start = self.starts[span.line - 1] + span.column - 1
+        end = self.starts[span.end_line - 1] + span.end_column - 1
+        return " ".join(_STRING_OR_COMMENT.sub(r"\1", self.source.text[start:end]).split())
+
+    def doc(self, span: Span) -> str:
+        """Return the `##` lines right above `span`, without their marks."""
+        first = span.line - 1
+        while first > 0 and self.lines[first - 1].lstrip().startswith("##"):
+            first -= 1
+        found = [line.strip()[2:] for line in self.lines[first : span.line - 1]]
+        return "\n".join(line.removeprefix(" ") for line in found)
+
+
+def every(children: Iterable[Child], kind: type[T]) -> tuple[T, ...]:
+    """Return the children of one kind, in their order."""
+    return tuple(child for child in children if isinstance(child, kind))
+
+
+def first(children: Iterable[Child], kind: type[T]) -> T | None:
+    """Return the first child of one kind, None where there is none."""
+    return next((child for child in children if isinstance(child, kind)), None)
+
+
+def part_of(children: Iterable[Child], rule: str) -> Part | None:
+    """Return the part made by `rule`, None where it was not written."""
+    return next((child for child in children if isinstance(child, Part) and child.rule == rule), None)
+
+
+def word_at(children: Sequence[Child], index: int) -> str:
+    """Return the word at `index`, empty where no token stands there."""
+    child = children[index] if index < len(children) else None
+    return child.value if isinstance(child, Token) else ""

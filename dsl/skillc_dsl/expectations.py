@@ -1,0 +1,75 @@
+"""What would fit at a place, in the author's words."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from lark import Token
+
+from skillc_dsl.grammar import END, following, words
+
+
+@dataclass(frozen=True, slots=True)
+class Phrase:
+    """Words for the terminals in `covers`, used where every one of `signs` fits."""
+
+    text: str
+    signs: frozenset[str]
+    covers: frozenset[str]
+
+
+@functools.cache
+def _phrases() -> tuple[Phrase, ...]:
+    """Return the phrases, those that cover most first; what they cover is read off the grammar."""
+    impl = "IMPL NAME OF NAME LBRACE"
+    names = following("USE")
+    values = following(f"{impl} LET NAME EQUAL")
+    conditions = following(f"{impl} DO IF")
+    operators = _set("PLUS MINUS STAR SLASH DOT LPAR")
+    table = (
+        ("a declaration such as `skill` or `impl`", "CLASS SKILL", following("") - {END}),
+        ("a member of a skill, such as `in` or `pre`", "IN OPT PRE", following("SKILL NAME LBRACE") - {"RBRACE"}),
+        ("a member of an implementation, such as `let` or `do`", "LET RUN", following(impl) - {"RBRACE"}),
+        ("a member of a task, such as `scene` or `goal`", "SCENE GOAL DO", _set("SCENE GOAL DO")),
+        ("a condition", "NOT EXISTS NUMBER", conditions | values),
+        ("a step, such as `seq` or a call", "SEQ IF", following(f"{impl} DO")),
+        ("a value", "NUMBER QUANTITY STRING", values | names),
+        ("a relation", "NAME HAS", names | {"HAS", "IS"}),
+        ("a name", "NAME", names),
+        ("a comparison such as `==`", "EQUALS LESS", _set("EQUALS UNEQUAL LESS LESS_EQUAL MORE MORE_EQUAL")),
+        ("`and` or `or`", "AND OR", _set("AND OR IMPLIES") | operators),
+        ("an operator such as `+`", "PLUS STAR", operators),
+        ("a name with its `:`", "LABEL", _set("LABEL")),
+        ("a number", "NUMBER", _set("NUMBER MINUS")),
+        ("a quantity", "QUANTITY", _set("QUANTITY")),
+        ('a text in `"`', "STRING", _set("STRING")),
+        ("an address such as `<http://example.org/lab#>`", "IRI", _set("IRI")),
+        ("the end of the file", END, _set(END)),
+    )
+    return tuple(Phrase(text, _set(signs), covers) for text, signs, covers in table)
+
+
+def _set(terminals: str) -> frozenset[str]:
+    return frozenset(terminals.split())
+
+
+def described(terminals: Iterable[str]) -> str:
+    """Return what `terminals` are to an author: `a value, a relation or `}``."""
+    left = set(terminals)
+    phrases = []
+    for phrase in _phrases():
+        if phrase.signs <= left:
+            phrases.append(phrase.text)
+            left -= phrase.covers
+    phrases += sorted(f"`{words()[terminal]}`" for terminal in left if terminal in words())
+    *others, last = phrases or ["nothing more"]
+    return f"{', '.join(others)} or {last}" if others else last
+
+
+def shown(token: Token) -> str:
+    """Return what an author sees at `token`."""
+    if token.type == END:
+        return "the end of the file"
+    return f"`{token}`" if token else "a `}`"

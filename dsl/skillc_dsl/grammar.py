@@ -1,0 +1,83 @@
+"""The grammar as tables: what fits after what."""
+
+from __future__ import annotations
+
+import functools
+import re
+from collections.abc import Mapping, Sequence
+from importlib import resources
+
+from lark import Lark, Token
+from lark.parsers.lalr_analysis import Shift
+from lark.parsers.lalr_parser_state import ParseConf
+
+from skillc_dsl.units import UNITS
+
+END = "$END"
+DECLARATIONS = frozenset({"CLASS", "RELATION", "PROPERTY", "FUNCTION", "SKILL", "IMPL", "TASK"})
+
+
+def grammar_text() -> str:
+    """Return the grammar with the terminal UNIT made of the table of units, longest first."""
+    units = "|".join(re.escape(unit).replace("/", r"\/") for unit in sorted(UNITS, key=lambda u: (-len(u), u)))
+    return resources.files("skillc_dsl").joinpath("grammar.lark").read_text("utf-8") + f"UNIT: /({units})(?!\\w)/\n"
+
+
+@functools.cache
+def machine() -> Lark:
+    """Return the parser, made from the grammar on first use."""
+    return Lark(grammar_text(), parser="lalr", lexer="basic", keep_all_tokens=True, maybe_placeholders=False)
+
+
+@functools.cache
+def words() -> Mapping[str, str]:
+    """Return the text of each terminal that is always written in the same way."""
+    return {t.name: t.pattern.value for t in machine().terminals if t.pattern.type == "str"}
+
+
+@functools.cache
+def _tables() -> ParseConf[int]:
+    tables: ParseConf[int] = machine().parse_interactive("").parser_state.parse_conf
+    return tables
+
+
+def shifted(stack: Sequence[int], terminal: str) -> list[int] | None:
+    """Return the stack of parser states after `terminal`, or None where it does not fit."""
+    tables, result = _tables(), list(stack)
+    while True:
+        action, target = tables.states[result[-1]].get(terminal, (None, None))
+        if action is None:
+            return None
+        if action is Shift:
+            return [*result, target]
+        if target.expansion:
+            del result[-len(target.expansion) :]
+        result.append(tables.states[result[-1]][target.origin.name][1])
+        if terminal == END and result[-1] == tables.end_state:
+            return result
+
+
+def fits(stack: Sequence[int], *terminals: str) -> bool:
+    """Whether all of `terminals`, one after the other, continue what led to `stack`."""
+    states: Sequence[int] | None = stack
+    for terminal in terminals:
+        states = None if states is None else shifted(states, terminal)
+    return states is not None
+
+
+def fitting(stack: Sequence[int]) -> frozenset[str]:
+    """Return every terminal that fits after what led to `stack`."""
+    return frozenset(t for t in _tables().states[stack[-1]] if (t.isupper() or t == END) and shifted(stack, t))
+
+
+def following(terminals: str) -> frozenset[str]:
+    """Return every terminal that fits after `terminals`, given with spaces between, at the start of a file."""
+    stack = [_tables().start_state]
+    for terminal in terminals.split():
+        stack = shifted(stack, terminal) or stack
+    return fitting(stack)
+
+
+def first_on_line(tokens: Sequence[Token], index: int) -> bool:
+    """Whether a line begins with the token at `index`."""
+    return index == 0 or tokens[index].line != tokens[index - 1].end_line

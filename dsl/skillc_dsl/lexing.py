@@ -1,0 +1,100 @@
+"""From text to tokens; whatever is no token is told and left out or mended."""
+
+from __future__ import annotations
+
+import re
+from types import MappingProxyType
+
+from lark import Token
+from lark.exceptions import UnexpectedCharacters
+from lark.lexer import LexerState
+
+from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
+from skillc_dsl.grammar import END, machine
+from skillc_dsl.source import Source, Span
+
+_HINTS = MappingProxyType(
+    {
+        ";": "a line needs no `;` at its end",
+        "'": 'text stands in double quotes: "like this"',
+        "&": "write `and`",
+        "|": "write `or`",
+        "!": "write `not`",
+        "^": "write a square as `m2`, or as a product",
+        "°": "write `deg`, as in `90 deg`",
+        "%": "write a fraction, such as 0.2",
+        "@": "names of individuals are written with their prefix, as in `lab:Board-1`",
+        "$": "parameters are read by their bare name",
+        "?": "parameters are read by their bare name",
+    }
+)
+_REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
+
+
+def decode(path: str, data: bytes) -> Source:
+    """Return the text of a file; bytes that are not UTF-8 become U+FFFD, which `tokens_of` reports as `encoding`."""
+    text = data.decode("utf-8-sig", errors="replace")
+    return Source(path, text.replace("\r\n", "\n"))
+
+
+def span_of(token: Token, path: str) -> Span:
+    """Return the place of a token."""
+    return Span(path, token.line or 1, token.column or 1, token.end_line or 1, token.end_column or 1)
+
+
+def tokens_of(source: Source) -> Outcome[tuple[Token, ...]]:
+    """Return the tokens of `source`, closed by an END token, without what could not be read."""
+    thread = machine().parse_interactive(source.text).lexer_thread
+    tokens: list[Token] = []
+    problems = list(_encoding(source))
+    while True:
+        try:
+            tokens.extend(thread.lexer.lex(thread.state, None))
+        except UnexpectedCharacters:
+            _skip(thread.state, source, tokens, problems)
+        else:
+            break
+    counter = thread.state.line_ctr
+    place = (counter.char_pos, counter.line, counter.column, counter.line, counter.column, counter.char_pos)
+    return Outcome((*tokens, Token(END, "", *place)), tuple(problems))
+
+
+def _skip(state: LexerState, source: Source, tokens: list[Token], problems: list[Diagnostic]) -> None:
+    """Move past what is no token: a text that does not end with its line, or a run of foreign characters."""
+    counter = state.line_ctr
+    start, line, column = counter.char_pos, counter.line, counter.column
+    pattern = r'"[^\n]*' if source.text[start] == '"' else re.escape(source.text[start]) + "+"
+    match = re.compile(pattern).match(source.text, start)
+    stretch = match.group().rstrip() if match else source.text[start]
+    span = Span(source.path, line, column, line, column + len(stretch))
+    if stretch.startswith('"'):
+        end = (line, span.end_column, start + len(stretch))
+        tokens.append(Token("STRING", f'{stretch}"', start, line, column, *end))
+        problems.append(_unterminated(span))
+    elif stretch[0] != _REPLACEMENT:
+        problems.append(_unknown_character(span, stretch))
+    counter.feed(Token("STRING", stretch), test_newline=False)
+
+
+def _unterminated(span: Span) -> Diagnostic:
+    end = Span(span.path, span.line, span.end_column, span.line, span.end_column)
+    help_ = "text stands between two double quotes on one line"
+    message = 'this text has no closing `"` on its line'
+    return Diagnostic("unterminated-string", span, message, help_, fix=Fix(end, '"', "close the text"))
+
+
+def _unknown_character(span: Span, stretch: str) -> Diagnostic:
+    shown = stretch if stretch.isprintable() else f"U+{ord(stretch[0]):04X}"
+    return Diagnostic("unknown-character", span, f"`{shown}` means nothing here", _HINTS.get(stretch[0], "delete it"))
+
+
+def _encoding(source: Source) -> tuple[Diagnostic, ...]:
+    """Report the first character that was not UTF-8 in the file."""
+    position = source.text.find(_REPLACEMENT)
+    if position < 0:
+        return ()
+    line = source.text.count("\n", 0, position) + 1
+    column = position - source.text.rfind("\n", 0, position)
+    count = source.text.count(_REPLACEMENT)
+    message = "the file is not UTF-8 here" + (f", nor at {count - 1} later places" if count > 1 else "")
+    return (Diagnostic("encoding", Span(source.path, line, column, line, column + 1), message, "save it as UTF-8"),)

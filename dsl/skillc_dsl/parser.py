@@ -1,0 +1,24 @@
+"""From the text of one file to its syntax tree."""
+
+from __future__ import annotations
+
+from skillc_dsl import syntax as s
+from skillc_dsl.braces import close_braces
+from skillc_dsl.building.declarations import Declarations
+from skillc_dsl.diagnostics import Outcome
+from skillc_dsl.lexing import tokens_of
+from skillc_dsl.recovery import Recovery
+from skillc_dsl.source import Source
+from skillc_dsl.spelling import mend
+
+
+def parse(source: Source) -> Outcome[s.File]:
+    """Return what could be understood of `source`, with the problems of the rest in the order of the text."""
+    lexed = tokens_of(source)
+    mended = mend(lexed.value, source.path)
+    closed = close_braces(mended.value, source.path)
+    recovery = Recovery(closed.value, source.path)
+    builder = Declarations(source)
+    file = builder.file(recovery.run())
+    problems = (*lexed.diagnostics, *mended.diagnostics, *closed.diagnostics, *recovery.problems, *builder.problems)
+    return Outcome(file, tuple(sorted(problems, key=lambda problem: problem.span)))

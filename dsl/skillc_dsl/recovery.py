@@ -1,0 +1,126 @@
+"""The parser's loop: it goes on after every fault, with what it understood so far."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lark import Token, Tree
+from lark.exceptions import UnexpectedToken
+from lark.parsers.lalr_parser_state import ParserState
+
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.expectations import described, shown
+from skillc_dsl.grammar import DECLARATIONS, END, first_on_line, fits, fitting, machine
+from skillc_dsl.lexing import span_of
+from skillc_dsl.repairs import Fault, repair
+
+_LISTS = ("__start_star", "__skill_star", "__impl_star", "__task_star", "___nodes_star")
+
+
+class Recovery:
+    """One run over the tokens of a file. `tokens` is a copy that repairs change."""
+
+    def __init__(self, tokens: Sequence[Token], path: str) -> None:
+        self.tokens = list(tokens)
+        self.path = path
+        self.problems: list[Diagnostic] = []
+        self._state: ParserState[int] = machine().parse_interactive("").parser_state
+
+    def run(self) -> Tree[Token]:
+        """Return the tree of everything understood."""
+        index, feed = 0, self._state.feed_token
+        while self.tokens[index].type != END or not fits(self._state.state_stack, END):
+            before = self._state.state_stack.copy()
+            try:
+                feed(self.tokens[index])
+                index += 1
+            except UnexpectedToken:
+                index = self._recover(before, index)
+        tree: Tree[Token] = feed(self.tokens[index], is_end=True)
+        return tree
+
+    def _recover(self, before: list[int], index: int) -> int:
+        """Report the fault at `index` and return the index to go on from."""
+        found = repair(Fault(self._state.state_stack, self.tokens, index, self.path))
+        if found is not None:
+            self._report(found.problem)
+            self.tokens[index : index + 1] = found.tokens
+            return index
+        self._report(self._misfit(before, index))
+        return self._resume(index)
+
+    def _report(self, problem: Diagnostic) -> None:
+        """Keep `problem` unless its line has one already: the later one would follow from the first."""
+        if all(problem.span.line != other.span.line for other in self.problems[-1:]):
+            self.problems.append(problem)
+
+    def _misfit(self, before: list[int], index: int) -> Diagnostic:
+        """Say what was found and what would fit; a member cut short is reported where it stops."""
+        token, expected = self.tokens[index], fitting(before)
+        span = span_of(token, self.path)
+        if token.type == "RBRACE" and END in expected:
+            return Diagnostic("unopened-brace", span, "this `}` closes nothing", "delete it, or add the `{` before it")
+        found = f"{shown(token)} does not fit here"
+        if index and not expected & {"RBRACE", END} and first_on_line(self.tokens, index):
+            last = self.tokens[index - 1]
+            span, found = span_of(last, self.path), f"something is missing after {shown(last)}"
+        return Diagnostic("syntax", span, f"{found}: expected {described(expected)}")
+
+    def _resume(self, index: int) -> int:
+        """Skip to a token that begins or ends a member, a node or a declaration, and drop what was left incomplete."""
+        depth = 0
+        for position in range(index, len(self.tokens)):
+            token = self.tokens[position]
+            begins = first_on_line(self.tokens, position)
+            if token.type == END or (token.type in DECLARATIONS and begins):
+                self._close(token.type)
+                return position
+            if depth == 0 and (begins or token.type == "RBRACE") and self._cut(position):
+                return position
+            depth = max(0, depth + (token.type == "LBRACE") - (token.type == "RBRACE"))
+        raise AssertionError("the last token is the end")
+
+    def _cut(self, position: int) -> bool:
+        """Drop the incomplete member if the tokens at `position` can follow those before it."""
+        following = [token.type for token in self.tokens[position : position + 2]]
+        level = self._level("RBRACE")
+        if level is None or not fits(self._state.state_stack[: level + 1], *following):
+            return False
+        self._drop(level)
+        return True
+
+    def _close(self, terminal: str) -> None:
+        """Close every declaration left open, so that `terminal` fits at the top of the file."""
+        outer = self._level(terminal) or 0
+        inner = self._level("RBRACE")
+        while inner is not None and inner > outer:
+            self._drop(inner)
+            self._state.feed_token(Token("RBRACE", "", None, *self._end()))
+            outer, inner = self._level(terminal) or 0, self._level("RBRACE")
+        self._drop(outer)
+
+    def _end(self) -> tuple[int, int, int, int]:
+        """Return the place where the last thing that was understood begins."""
+        last = self._state.value_stack[-1]
+        while isinstance(last, Tree):
+            last = last.children[-1]
+        return (last.end_line, last.end_column, last.end_line, last.end_column)
+
+    def _level(self, terminal: str) -> int | None:
+        """Return how much of the stack to keep so that `terminal` fits after a whole member or at the start."""
+        states, values = self._state.state_stack, self._state.value_stack
+        for level in range(len(values), -1, -1):
+            if (level == 0 or _is_list(values[level - 1])) and fits(states[: level + 1], terminal):
+                return level
+        return None
+
+    def _drop(self, level: int) -> None:
+        del self._state.state_stack[level + 1 :]
+        del self._state.value_stack[level:]
+
+
+def _is_list(value: object) -> bool:
+    """Whether `value` is a `{`, the members after it, or the `}` that closes them."""
+    if isinstance(value, Token):
+        return value.type in ("LBRACE", "RBRACE")
+    return isinstance(value, Tree) and value.data.startswith(_LISTS)

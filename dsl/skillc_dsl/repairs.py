@@ -1,0 +1,127 @@
+"""Slips that one token's change mends, so that the rest of the declaration is understood."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+from lark import Token
+
+from skillc_dsl.diagnostics import Diagnostic, Fix
+from skillc_dsl.grammar import DECLARATIONS, END, first_on_line, fits, fitting, words
+from skillc_dsl.lexing import span_of
+from skillc_dsl.source import Span
+from skillc_dsl.spelling import joined, missing_space
+
+_INSERTED = ("RPAR", "RSQB", "COMMA", "EQUAL", "OF", "DOTS", "LBRACE", "COLON", "LPAR", "IN", "SEQ", "PYTHON", "ARROW")
+_SWAPPED = {"EQUAL": "EQUALS", "EQUALS": "EQUAL"}
+_KEPT = DECLARATIONS | {"NAME", "QNAME", "LABEL", "LBRACE", "RBRACE", END}
+
+
+@dataclass(frozen=True, slots=True)
+class Repair:
+    """What is wrong, and the tokens that stand for the one at fault."""
+
+    problem: Diagnostic
+    tokens: tuple[Token, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """A token that does not fit after what led to the parser's `states`."""
+
+    states: Sequence[int]
+    tokens: Sequence[Token]
+    index: int
+    path: str
+
+    @property
+    def token(self) -> Token:
+        """The token that does not fit."""
+        return self.tokens[self.index]
+
+    @property
+    def span(self) -> Span:
+        """Where that token is."""
+        return span_of(self.token, self.path)
+
+    @property
+    def gap(self) -> Span:
+        """The place right after the token before."""
+        if self.index == 0:
+            return Span(self.path, 1, 1, 1, 1)
+        before = span_of(self.tokens[self.index - 1], self.path)
+        return Span(self.path, before.end_line, before.end_column, before.end_line, before.end_column)
+
+    def mended_by(self, *terminals: str, skip: int = 1) -> bool:
+        """Whether `terminals` in the place of the faulty token, and two tokens after it, fit."""
+        after = self.tokens[self.index + skip : self.index + skip + 2]
+        return fits(self.states, *terminals, *(token.type for token in after))
+
+
+def repair(fault: Fault) -> Repair | None:
+    """Return the first change of one token that lets the parser go on, None where none does."""
+    attempts: tuple[Callable[[Fault], Iterator[Repair]], ...] = (_label, _swapped, _keyword, _missing, _superfluous)
+    return next((found for attempt in attempts for found in attempt(fault)), None)
+
+
+def _label(fault: Fault) -> Iterator[Repair]:
+    """`arm:ArmDevice` and `arm ArmDevice` where a label belongs."""
+    token = fault.token
+    if token.type == "QNAME" and fault.mended_by("LABEL", "NAME"):
+        name, rest = token.split(":", 1)
+        column = (token.column or 1) + len(name) + 1
+        label = Token("LABEL", f"{name}:", token.start_pos, token.line, token.column, token.line, column, None)
+        value = Token("NAME", rest, None, token.line, column, token.line, token.end_column, token.end_pos)
+        yield Repair(missing_space(span_of(label, fault.path), rest), (label, value))
+    elif token.isidentifier() and fault.mended_by("LABEL"):
+        end = Span(fault.path, fault.span.line, fault.span.end_column, fault.span.line, fault.span.end_column)
+        problem = Diagnostic("syntax", fault.span, f"a `:` is missing after `{token}`", fix=Fix(end, ":", "insert it"))
+        yield Repair(problem, (joined("LABEL", token, token, f"{token}:"),))
+
+
+def _swapped(fault: Fault) -> Iterator[Repair]:
+    """`=` where values are compared, `==` where a value is given."""
+    right = _SWAPPED.get(fault.token.type)
+    if right and fault.mended_by(right):
+        text = words()[right]
+        role = "compares" if right == "EQUALS" else "gives a value"
+        fix = Fix(fault.span, text, f"write `{text}`")
+        problem = Diagnostic("syntax", fault.span, f"`{text}` {role}, not `{fault.token}`", fix=fix)
+        yield Repair(problem, (joined(right, fault.token, fault.token, text),))
+
+
+def _keyword(fault: Fault) -> Iterator[Repair]:
+    """A keyword with a slip of the pen."""
+    if fault.token.type != "NAME":
+        return
+    keywords = {words()[t]: t for t in fitting(fault.states) if words().get(t, "").isalpha()}
+    for near in difflib.get_close_matches(fault.token, sorted(keywords), n=3, cutoff=0.7):
+        if fault.mended_by(keywords[near]):
+            fix = Fix(fault.span, near, f"write `{near}`")
+            message = f"there is no keyword `{fault.token}` that fits here"
+            problem = Diagnostic("syntax", fault.span, message, f"did you mean `{near}`?", fix=fix)
+            yield Repair(problem, (joined(keywords[near], fault.token, fault.token, near),))
+
+
+def _missing(fault: Fault) -> Iterator[Repair]:
+    """A bracket, a comma, or a small word left out before the token at fault."""
+    for terminal in _INSERTED:
+        if fault.mended_by(terminal, skip=0):
+            text, gap = words()[terminal], fault.gap
+            before = fault.tokens[fault.index - 1] if fault.index else ""
+            padded = (
+                f" {text}" if terminal in ("EQUAL", "OF", "DOTS", "LBRACE", "IN", "SEQ", "PYTHON", "ARROW") else text
+            )
+            fix = Fix(gap, padded, f"insert `{text}`")
+            problem = Diagnostic("syntax", fault.span, f"a `{text}` is missing after `{before}`", fix=fix)
+            place = (None, gap.line, gap.column, gap.line, gap.column, None)
+            yield Repair(problem, (Token(terminal, text, *place), fault.token))
+
+
+def _superfluous(fault: Fault) -> Iterator[Repair]:
+    """A mark or a word too many on its line."""
+    if fault.token.type not in _KEPT and not first_on_line(fault.tokens, fault.index) and fault.mended_by():
+        fix = Fix(fault.span, "", "delete it")
+        yield Repair(Diagnostic("syntax", fault.span, f"`{fault.token}` is one too many here", fix=fix), ())

@@ -1,0 +1,98 @@
+"""Mistakes that show in neighbouring tokens, told and mended before the grammar sees them."""
+
+from __future__ import annotations
+
+from lark import Token
+
+from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
+from skillc_dsl.lexing import span_of
+from skillc_dsl.source import Span
+from skillc_dsl.units import UNITS, near_units
+
+
+def mend(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, ...]]:
+    """Return the tokens with units that exist and labels that read as labels."""
+    mended: list[Token] = []
+    problems: list[Diagnostic] = []
+    index = 0
+    while index < len(tokens):
+        count = _unit_length(tokens, index)
+        if count:
+            token, problem = _unit(tokens[index : index + count], path)
+        elif _is_split_label(tokens, index):
+            count = 2
+            token, problem = _label(tokens[index], tokens[index + 1], tokens[index + 2], path)
+        else:
+            count, token, problem = 1, tokens[index], None
+        mended.append(token)
+        problems += [problem] if problem else []
+        index += count
+    return Outcome(tuple(mended), tuple(problems))
+
+
+def joined(kind: str, first: Token, last: Token, text: str) -> Token:
+    """Return one token in the place of `first` to `last`."""
+    end = (last.end_line, last.end_column, last.end_pos)
+    return Token(kind, text, first.start_pos, first.line, first.column, *end)
+
+
+def _touch(left: Token, right: Token) -> bool:
+    return left.end_pos == right.start_pos
+
+
+def _unit_length(tokens: tuple[Token, ...], index: int) -> int:
+    """Return how many tokens from `index` make a number with an unknown unit, 0 where there is none.
+
+    `5 furlong`, `5 km/h`, and `5 N/mm`, which reads as the quantity `5 N` divided by `mm`.
+    """
+    first, second, third, fourth = (*tokens[index : index + 4], *(4 * [tokens[-1]]))[:4]
+    if first.type == "QUANTITY" and second.type == "SLASH" and _touch(first, second) and _touch(second, third):
+        return 3 if third.type == "NAME" and third in UNITS else 0
+    if first.type != "NUMBER" or second.type != "NAME" or first.line != second.line:
+        return 0
+    if third.type in ("LPAR", "LSQB"):
+        return 0
+    if third.type == "SLASH" and fourth.type == "NAME" and _touch(second, third) and _touch(third, fourth):
+        return 4
+    return 2
+
+
+def _unit(tokens: tuple[Token, ...], path: str) -> tuple[Token, Diagnostic]:
+    """Return the likeliest quantity, or the bare number where no unit is like what was written."""
+    first, last = tokens[0], tokens[-1]
+    digits = first.rstrip("/ \t" + "".join(c for c in first if c.isalpha())) if first.type == "QUANTITY" else first
+    wrong = (first[len(digits) :] + "".join(tokens[1:])).strip()
+    start = span_of(tokens[1], path) if first.type == "NUMBER" else span_of(first, path)
+    span = start.to(span_of(last, path))
+    near = near_units(wrong)
+    listed = " or ".join(f"`{unit}`" for unit in near) if near else ", ".join(f"`{unit}`" for unit in UNITS)
+    help_ = f"did you mean {listed}?" if near else f"the units are {listed}"
+    problem = Diagnostic("unknown-unit", span, f"there is no unit `{wrong}`", help_)
+    if near:
+        return joined("QUANTITY", first, last, f"{digits} {near[0]}"), problem
+    return joined("NUMBER", first, last, str(digits)), problem
+
+
+def _is_split_label(tokens: tuple[Token, ...], index: int) -> bool:
+    """Whether a word and a `:` that is no label stand here, as in `speed:0.5 m/s` or `arm : ArmDevice`."""
+    if index + 2 >= len(tokens) or tokens[index + 1].type != "COLON":
+        return False
+    return tokens[index].isidentifier() and tokens[index].line == tokens[index + 1].line
+
+
+def _label(word: Token, colon: Token, value: Token, path: str) -> tuple[Token, Diagnostic]:
+    label = joined("LABEL", word, colon, f"{word}:")
+    before, after = span_of(word, path), span_of(colon, path)
+    if _touch(word, colon):
+        return label, missing_space(before.to(after), value)
+    gap = Span(path, before.end_line, before.end_column, after.line, after.column)
+    fix = Fix(gap, "", "delete the space")
+    return label, Diagnostic("syntax", gap.to(after), f"the `:` stands right after `{word}`", f"`{word}:`", fix=fix)
+
+
+def missing_space(label: Span, value: str) -> Diagnostic:
+    """Report that `value` follows a label's `:` without a space."""
+    end = Span(label.path, label.end_line, label.end_column, label.end_line, label.end_column)
+    message = f"a space is missing between `:` and `{value}`"
+    help_ = "without it, `a:b` reads as the name `b` of the vocabulary `a`"
+    return Diagnostic("missing-space-after-colon", label, message, help_, fix=Fix(end, " ", "insert a space"))
