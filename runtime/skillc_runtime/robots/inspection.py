@@ -1,0 +1,13 @@
+"""The seam to what looks at surfaces."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+
+class Camera(Protocol):
+    """Looks at surfaces."""
+
+    def inspect(self, surface: str) -> float:
+        """Return the share of a surface, given by IRI, that is clean; KeyError for a surface that is not there."""
+        ...

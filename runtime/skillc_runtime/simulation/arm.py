@@ -1,0 +1,186 @@
+"""An arm in the simulation: what it measures, how it takes commands, what it carries."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.robots.arm import ArmLimits, ArmState, Command, JointPosition, Torque
+from skillc_runtime.simulation.facts import ArmFacts
+from skillc_runtime.simulation.names import part
+from skillc_runtime.simulation.wrist import Wrist
+
+MASS_MATRIX_PERIOD_S = 0.01
+"""The mass matrix changes slowly; it is computed anew at 100 Hz."""
+
+
+@dataclass(frozen=True, slots=True)
+class Payload:
+    """What the arm believes to carry beside its gripper: mass kg, centre of mass (3,) m in the last link's frame."""
+
+    mass_kg: float
+    centre: Array
+
+
+NO_PAYLOAD = Payload(0.0, np.zeros(3))
+
+
+class SimulatedArm:
+    """One arm of a simulated cell, implementing `Arm`.
+
+    Reads what `mj_step1` left in `data`, so it is called between `mj_step1` and `mj_step2`. The Jacobian and the mass
+    matrix in a state are this object's buffers: valid until the next call of `state`.
+    """
+
+    def __init__(
+        self, facts: ArmFacts, name: str, gripper: str | None, model: Any, data: Any, steps_per_command: int = 1
+    ) -> None:
+        self._model, self._data, self._interface = model, data, facts.interface
+        joints = [j for j in range(model.njnt) if model.joint(j).name.startswith(part(name, ""))]
+        first, count = int(model.jnt_dofadr[joints[0]]), len(joints)
+        q_first = int(model.jnt_qposadr[joints[0]])
+        actuator = next(a for a in range(model.nu) if model.actuator_trnid[a, 0] == joints[0])
+        self._dofs = slice(first, first + count)
+        self._q, self._dq = data.qpos[q_first : q_first + count], data.qvel[self._dofs]
+        self._bias, self._feedforward = data.qfrc_bias[self._dofs], data.qfrc_applied[self._dofs]
+        self._control = data.ctrl[actuator : actuator + count]
+        self._base = _root_body(model, model.jnt_bodyid[joints[0]], part(name, ""))
+        self._link = int(model.site_bodyid[model.site(part(name, "flange")).id])
+        self._base_position, self._base_rotation = data.xpos[self._base], data.xmat[self._base].reshape(3, 3)
+        self._link_position, self._link_rotation = data.xpos[self._link], data.xmat[self._link].reshape(3, 3)
+        self.limits = _limits(model, joints, actuator, facts)
+        self.fixed_tool = _fixed_tool(model, name, gripper)
+        self._tool, self.payload = self.fixed_tool, NO_PAYLOAD
+        self._position_jacobian, self._rotation_jacobian = np.zeros((3, model.nv)), np.zeros((3, model.nv))
+        self._jacobian, self._mass = np.zeros((6, count)), np.zeros((count, count))
+        self._full_mass, self._next_mass_time = np.zeros((model.nv, model.nv)), 0.0
+        self._payload_jacobian = np.zeros((3, model.nv))
+        self._wrist = (
+            Wrist(model, data, gripper, facts.sheet.number("forceTorqueTime")) if _felt(facts, gripper) else None
+        )
+        self._still = np.zeros(6)
+        self._increment, self._steps_left, self._steps_per_command = np.zeros(count), 0, steps_per_command
+        self._q[:] = facts.home
+        if self._interface == "position":
+            self._control[:] = facts.home
+
+    @property
+    def interface(self) -> Literal["torque", "position"]:
+        """Which command the arm takes."""
+        return self._interface
+
+    @property
+    def base(self) -> Pose:
+        """The arm's base in the world."""
+        return Pose(self._base_position.copy(), self._base_rotation.copy())
+
+    @property
+    def payload_weight(self) -> Array:
+        """What the payload's weight asks of the joints, (nv,) N m; zeros without payload."""
+        if self.payload.mass_kg == 0.0:
+            return np.zeros_like(self._bias)
+        point = self._link_position + self._link_rotation @ self.payload.centre
+        mujoco.mj_jac(self._model, self._data, self._payload_jacobian, None, point, self._link)
+        weight = -self.payload.mass_kg * self._model.opt.gravity
+        return np.asarray(weight @ self._payload_jacobian[:, self._dofs])
+
+    def state(self) -> ArmState:
+        """Return the present state, in the arm's base frame."""
+        turn = self._base_rotation.T
+        point = self._link_position + self._link_rotation @ self._tool.position
+        mujoco.mj_jac(self._model, self._data, self._position_jacobian, self._rotation_jacobian, point, self._link)
+        np.matmul(turn, self._position_jacobian[:, self._dofs], out=self._jacobian[:3])
+        np.matmul(turn, self._rotation_jacobian[:, self._dofs], out=self._jacobian[3:])
+        if self._data.time >= self._next_mass_time:
+            self._update_mass_matrix()
+        return ArmState(
+            q=self._q.copy(),
+            dq=self._dq.copy(),
+            tool=Pose(turn @ (point - self._base_position), turn @ self._link_rotation @ self._tool.rotation),
+            jacobian=self._jacobian,
+            mass_matrix=self._mass,
+            bias=self._bias + self.payload_weight,
+            wrench=self._still if self._wrist is None else self._wrist.external(point, turn, self.payload_at()),
+        )
+
+    def payload_at(self) -> tuple[float, Array]:
+        """Return the payload's mass in kg and its centre of mass (3,) m in the world."""
+        return self.payload.mass_kg, self._link_position + self._link_rotation @ self.payload.centre
+
+    def command(self, command: Command) -> None:
+        """Take a command for the next step; TypeError for a kind the interface does not take."""
+        match command, self._interface:
+            case Torque(tau=tau), "torque":
+                self._control[:] = tau
+            case JointPosition(q=q), "position":
+                self._increment = (q - self._control) / self._steps_per_command
+                self._steps_left = self._steps_per_command
+            case _:
+                raise TypeError(f"a {self._interface} controlled arm takes no {type(command).__name__}")
+
+    def before_step(self) -> None:
+        """Do what a position-controlled arm does itself: move its servos' targets evenly over the control period, and
+        compensate its weight, Coriolis forces and configured payload.
+        """
+        if self._interface == "position":
+            np.add(self._bias, self.payload_weight, out=self._feedforward)
+            if self._steps_left > 0:
+                self._control += self._increment
+                self._steps_left -= 1
+
+    def after_step(self) -> None:
+        """Filter the wrist sensor; to be called once a step."""
+        if self._wrist is not None:
+            self._wrist.sample()
+
+    def carry(self, payload: Payload, tool_in_fixed: Pose) -> None:
+        """Configure what the gripper holds: its weight, and the tool centre point relative to the gripper's own."""
+        self.payload, self._tool = payload, self.fixed_tool @ tool_in_fixed
+        self._next_mass_time = 0.0
+
+    def carry_nothing(self) -> None:
+        """Configure the empty gripper."""
+        self.payload, self._tool = NO_PAYLOAD, self.fixed_tool
+        self._next_mass_time = 0.0
+
+    def _update_mass_matrix(self) -> None:
+        mujoco.mj_fullM(self._model, self._data, self._full_mass)
+        self._mass[:] = self._full_mass[self._dofs, self._dofs]
+        mass, point = self.payload_at()
+        if mass > 0.0:
+            mujoco.mj_jac(self._model, self._data, self._payload_jacobian, None, point, self._link)
+            jacobian = self._payload_jacobian[:, self._dofs]
+            self._mass += mass * jacobian.T @ jacobian
+        self._next_mass_time = self._data.time + MASS_MATRIX_PERIOD_S - 1e-9
+
+
+def _felt(facts: ArmFacts, gripper: str | None) -> bool:
+    return facts.force_torque and gripper is not None
+
+
+def _root_body(model: Any, body: int, prefix: str) -> int:
+    """Return the outermost body of the arm that `body` belongs to."""
+    while model.body(model.body_parentid[body]).name.startswith(prefix):
+        body = int(model.body_parentid[body])
+    return int(body)
+
+
+def _fixed_tool(model: Any, name: str, gripper: str | None) -> Pose:
+    """Return the gripper's own tool centre point, or the flange of an arm without gripper, in the last link's frame."""
+    flange = model.site(part(name, "flange"))
+    in_link = Pose.of(flange.pos, flange.quat)
+    if gripper is None:
+        return in_link
+    tcp = model.site(part(gripper, "tcp"))
+    return in_link @ Pose.of(tcp.pos, tcp.quat)
+
+
+def _limits(model: Any, joints: list[int], actuator: int, facts: ArmFacts) -> ArmLimits:
+    span = slice(actuator, actuator + len(joints))
+    force, control = model.actuator_forcerange[span, 1], model.actuator_ctrlrange[span, 1]
+    effort = force if facts.interface == "position" else control
+    return ArmLimits(model.jnt_range[joints].copy(), facts.sheet.numbers("jointSpeeds"), effort.copy())

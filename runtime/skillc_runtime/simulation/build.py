@@ -1,0 +1,98 @@
+"""From the facts of a scene to a MuJoCo model: places, devices, contacts, sensors."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.motion.pose import Array, Pose, quaternion_of
+from skillc_runtime.simulation.devices import add_arm, add_tool
+from skillc_runtime.simulation.facts import BaseFacts, SceneFacts
+from skillc_runtime.simulation.names import base_body, box_geom, part, weld
+from skillc_runtime.simulation.variation import Variation
+
+CARRIES, WORKS = 1, 2
+"""Contact bits of what carries tools and of what works on surfaces; handles and finger pads have 4 and 8."""
+
+FURNITURE_FRICTION = 0.6
+"""Wood against felt; it only keeps a tool where it lies."""
+
+WELD_SOLREF = (0.004, 1.0)
+WELD_SOLIMP = (0.99, 0.999, 0.0005, 0.5, 2.0)
+"""A grasp as stiff as a 1 ms step allows: a few micrometres at 20 N."""
+
+WOOD, BOARD, STEEL = (0.62, 0.52, 0.4, 1.0), (0.93, 0.94, 0.95, 1.0), (0.4, 0.43, 0.47, 1.0)
+
+
+def build(scene: SceneFacts, variation: Variation, timestep_s: float = 0.001) -> mujoco.MjModel:
+    """Build the model of a scene as it really is.
+
+    ValueError when a data sheet's model lacks a part that the simulation needs.
+    """
+    spec = _empty(timestep_s)
+    for piece in scene.furniture:
+        _add_box(spec, scene.names[piece.individual], piece.pose, piece.size, FURNITURE_FRICTION, WOOD)
+    for surface in scene.surfaces:
+        true = variation.of(surface.individual)
+        pose = true.true_pose(surface.pose)
+        _add_box(spec, scene.names[surface.individual], pose, surface.size, true.friction, BOARD)
+    mounts = {base.individual: _add_base(spec, scene, base) for base in scene.bases}
+    for arm in scene.arms:
+        body, frame = mounts.get(arm.robot or "", (spec.worldbody, Pose(np.zeros(3), np.eye(3))))
+        add_arm(spec, scene.names, arm, body, frame.inverse() @ arm.base)
+    for tool in scene.tools:
+        add_tool(spec, scene.names, tool)
+    _add_welds(spec, scene)
+    return spec.compile()
+
+
+def _empty(timestep_s: float) -> Any:
+    spec = mujoco.MjSpec()
+    spec.option.timestep = timestep_s
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    spec.visual.global_.offwidth, spec.visual.global_.offheight = 1280, 720
+    spec.visual.headlight.ambient = [0.4, 0.4, 0.4]
+    spec.worldbody.add_light(pos=[1.0, -2.0, 4.0], dir=[-0.2, 0.4, -1.0])
+    floor = spec.worldbody.add_geom(name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[10.0, 10.0, 0.1])
+    floor.rgba = [0.82, 0.84, 0.86, 1.0]
+    _carry(floor, FURNITURE_FRICTION)
+    return spec
+
+
+def _carry(geom: Any, friction: float) -> None:
+    """Let tools touch the geom: their own softness counts (solmix 0), the geom's friction is the greater."""
+    geom.contype, geom.conaffinity = CARRIES, WORKS
+    geom.friction = [friction, 0.005, 0.0001]
+    geom.solmix = 0.0
+
+
+def _add_box(spec: Any, name: str, top: Pose, size: Array, friction: float, rgba: tuple[float, ...]) -> None:
+    """Add a fixed box whose top's middle is at `top`."""
+    body = spec.worldbody.add_body(name=name, pos=top.position, quat=quaternion_of(top.rotation))
+    geom = body.add_geom(name=box_geom(name), type=mujoco.mjtGeom.mjGEOM_BOX, size=size / 2)
+    geom.pos, geom.rgba = [0.0, 0.0, -size[2] / 2], list(rgba)
+    _carry(geom, friction)
+
+
+def _add_base(spec: Any, scene: SceneFacts, base: BaseFacts) -> tuple[Any, Pose]:
+    """Add a mobile base, moved as a whole from outside; its frame lies on the floor in its middle."""
+    name = base_body(scene.names[base.individual])
+    body = spec.worldbody.add_body(name=name, mocap=True)
+    body.pos, body.quat = base.pose.position, quaternion_of(base.pose.rotation)
+    geom = body.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=base.size / 2, contype=0, conaffinity=0)
+    geom.pos, geom.rgba = [0.0, 0.0, base.size[2] / 2], list(STEEL)
+    return body, base.pose
+
+
+def _add_welds(spec: Any, scene: SceneFacts) -> None:
+    """Add an inactive weld for every gripper and tool; a grasp switches it on."""
+    for arm in scene.arms:
+        for tool in scene.tools if arm.gripper else ():
+            gripper_name, tool_name = scene.names[arm.gripper.individual], scene.names[tool.individual]
+            equality = spec.add_equality(name=weld(gripper_name, tool_name), type=mujoco.mjtEq.mjEQ_WELD)
+            equality.objtype = mujoco.mjtObj.mjOBJ_BODY
+            equality.name1, equality.name2 = part(gripper_name, "palm"), part(tool_name, "block")
+            equality.solref, equality.solimp, equality.active = WELD_SOLREF, WELD_SOLIMP, False

@@ -1,0 +1,145 @@
+"""A robot cell in simulation: devices, controllers and physics in one lock-step loop."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.robots.driver import ArmDriver
+from skillc_runtime.simulation.arm import SimulatedArm
+from skillc_runtime.simulation.base import SimulatedBase
+from skillc_runtime.simulation.build import build
+from skillc_runtime.simulation.coverage import CoverageMap
+from skillc_runtime.simulation.drivers import driver
+from skillc_runtime.simulation.facts import SceneFacts, read_scene
+from skillc_runtime.simulation.gripper import SimulatedGripper
+from skillc_runtime.simulation.inspection import SimulatedCamera
+from skillc_runtime.simulation.observer import ToolObserver
+from skillc_runtime.simulation.recorder import Recording
+from skillc_runtime.simulation.variation import Variation, draw
+from skillc_runtime.world.model import WorldModel
+
+
+class SimulatedCell:
+    """A cell built from the facts of a world model, implementing `Cell`; `variation` is how reality differs from them.
+
+    The same facts and the same seed give the same run, bit for bit. Between calls of `advance` all measurements are of
+    the present instant.
+    """
+
+    def __init__(self, world: WorldModel, seed: int = 0, timestep_s: float = 0.001, steps_per_command: int = 1) -> None:
+        """Build the cell; controllers run every `steps_per_command` steps.
+
+        SheetError, FrameError, KeyError or ValueError when facts are missing or contradict the models.
+        """
+        self._world = world
+        self.facts: SceneFacts = read_scene(world.snapshot())
+        self.variation: Variation = draw(self.facts.surfaces, seed)
+        self.model: Any = build(self.facts, self.variation, timestep_s)
+        self.data: Any = mujoco.MjData(self.model)
+        self._timestep, self._steps_per_command, self._step = timestep_s, steps_per_command, 0
+        self.arms, self._hands = self._make_arms()
+        self._grippers = {a.gripper.individual: self._hands[a.individual] for a in self.facts.arms if a.gripper}
+        names, facts = self.facts.names, self.facts
+        self._bases = {b.individual: SimulatedBase(b, names[b.individual], self.model, self.data) for b in facts.bases}
+        mujoco.mj_forward(self.model, self.data)
+        self._drivers = {a.individual: driver(a, self.arms[a.individual], self.period_s) for a in facts.arms}
+        self.coverage = {
+            s.individual: CoverageMap(self.variation.of(s.individual).true_pose(s.pose), s.size[:2])
+            for s in facts.surfaces
+        }
+        self._observers = {
+            t.individual: ToolObserver(t, names[t.individual], self.model, self.data, self.coverage)
+            for t in facts.tools
+        }
+        self._camera = SimulatedCamera(self.coverage)
+        self.marks: list[tuple[float, str]] = []
+
+    @property
+    def now(self) -> float:
+        """Simulated seconds since the cell started."""
+        return float(self.data.time)
+
+    @property
+    def period_s(self) -> float:
+        """The control period."""
+        return self._timestep * self._steps_per_command
+
+    @property
+    def world(self) -> WorldModel:
+        """The world model."""
+        return self._world
+
+    def arm(self, individual: str) -> ArmDriver:
+        """Return an arm's driver; KeyError where the cell has no such arm."""
+        return self._drivers[individual]
+
+    def gripper(self, individual: str) -> SimulatedGripper:
+        """Return a gripper; KeyError where the cell has no such gripper."""
+        return self._grippers[individual]
+
+    def base(self, individual: str) -> SimulatedBase:
+        """Return the mobile base of a robot; KeyError where it has none."""
+        return self._bases[individual]
+
+    def camera(self) -> SimulatedCamera:
+        """Return what inspects surfaces."""
+        return self._camera
+
+    def mark(self, name: str) -> None:
+        """Remember that something named begins or ends now."""
+        self.marks.append((self.now, name))
+
+    def recording(self, tool: str) -> Recording:
+        """Return what was recorded of a tool, by IRI, while it was held; KeyError where the cell has no such tool."""
+        return self._observers[tool].recorder.recording()
+
+    def advance(self, seconds: float) -> None:
+        """Let time pass: controllers, devices and physics, step by step. ControlFault when a controller gives up."""
+        for _ in range(round(seconds / self._timestep)):
+            self._advance_one()
+
+    def _advance_one(self) -> None:
+        now = self.data.time
+        if self._step % self._steps_per_command == 0:
+            for one in self._drivers.values():
+                one.step(now)
+        for gripper in self._grippers.values():
+            gripper.step(self._timestep)
+        for arm in self.arms.values():
+            arm.before_step()
+        mujoco.mj_step2(self.model, self.data)
+        for arm in self.arms.values():
+            arm.after_step()
+        self._observe(now)
+        for robot, base in self._bases.items():
+            motion = base.step(self._timestep)
+            if motion is not None:
+                self._carry_along(robot, motion)
+        mujoco.mj_step1(self.model, self.data)
+        self._step += 1
+
+    def _observe(self, now: float) -> None:
+        for arm, gripper in self._hands.items():
+            if gripper.holding is not None:
+                self._observers[gripper.holding].sample(now, self._drivers[arm].reference)
+
+    def _carry_along(self, robot: str, motion: Pose) -> None:
+        """Move what the arms of a driving robot hold along with it."""
+        for arm in self.facts.arms:
+            if arm.robot == robot and arm.individual in self._hands:
+                self._hands[arm.individual].follow(motion)
+
+    def _make_arms(self) -> tuple[dict[str, SimulatedArm], dict[str, SimulatedGripper]]:
+        """Return the arms, and the grippers by the arms that carry them."""
+        names, arms, hands = self.facts.names, {}, {}
+        for facts in self.facts.arms:
+            gripper = facts.gripper
+            palm = None if gripper is None else names[gripper.individual]
+            arm = SimulatedArm(facts, names[facts.individual], palm, self.model, self.data, self._steps_per_command)
+            arms[facts.individual] = arm
+            if gripper is not None:
+                hands[facts.individual] = SimulatedGripper(gripper, names, self.facts.tools, arm, self.model, self.data)
+        return arms, hands

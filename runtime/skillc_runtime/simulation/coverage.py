@@ -1,0 +1,66 @@
+"""Which parts of a surface were wiped: cells of 5 mm, wiped when their centre lay under a pressed tool."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from skillc_runtime.motion.pose import Array, Pose
+
+CELL_M = 0.005
+"""Edge of a cell."""
+
+PRESSED_N = 1.0
+"""Normal force above which a tool wipes."""
+
+NEAR_PLANE_M = 0.03
+"""How far from a surface's plane a pressed tool may be to work on it: a tilted tool's middle is a little off."""
+
+
+class CoverageMap:
+    """The contact time of every cell of one surface: `dose` (rows along y, columns along x) in s; 0 is unwiped.
+
+    `surface` is the true frame in the middle of the surface, `extent` (2,) its size in m.
+    """
+
+    def __init__(self, surface: Pose, extent: Array) -> None:
+        self._in_surface = surface.inverse()
+        self.x, self.y = _centres(float(extent[0])), _centres(float(extent[1]))
+        self.dose: NDArray[np.float64] = np.zeros((self.y.size, self.x.size))
+
+    @property
+    def fraction(self) -> float:
+        """The share of cells that were wiped."""
+        return float(np.count_nonzero(self.dose)) / self.dose.size
+
+    def add(self, position: Array, rotation: Array, tool: Array, seconds: float) -> None:
+        """Count the cells under a tool's working face for some seconds.
+
+        position (3,), rotation (3, 3): the middle of the face in the world, x and y along its edges; tool (2,): its size.
+        """
+        half = tool / 2
+        centre = self._in_surface.at(position)
+        axes = (self._in_surface.rotation @ rotation)[:2, :2]
+        reach = float(np.hypot(*half))
+        columns, rows = _window(self.x, centre[0], reach), _window(self.y, centre[1], reach)
+        dx, dy = self.x[columns] - centre[0], (self.y[rows] - centre[1])[:, None]
+        along = np.abs(axes[0, 0] * dx + axes[1, 0] * dy) <= half[0]
+        across = np.abs(axes[0, 1] * dx + axes[1, 1] * dy) <= half[1]
+        self.dose[rows, columns] += seconds * (along & across)
+
+    def near(self, position: Array, reach_m: float) -> bool:
+        """Whether a point of the world lies at this surface: over it or within `reach_m` of its edge, close to its plane."""
+        point = self._in_surface.at(position)
+        over = abs(point[0]) <= self.x[-1] + reach_m and abs(point[1]) <= self.y[-1] + reach_m
+        return bool(over and abs(point[2]) <= NEAR_PLANE_M)
+
+
+def _centres(length: float) -> Array:
+    """Return the middles of the cells along an edge in m, symmetric to 0; the cells fill the edge evenly."""
+    count = max(1, round(length / CELL_M))
+    return (np.arange(count) + 0.5) * (length / count) - length / 2
+
+
+def _window(centres: Array, middle: float, reach: float) -> slice:
+    first, last = np.searchsorted(centres, (middle - reach, middle + reach))
+    return slice(int(first), int(last))

@@ -1,0 +1,113 @@
+"""Adds arms with their grippers, and tools, to a model under construction, with the numbers of their data sheets."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.motion.pose import Pose, quaternion_of
+from skillc_runtime.simulation.facts import ArmFacts, GripperFacts, ToolFacts, working_face
+from skillc_runtime.simulation.names import face_sensor, part, wrist_sensor
+
+TOUCH_MARGIN_M = 0.01
+"""How far the zone of a tool's touch sensor reaches beyond its working geom, so that pressed-in contacts count."""
+
+
+def add_arm(spec: Any, names: Mapping[str, str], arm: ArmFacts, mount: Any, base: Pose) -> None:
+    """Attach an arm to the body `mount` at `base`, given in that body's frame, and its gripper to its flange."""
+    model = mujoco.MjSpec.from_file(str(arm.model))
+    _check_posture(model, names[arm.individual], arm)
+    for joint in model.joints:
+        joint.armature = arm.sheet.number("armature")
+    if arm.interface == "position":
+        _set_servos(model, arm)
+    frame = mount.add_frame(pos=base.position, quat=quaternion_of(base.rotation))
+    spec.attach(model, prefix=part(names[arm.individual], ""), frame=frame)
+    if arm.gripper is not None:
+        _add_gripper(spec, names, arm, arm.gripper)
+
+
+def add_tool(spec: Any, names: Mapping[str, str], tool: ToolFacts) -> None:
+    """Add a tool, free to move, with its mass, the foundation of its working face, and sensors of the truth."""
+    name, model = names[tool.individual], mujoco.MjSpec.from_file(str(tool.model))
+    _check_face(model, name, tool)
+    scale = tool.mass_kg / sum(body.mass for body in model.bodies)
+    for body in model.bodies[1:]:
+        body.mass, body.inertia = body.mass * scale, body.inertia * scale
+    _set_foundation(model, tool)
+    root = model.worldbody.first_body()
+    root.add_freejoint(name="free")
+    face = working_face(tool.size)
+    root.add_site(name="face", pos=face.position, quat=quaternion_of(face.rotation))
+    felt = model.geom("face")
+    felt.parent.add_site(
+        name="touch", type=mujoco.mjtGeom.mjGEOM_BOX, pos=felt.pos, size=felt.size + TOUCH_MARGIN_M, rgba=[0, 0, 0, 0]
+    )
+    frame = spec.worldbody.add_frame(pos=tool.pose.position, quat=quaternion_of(tool.pose.rotation))
+    spec.attach(model, prefix=part(name, ""), frame=frame)
+    _add_face_sensors(spec, name)
+
+
+def _set_servos(model: Any, arm: ArmFacts) -> None:
+    kp, kv = arm.sheet.number("servoStiffness"), arm.sheet.number("servoDamping")
+    for actuator in model.actuators:
+        actuator.gainprm[0], actuator.biasprm[1], actuator.biasprm[2] = kp, -kp, -kv
+
+
+def _check_posture(model: Any, name: str, arm: ArmFacts) -> None:
+    joints = len(model.joints)
+    if arm.home.shape != (joints,):
+        raise ValueError(f"the posture home of {name} has {arm.home.size} values; {arm.model.name} has {joints} joints")
+
+
+def _add_gripper(spec: Any, names: Mapping[str, str], arm: ArmFacts, gripper: GripperFacts) -> None:
+    name, model = names[gripper.individual], mujoco.MjSpec.from_file(str(gripper.model))
+    actuator = model.actuator("opening")
+    actuator.ctrlrange = [0.0, gripper.max_opening_m]
+    actuator.forcerange = [-gripper.max_force_n, gripper.max_force_n]
+    model.body("palm").add_site(name="wrist")
+    spec.attach(model, prefix=part(name, ""), site=spec.site(part(names[arm.individual], "flange")))
+    if arm.force_torque:
+        for quantity, kind in (("force", mujoco.mjtSensor.mjSENS_FORCE), ("torque", mujoco.mjtSensor.mjSENS_TORQUE)):
+            _add_sensor(spec, wrist_sensor(name, quantity), kind, part(name, "wrist"))
+
+
+def _check_face(model: Any, name: str, tool: ToolFacts) -> None:
+    face = model.geom("face")
+    if face is None or face.type != mujoco.mjtGeom.mjGEOM_BOX:
+        raise ValueError(f"the model {tool.model.name} of {name} has no box geom `face`")
+    modelled, believed = 2 * np.asarray(face.size[:2]), tool.size[:2]
+    if not np.allclose(modelled, believed, atol=1e-6):
+        raise ValueError(f"the face of {name} is {believed} m in the world model and {modelled} m in {tool.model.name}")
+
+
+def _set_foundation(model: Any, tool: ToolFacts) -> None:
+    """Set the springs under the working face, an elastic foundation: K_z = k, K_rx = k b^2/12, K_ry = k a^2/12.
+
+    a, b: extent of the face along x and y; the dampers follow in the same way.
+    """
+    stiffness, damping = tool.sheet.number("padStiffness"), tool.sheet.number("padDamping")
+    a, b = tool.size[:2]
+    for joint, lever in (("press", 1.0), ("tilt_x", b * b / 12), ("tilt_y", a * a / 12)):
+        found = model.joint(joint)
+        if found is None:
+            raise ValueError(f"the model {tool.model.name} has no joint `{joint}` under its working face")
+        found.stiffness[0], found.damping[0] = stiffness * lever, damping * lever
+
+
+def _add_face_sensors(spec: Any, name: str) -> None:
+    """Add, in this order: normal force on the face; position, quaternion and linear velocity of the face in the world."""
+    _add_sensor(spec, face_sensor(name, "touch"), mujoco.mjtSensor.mjSENS_TOUCH, part(name, "touch"))
+    for quantity, kind in (
+        ("position", mujoco.mjtSensor.mjSENS_FRAMEPOS),
+        ("quaternion", mujoco.mjtSensor.mjSENS_FRAMEQUAT),
+        ("velocity", mujoco.mjtSensor.mjSENS_FRAMELINVEL),
+    ):
+        _add_sensor(spec, face_sensor(name, quantity), kind, part(name, "face"))
+
+
+def _add_sensor(spec: Any, name: str, kind: Any, site: str) -> None:
+    spec.add_sensor(name=name, type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=site)

@@ -1,0 +1,15 @@
+"""Makes the driver of a simulated arm from what is known about it."""
+
+from __future__ import annotations
+
+from skillc_runtime.controllers.gains import gains
+from skillc_runtime.controllers.virtual_arm import virtual_model
+from skillc_runtime.robots.driver import ArmDriver
+from skillc_runtime.simulation.arm import SimulatedArm
+from skillc_runtime.simulation.facts import ArmFacts
+
+
+def driver(facts: ArmFacts, arm: SimulatedArm, period_s: float) -> ArmDriver:
+    """Return the driver of an arm with the controller that the facts name; SheetError, KeyError for what is unknown."""
+    chosen = gains(facts.controller, facts.sheet.number)
+    return ArmDriver(arm, virtual_model(facts.model), chosen, arm.limits, lambda: arm.base, period_s)

@@ -1,0 +1,208 @@
+"""What the simulation needs to know of a scene, read from the world model into typed values, once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from skillc_ontology.catalogue import model as model_path
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.simulation.sheet import Sheet, SheetError, number, sheet_of, text
+from skillc_runtime.simulation.terms import (
+    ARM_DEVICE,
+    COMPLIANT_CONTROLLER,
+    FORCE_TORQUE_SENSOR,
+    FURNITURE,
+    HAS_ARM,
+    HAS_GRIPPER,
+    HAS_SENSOR,
+    MOBILE_ROBOT,
+    POSITION_CONTROLLED_ARM,
+    SURFACE,
+    TOOL,
+    TORQUE_CONTROLLED_ARM,
+    WEIGHT,
+    WIPING,
+)
+from skillc_runtime.world.frames import pose, size
+from skillc_runtime.world.state import WorldState
+
+
+@dataclass(frozen=True, slots=True)
+class GripperFacts:
+    """A gripper: its model, greatest opening m, force N and finger speed m/s."""
+
+    individual: str
+    model: Path
+    max_opening_m: float
+    max_force_n: float
+    finger_speed_m_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class ArmFacts:
+    """An arm: its base in the world, home posture (nv,) rad, name of its compliant controller, and its sheet."""
+
+    individual: str
+    robot: str | None
+    base: Pose
+    model: Path
+    interface: Literal["torque", "position"]
+    home: Array
+    force_torque: bool
+    controller: str
+    gripper: GripperFacts | None
+    sheet: Sheet
+
+
+@dataclass(frozen=True, slots=True)
+class BaseFacts:
+    """A mobile base: where it stands, its size (3,) m, speed m/s, acceleration m/s^2, turn rate rad/s, rad/s^2."""
+
+    individual: str
+    pose: Pose
+    size: Array
+    speed: float
+    acceleration: float
+    turn_speed: float
+    turn_acceleration: float
+
+
+@dataclass(frozen=True, slots=True)
+class ToolFacts:
+    """A tool: the frame in the middle of its block in the world, size (3,) m of the block, mass kg, its sheet."""
+
+    individual: str
+    model: Path
+    pose: Pose
+    size: Array
+    mass_kg: float
+    sheet: Sheet
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceFacts:
+    """A surface as it is believed to be, and how far reality may differ: m along the normal, rad, friction."""
+
+    individual: str
+    pose: Pose
+    size: Array
+    friction: tuple[float, float]
+    offset_range_m: float
+    tilt_range_rad: float
+
+
+@dataclass(frozen=True, slots=True)
+class FurnitureFacts:
+    """A box that carries things: the middle of its top in the world, its size (3,) m."""
+
+    individual: str
+    pose: Pose
+    size: Array
+
+
+@dataclass(frozen=True, slots=True)
+class SceneFacts:
+    """Everything that is built, each kind in order of IRI; `names` are the short names for model, plots and messages."""
+
+    names: dict[str, str]
+    arms: tuple[ArmFacts, ...]
+    bases: tuple[BaseFacts, ...]
+    tools: tuple[ToolFacts, ...]
+    surfaces: tuple[SurfaceFacts, ...]
+    furniture: tuple[FurnitureFacts, ...]
+
+
+def read_scene(state: WorldState) -> SceneFacts:
+    """Read what a simulation needs; SheetError or FrameError name the fact that is missing."""
+    short = state.vocabulary.short
+    return SceneFacts(
+        names={individual: short(individual) for individual in sorted(state.individuals)},
+        arms=tuple(_arm(state, iri) for iri in sorted(state.instances(ARM_DEVICE))),
+        bases=tuple(_base(state, iri) for iri in sorted(state.instances(MOBILE_ROBOT))),
+        tools=tuple(_tool(state, iri) for iri in sorted(state.instances(TOOL))),
+        surfaces=tuple(_surface(state, iri) for iri in sorted(state.instances(SURFACE))),
+        furniture=tuple(
+            FurnitureFacts(iri, pose(state, iri), size(state, iri)) for iri in sorted(state.instances(FURNITURE))
+        ),
+    )
+
+
+def _arm(state: WorldState, arm: str) -> ArmFacts:
+    sheet = sheet_of(state, arm)
+    robots = sorted(state.subjects(HAS_ARM, arm))
+    sensors = state.objects(arm, HAS_SENSOR)
+    grippers = sorted(state.objects(arm, HAS_GRIPPER))
+    return ArmFacts(
+        individual=arm,
+        robot=robots[0] if robots else None,
+        base=pose(state, arm),
+        model=model_path(sheet.text("model")),
+        interface=_interface(state, arm),
+        home=sheet.posture("home"),
+        force_torque=any(state.is_a(sensor, FORCE_TORQUE_SENSOR) for sensor in sensors),
+        controller=text(state, arm, COMPLIANT_CONTROLLER),
+        gripper=_gripper(state, grippers[0]) if grippers else None,
+        sheet=sheet,
+    )
+
+
+def _interface(state: WorldState, arm: str) -> Literal["torque", "position"]:
+    if state.is_a(arm, TORQUE_CONTROLLED_ARM):
+        return "torque"
+    if state.is_a(arm, POSITION_CONTROLLED_ARM):
+        return "position"
+    raise SheetError(f"{state.vocabulary.short(arm)} is neither a torque-controlled nor a position-controlled arm")
+
+
+def _gripper(state: WorldState, gripper: str) -> GripperFacts:
+    sheet = sheet_of(state, gripper)
+    return GripperFacts(
+        gripper,
+        model_path(sheet.text("model")),
+        sheet.number("maxOpening"),
+        sheet.number("maxForce"),
+        sheet.number("fingerSpeed"),
+    )
+
+
+def _base(state: WorldState, robot: str) -> BaseFacts:
+    sheet = sheet_of(state, robot)
+    limits = (sheet.number(name) for name in ("driveSpeed", "driveAcceleration", "turnSpeed", "turnAcceleration"))
+    return BaseFacts(robot, pose(state, robot), size(state, robot), *limits)
+
+
+def _tool(state: WorldState, tool: str) -> ToolFacts:
+    sheet = sheet_of(state, tool)
+    return ToolFacts(
+        individual=tool,
+        model=model_path(sheet.text("model")),
+        pose=pose(state, tool),
+        size=size(state, tool),
+        mass_kg=number(state, tool, WEIGHT),
+        sheet=sheet,
+    )
+
+
+def _surface(state: WorldState, surface: str) -> SurfaceFacts:
+    friction = number(state, surface, WIPING + "friction")
+    low, high = (state.value(surface, WIPING + name) for name in ("frictionLow", "frictionHigh"))
+    given = low is not None and high is not None
+    return SurfaceFacts(
+        individual=surface,
+        pose=pose(state, surface),
+        size=size(state, surface),
+        friction=(number(state, surface, WIPING + "frictionLow"), number(state, surface, WIPING + "frictionHigh"))
+        if given
+        else (friction, friction),
+        offset_range_m=number(state, surface, WIPING + "offsetRange", default=0.0),
+        tilt_range_rad=number(state, surface, WIPING + "tiltRange", default=0.0),
+    )
+
+
+def working_face(tool_size: Array) -> Pose:
+    """Return the tool centre point of a tool in its frame: in the middle of the working face, z out of the tool."""
+    return Pose(np.array([0.0, 0.0, -tool_size[2] / 2]), np.diag([1.0, -1.0, -1.0]))

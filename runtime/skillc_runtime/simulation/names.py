@@ -1,0 +1,33 @@
+"""How the parts of a simulated cell are called in its MuJoCo model: by the short names of their individuals."""
+
+from __future__ import annotations
+
+
+def part(device: str, name: str) -> str:
+    """Return the name of a part of a device's own model."""
+    return f"{device}/{name}"
+
+
+def base_body(robot: str) -> str:
+    """Return the name of a mobile base's body."""
+    return f"{robot}/base"
+
+
+def box_geom(individual: str) -> str:
+    """Return the name of the box of a surface or a piece of furniture."""
+    return f"{individual}/box"
+
+
+def weld(gripper: str, tool: str) -> str:
+    """Return the name of the equality that keeps a grasped tool in a gripper."""
+    return f"{gripper}/holds/{tool}"
+
+
+def wrist_sensor(gripper: str, quantity: str) -> str:
+    """Return the name of a gripper's wrist sensor for `force` or `torque`, and of its site for `site`."""
+    return f"{gripper}/wrist/{quantity}"
+
+
+def face_sensor(tool: str, quantity: str) -> str:
+    """Return the name of a sensor at a tool's working face, and of its site for `site`."""
+    return f"{tool}/face/{quantity}"

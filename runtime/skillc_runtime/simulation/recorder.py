@@ -1,0 +1,90 @@
+"""The recording of a run: what really happened at every simulation step, in arrays that grow by doubling."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.motion.reference import Reference
+
+COLUMNS = 18
+"""time; normal force; face position 3, quaternion 4, velocity 3; reference position 3, reference velocity 3."""
+
+
+@dataclass(frozen=True, slots=True)
+class Recording:
+    """A stretch of a run, one row a step, read-only. Truth from the simulator, in the world, SI units.
+
+    force (n,): N, normal force of all contacts of the tool's working face. position (n, 3), quaternion (n, 4), velocity
+    (n, 3): of the middle of that face, z out of the tool. reference, reference_velocity (n, 3): what the arm's controller
+    was asked for.
+    """
+
+    rows: Array
+
+    @property
+    def time(self) -> Array:
+        """Seconds since the cell started (n,)."""
+        return self.rows[:, 0]
+
+    @property
+    def force(self) -> Array:
+        """Normal force (n,) in N."""
+        return self.rows[:, 1]
+
+    @property
+    def position(self) -> Array:
+        """Position of the working face (n, 3) in m."""
+        return self.rows[:, 2:5]
+
+    @property
+    def quaternion(self) -> Array:
+        """Orientation of the working face (n, 4), w first."""
+        return self.rows[:, 5:9]
+
+    @property
+    def velocity(self) -> Array:
+        """Velocity of the working face (n, 3) in m/s."""
+        return self.rows[:, 9:12]
+
+    @property
+    def reference(self) -> Array:
+        """Position the controller was asked for (n, 3) in m."""
+        return self.rows[:, 12:15]
+
+    @property
+    def reference_velocity(self) -> Array:
+        """Velocity the controller was asked for (n, 3) in m/s."""
+        return self.rows[:, 15:18]
+
+    def between(self, start: float, end: float) -> Recording:
+        """Return the rows with start <= time < end."""
+        first, last = np.searchsorted(self.time, (start, end))
+        return Recording(self.rows[first:last])
+
+
+class Recorder:
+    """Takes one row a step for one tool."""
+
+    def __init__(self, truth: Array, expected_steps: int = 1 << 16) -> None:
+        """`truth` (11,) is the view of the tool's sensors: force, position 3, quaternion 4, velocity 3."""
+        self._truth = truth
+        self._rows = np.empty((expected_steps, COLUMNS))
+        self._count = 0
+
+    def sample(self, time: float, reference: Reference) -> None:
+        """Take the row of one step that began at `time` s; the reference is in the world."""
+        if self._count == len(self._rows):
+            self._rows = np.concatenate([self._rows, np.empty_like(self._rows)])
+        row = self._rows[self._count]
+        row[0], row[1:12] = time, self._truth
+        row[12:15], row[15:18] = reference.pose.position, reference.twist[:3]
+        self._count += 1
+
+    def recording(self) -> Recording:
+        """Return what was taken so far, as a read-only copy."""
+        rows = self._rows[: self._count].copy()
+        rows.flags.writeable = False
+        return Recording(rows)

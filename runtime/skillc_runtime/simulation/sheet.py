@@ -1,0 +1,87 @@
+"""The data sheet of a device, read from the facts about it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.simulation.terms import HAS_POSTURE, HAS_SHEET, JOINT_VALUES, POSTURE_NAME, SKILLC
+from skillc_runtime.world.state import WorldState
+
+
+class SheetError(ValueError):
+    """A fact that the simulation needs is missing or unreadable; the message says which, of what."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """A data sheet in one version of the world; names are those of the `skillc` vocabulary without prefix."""
+
+    state: WorldState
+    individual: str
+
+    def number(self, name: str) -> float:
+        """Return a number in SI units; SheetError when missing."""
+        return number(self.state, self.individual, SKILLC + name)
+
+    def text(self, name: str) -> str:
+        """Return a text; SheetError when missing."""
+        return text(self.state, self.individual, SKILLC + name)
+
+    def numbers(self, name: str) -> Array:
+        """Return numbers that are written in one text, separated by spaces; SheetError when missing or unreadable."""
+        return _numbers(self.text(name), f"skillc:{name} of {self._short(self.individual)}")
+
+    def posture(self, name: str) -> Array:
+        """Return the joint values (nv,) rad of a named posture; SheetError lists the names there are."""
+        names = {str(self.state.value(p, POSTURE_NAME)): p for p in self.postures}
+        if name not in names:
+            known = ", ".join(sorted(names)) or "none"
+            raise SheetError(f"{self._short(self.individual)} has no posture {name}; it has {known}")
+        values = self.state.value(names[name], JOINT_VALUES)
+        return _numbers(str(values), f"posture {name} of {self._short(self.individual)}")
+
+    @property
+    def postures(self) -> tuple[str, ...]:
+        """The individuals that describe postures."""
+        return tuple(sorted(self.state.objects(self.individual, HAS_POSTURE)))
+
+    def _short(self, individual: str) -> str:
+        return self.state.vocabulary.short(individual)
+
+
+def sheet_of(state: WorldState, individual: str) -> Sheet:
+    """Return the data sheet of a device; SheetError when it has none."""
+    sheets = sorted(state.objects(individual, HAS_SHEET))
+    if not sheets:
+        raise SheetError(f"{state.vocabulary.short(individual)} has no data sheet (skillc:hasSheet)")
+    return Sheet(state, sheets[0])
+
+
+def number(state: WorldState, individual: str, property_: str, default: float | None = None) -> float:
+    """Return a number in SI units of an individual; SheetError when missing and no default is given."""
+    found = state.value(individual, property_)
+    if isinstance(found, int | float):
+        return float(found)
+    if found is None and default is not None:
+        return default
+    short = state.vocabulary.short
+    raise SheetError(f"{short(individual)} has no number {short(property_)} in the world model")
+
+
+def text(state: WorldState, individual: str, property_: str) -> str:
+    """Return a text about an individual; SheetError when missing."""
+    found = state.value(individual, property_)
+    if isinstance(found, str):
+        return found
+    short = state.vocabulary.short
+    raise SheetError(f"{short(individual)} has no {short(property_)} in the world model")
+
+
+def _numbers(text: str, what: str) -> Array:
+    try:
+        return np.array([float(part) for part in text.split()])
+    except ValueError as error:
+        raise SheetError(f"{what} is not numbers separated by spaces: {text!r}") from error
