@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import atan2, cos, sin
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Pose:
-    """A frame in a parent frame: `position` (3,) in m, `rotation` (3, 3), columns are the frame's axes in the parent."""
+    """A frame in a parent frame: `position` (3,) in m, `rotation` (3, 3), its columns are the axes in the parent."""
 
     position: Array
     rotation: Array
@@ -78,7 +79,8 @@ def exp(rotation_vector: Array) -> Array:
     if angle < 1e-12:
         return np.eye(3) + skew(rotation_vector)
     axis = skew(rotation_vector / angle)
-    return np.eye(3) + np.sin(angle) * axis + (1 - np.cos(angle)) * (axis @ axis)
+    rotation: Array = np.eye(3) + sin(angle) * axis + (1 - cos(angle)) * (axis @ axis)
+    return rotation
 
 
 def log(rotation: Array) -> Array:
@@ -87,7 +89,7 @@ def log(rotation: Array) -> Array:
     sine = float(np.linalg.norm(q[1:]))
     if sine < 1e-12:
         return 2 * q[1:]
-    return 2 * np.arctan2(sine, q[0]) / sine * q[1:]
+    return np.asarray(2 * atan2(sine, q[0]) / sine * q[1:])
 
 
 def skew(v: Array) -> Array:

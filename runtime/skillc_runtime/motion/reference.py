@@ -14,7 +14,8 @@ from skillc_runtime.motion.pose import Array, Pose
 class Reference:
     """Where the tool centre point shall be and how it shall move; pose, twist and acceleration in one stated frame.
 
-    twist (6,): [linear m/s, angular rad/s]; acceleration (6,): [m/s^2, rad/s^2]; both along the axes of the pose's parent frame.
+    twist (6,): [linear m/s, angular rad/s]; acceleration (6,): [m/s^2, rad/s^2]; both along the axes of
+    the pose's parent frame.
     """
 
     pose: Pose
@@ -32,7 +33,7 @@ class Compliance:
     """How the tool yields and pushes, in the compliance frame C.
 
     C is the reference tool frame turned by `frame` (3, 3), so it follows the reference. stiffness (6,): N/m, N m/rad;
-    wrench (6,): N, N m that the robot exerts on the environment; damping_ratio: 1 is critical. All at the tool centre point.
+    wrench (6,): N, N m that the robot exerts on the environment; damping_ratio: 1 is critical. All at the tool centre.
     """
 
     stiffness: Array

@@ -1,0 +1,101 @@
+"""Cartesian impedance for torque-controlled arms: the tool is held by springs and dampers, and pushes open loop.
+
+F_C = -K sat(e) - D (J_C dq - nu_d) + W + Lam_C a_d;  tau = J_C^T F_C + tau_null + bias
+Albu-Schaeffer et al. 2003, Mayr and Salt-Ducaju 2022; with velocity and acceleration feed-forward. C: compliance frame.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from skillc_runtime.controllers.filters import Lag
+from skillc_runtime.controllers.gains import Gains, ImpedanceGains
+from skillc_runtime.controllers.limits import TorqueLimit
+from skillc_runtime.controllers.nullspace import Nullspace
+from skillc_runtime.controllers.task_error import TaskError
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.motion.reference import Compliance, Reference
+from skillc_runtime.robots.arm import ArmState, Torque
+
+INERTIA_PERIOD_S = 0.01
+"""Inertia and damping change slowly; they are computed this often."""
+
+LEAST_MOBILITY = 1e-3
+"""Added to the tool's inverse inertia, 1/kg and 1/(kg m^2): at a singularity the tool seems heavy, not immovable."""
+
+
+class Impedance:
+    """The law for one arm. All arrays are made once and reused."""
+
+    def __init__(self, gains: Gains, law: ImpedanceGains, limit: TorqueLimit, joints: int) -> None:
+        self._limit = limit
+        self._floor = np.repeat([law.damping_floor, law.rotational_damping_floor], 3)
+        self._task = TaskError(np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3))
+        self._damping = Lag(self._floor, gains.command_time)
+        self._nullspace = Nullspace(law.nullspace_stiffness, joints) if joints > 6 else None
+        self._age, self._tool = INERTIA_PERIOD_S, Pose.of((0, 0, 0))
+        self._inertia, self._jacobian = np.zeros((6, 6)), np.zeros((6, joints))
+        self._force, self._damped, self._pushed = np.zeros(6), np.zeros(6), np.zeros(6)
+        self._tau = np.zeros(joints)
+
+    @property
+    def tool(self) -> Pose:
+        """The measured tool centre point in base."""
+        return self._tool
+
+    @property
+    def contact_wrench(self) -> Array:
+        """An estimate (6,): the opposite of what springs, dampers and push exert; exact at constant speed."""
+        return -np.concatenate([self._task.axes @ self._damped[:3], self._task.axes @ self._damped[3:]])
+
+    def reset(self, state: ArmState, q: Array) -> None:
+        """Start from rest; `q` becomes the rest posture."""
+        self._tool = Pose(state.tool.position.copy(), state.tool.rotation.copy())
+        self._age = INERTIA_PERIOD_S
+        self._damping.value[:] = self._floor
+        if self._nullspace:
+            self._nullspace.rest[:] = q
+
+    def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Torque:
+        """Return the joint torques."""
+        task = self._task
+        self._tool = state.tool
+        task.update(state.tool, reference, compliance)
+        self._turn_jacobian(state.jacobian)
+        self._renew(state, compliance, period)
+        np.matmul(self._jacobian, state.dq, out=self._damped)
+        self._damped -= task.twist
+        self._damped *= self._damping.value
+        np.multiply(compliance.stiffness, task.error, out=self._pushed)
+        self._damped += self._pushed
+        np.subtract(compliance.wrench, self._damped, out=self._damped)
+        np.matmul(self._inertia, task.acceleration, out=self._force)
+        self._force += self._damped
+        np.matmul(self._force, self._jacobian, out=self._tau)
+        if self._nullspace:
+            self._tau += self._nullspace.torque(state)
+        return Torque(self._limit.step(self._tau, state, period))
+
+    def _turn_jacobian(self, jacobian: Array) -> None:
+        """J_C = blkdiag(R_C^T, R_C^T) J."""
+        np.matmul(self._task.axes.T, jacobian[:3], out=self._jacobian[:3])
+        np.matmul(self._task.axes.T, jacobian[3:], out=self._jacobian[3:])
+
+    def _renew(self, state: ArmState, compliance: Compliance, period: float) -> None:
+        """Lam_C = (J_C M^-1 J_C^T)^-1; D_i = 2 zeta sqrt(K_i Lam_C,ii), at least the floor."""
+        self._age += period
+        if self._age < INERTIA_PERIOD_S:
+            return
+        mobility = self._jacobian @ np.linalg.solve(state.mass_matrix, self._jacobian.T)
+        mobility[np.diag_indices(6)] += LEAST_MOBILITY
+        self._inertia[:] = np.linalg.inv(mobility)
+        damping = 2 * compliance.damping_ratio * np.sqrt(compliance.stiffness * self._inertia.diagonal())
+        self._damping.step(np.maximum(damping, self._floor), self._age)
+        self._age = 0.0
+
+
+def damping_rate(state: ArmState, damping: float, rotational_damping: float) -> float:
+    """Return the fastest decay in 1/s that dampers on all axes cause; above 2 / h explicit damping explodes."""
+    D = np.repeat([damping, rotational_damping], 3)
+    rates = np.linalg.eigvals(np.linalg.solve(state.mass_matrix, state.jacobian.T @ (D[:, None] * state.jacobian)))
+    return float(np.abs(rates).max())

@@ -1,0 +1,139 @@
+"""Where the tool shall be now: a trajectory, what is left of the motion before it, and overlays; all in one frame."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from skillc_runtime.motion.brake import brake
+from skillc_runtime.motion.overlays import Faded
+from skillc_runtime.motion.pose import Array, Pose, exp
+from skillc_runtime.motion.reference import Overlay, Reference, Trajectory, at_rest
+from skillc_runtime.motion.tempo import Tempo
+
+TURN_DECELERATION = 2.0
+"""rad/s^2 with which a turn is stopped."""
+
+
+class Guide:
+    """The reference of one tool. A motion starts where the one before it comes to rest; the two overlap without a jump.
+
+    Motion time starts with each motion, overlay time runs on; a pause slows both to a standstill.
+    """
+
+    def __init__(self, pose: Pose, deceleration: float) -> None:
+        """Hold a pose; motions that are given up stop with `deceleration` m/s^2."""
+        self._deceleration = deceleration
+        self._overlays: dict[int, tuple[Faded, Array]] = {}
+        self._next_handle = 0
+        self._beat = Tempo()
+        self.take_up(pose, np.zeros(6), 0.0)
+
+    def take_up(self, pose: Pose, twist: Array, now: float) -> None:
+        """Come to rest from a pose and a twist (6,), whatever was done before."""
+        self._tempo, self._beat = Tempo(since=now), self._beat.towards(1.0, now)
+        self._way, self._turn = brake(twist[:3], self._deceleration), brake(twist[3:], TURN_DECELERATION)
+        self._rest = at_rest(Pose(pose.position + self._way.way, exp(self._turn.way) @ pose.rotation))
+        self._trajectory: Trajectory | None = None
+        self._ends = max(self._way.duration, self._turn.duration)
+
+    def follow(self, trajectory: Trajectory, now: float) -> None:
+        """Follow a trajectory from now on; it must start at `anchor`, else ValueError."""
+        start, anchor = trajectory.at(0.0).pose, self.anchor(now)
+        far = float(np.abs(start.position - anchor.position).max())
+        if far > 1e-3 or np.abs(start.rotation - anchor.rotation).max() > 1e-2:
+            raise ValueError(
+                f"a motion must start where the last one ends; this one starts {far * 1e3:.1f} mm beside it"
+            )
+        self.stop(now)
+        self._trajectory = trajectory
+        self._ends = max(self._ends, trajectory.duration)
+        self._rest = at_rest(trajectory.at(trajectory.duration).pose)
+
+    def stop(self, now: float) -> None:
+        """Give up the trajectory and come to rest."""
+        motion = self._motion(now)
+        self.take_up(motion.pose, motion.twist, now)
+
+    def place(self, pose: Pose, along: Array, now: float) -> None:
+        """Jump to a pose, and come to rest there; of the present motion only what is along the axes (3, n) goes on.
+
+        For axes along which the tool does not follow its reference anyway. Overlays are not part of the pose.
+        """
+        twist = self._motion(now).twist.copy()
+        twist[:3] = along @ (along.T @ twist[:3])
+        self.take_up(pose, twist, now)
+
+    def present(self, now: float) -> Pose:
+        """Return where the reference is, overlays aside."""
+        return self._motion(now).pose
+
+    def anchor(self, now: float) -> Pose:
+        """Return where the reference, overlays aside, rests if it is stopped now: where a new motion must start."""
+        motion = self._motion(now)
+        way = brake(motion.twist[:3], self._deceleration).way
+        turn = brake(motion.twist[3:], TURN_DECELERATION).way
+        return Pose(motion.pose.position + way, exp(turn) @ motion.pose.rotation)
+
+    def done(self, now: float) -> bool:
+        """Tell whether the motion has run out and nothing is left of the one before it."""
+        return self._tempo.at(now)[0] >= self._ends
+
+    def pause(self, now: float) -> None:
+        """Slow down to a standstill where the motion leads."""
+        self._tempo, self._beat = self._tempo.towards(0.0, now), self._beat.towards(0.0, now)
+
+    def resume(self, now: float) -> None:
+        """Go on where `pause` stopped."""
+        self._tempo, self._beat = self._tempo.towards(1.0, now), self._beat.towards(1.0, now)
+
+    def add(self, overlay: Overlay, axes: Array, fade: float, now: float) -> int:
+        """Add an overlay along `axes` (3, 3), growing for `fade` s; return the handle by which to remove it."""
+        self._next_handle += 1
+        self._overlays[self._next_handle] = (Faded(overlay, self._beat.at(now)[0], fade), axes.copy())
+        return self._next_handle
+
+    def remove(self, handle: int, now: float) -> None:
+        """Let an overlay shrink to nothing; one that is gone already stays so."""
+        if handle in self._overlays:
+            faded, axes = self._overlays[handle]
+            self._overlays[handle] = (faded.ended(self._beat.at(now)[0]), axes)
+
+    def sample(self, now: float) -> Reference:
+        """Return the reference."""
+        motion = self._motion(now)
+        return self._overlaid(motion, now) if self._overlays else motion
+
+    def _motion(self, now: float) -> Reference:
+        time, rate, slope = self._tempo.at(now)
+        if time >= self._ends:
+            return self._rest
+        motion = self._trajectory.at(time) if self._trajectory else self._rest
+        if time < self._way.duration or time < self._turn.duration:
+            motion = self._braking(motion, time)
+        if rate == 1.0:
+            return motion
+        return Reference(motion.pose, rate * motion.twist, rate * rate * motion.acceleration + slope * motion.twist)
+
+    def _braking(self, motion: Reference, time: float) -> Reference:
+        """Add what is left of the motion before: r = offset + r_b, R = E R_b."""
+        offset, velocity, acceleration = self._way.at(time)
+        turn, spin, change = self._turn.at(time)
+        E = exp(turn)
+        turning = E @ motion.twist[3:]
+        angular = change + E @ motion.acceleration[3:] + np.cross(spin, turning)
+        return Reference(
+            Pose(motion.pose.position + offset, E @ motion.pose.rotation),
+            np.concatenate([motion.twist[:3] + velocity, turning + spin]),
+            np.concatenate([motion.acceleration[:3] + acceleration, angular]),
+        )
+
+    def _overlaid(self, motion: Reference, now: float) -> Reference:
+        time, rate, slope = self._beat.at(now)
+        position, twist, acceleration = motion.pose.position.copy(), motion.twist.copy(), motion.acceleration.copy()
+        for faded, axes in self._overlays.values():
+            o, v, a = faded.at(time)
+            position += axes @ o
+            twist[:3] += rate * (axes @ v)
+            acceleration[:3] += axes @ (rate * rate * a + slope * v)
+        self._overlays = {h: entry for h, entry in self._overlays.items() if not entry[0].gone(time)}
+        return Reference(Pose(position, motion.pose.rotation), twist, acceleration)

@@ -1,0 +1,68 @@
+"""Where the joints shall be now: a joint motion and what is left of the one before it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from skillc_runtime.motion.brake import brake
+from skillc_runtime.motion.joint import JointMotion, JointReference
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.motion.tempo import Tempo
+
+
+class JointGuide:
+    """The reference of one arm's joints; it stops with `deceleration` rad/s^2 of the fastest joint."""
+
+    def __init__(self, q: Array, dq: Array, deceleration: float, now: float) -> None:
+        """Come to rest from joint positions and speeds (nv,)."""
+        self._deceleration = deceleration
+        self._take_up(q, dq, now)
+
+    def _take_up(self, q: Array, dq: Array, now: float) -> None:
+        self._tempo = Tempo(since=now)
+        self._brake = brake(dq, self._deceleration)
+        self._rest = q + self._brake.way
+        self._motion: JointMotion | None = None
+        self._ends = self._brake.duration
+
+    def follow(self, motion: JointMotion, now: float) -> None:
+        """Follow a motion from now on; it must start at `anchor`, else ValueError."""
+        far = float(np.abs(motion.start - self.anchor(now)).max())
+        if far > 1e-3:
+            raise ValueError(f"a motion must start where the last one ends; this one starts {far:.3f} rad beside it")
+        self.stop(now)
+        self._motion = motion
+        self._ends = max(self._ends, motion.duration)
+
+    def stop(self, now: float) -> None:
+        """Give up the motion and come to rest."""
+        present = self.sample(now)
+        self._take_up(present.q, present.dq, now)
+
+    def anchor(self, now: float) -> Array:
+        """Return the joints (nv,) where the reference rests if it is stopped now."""
+        present = self.sample(now)
+        return present.q + brake(present.dq, self._deceleration).way
+
+    def done(self, now: float) -> bool:
+        """Tell whether the motion has run out and nothing is left of the one before it."""
+        return self._tempo.at(now)[0] >= self._ends
+
+    def pause(self, now: float) -> None:
+        """Slow down to a standstill where the motion leads."""
+        self._tempo = self._tempo.towards(0.0, now)
+
+    def resume(self, now: float) -> None:
+        """Go on where `pause` stopped."""
+        self._tempo = self._tempo.towards(1.0, now)
+
+    def sample(self, now: float) -> JointReference:
+        """Return the reference."""
+        time, rate, slope = self._tempo.at(now)
+        q, dq, ddq = self._brake.at(time)
+        if self._motion is None:
+            q = self._rest + q
+        else:
+            motion = self._motion.at(time)
+            q, dq, ddq = motion.q + q, motion.dq + dq, motion.ddq + ddq
+        return JointReference(q, rate * dq, rate * rate * ddq + slope * dq)

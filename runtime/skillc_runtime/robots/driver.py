@@ -1,0 +1,328 @@
+"""The heart of one arm: holds what it shall do and tells it how, once a control period.
+
+Primitives speak of the world; inside, all is in the arm's base frame, so that an arm on a driving base comes along.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.controllers.controller import ControlError
+from skillc_runtime.controllers.gains import Gains
+from skillc_runtime.controllers.virtual_arm import VirtualArm
+from skillc_runtime.motion.guide import Guide
+from skillc_runtime.motion.joint import joint_motion
+from skillc_runtime.motion.joint_guide import JointGuide
+from skillc_runtime.motion.moved import Moved, moved
+from skillc_runtime.motion.pose import Array, Pose, log
+from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
+from skillc_runtime.robots.arm import Arm, ArmLimits, ArmState, Command, JointPosition, Torque
+from skillc_runtime.robots.inverse import inverse
+from skillc_runtime.robots.laws import laws
+from skillc_runtime.robots.yielding import Yielding
+
+JOINT_RAMP_S = 0.5
+"""Seconds in which a joint motion reaches its full speed."""
+
+NEAR_M, NEAR_RAD, NEAR_JOINT_RAD = 0.005, 0.05, 0.02
+"""How far from its reference an arm may be to count as there; a pushing arm may be behind by friction besides."""
+
+TOOL_JUMP_M_S = 3.0
+"""No tool moves this fast; one that seems to was moved on the hand."""
+
+Observer: TypeAlias = Callable[[ArmState], None]
+"""Sees what was measured, in the arm's base frame, after every control period."""
+
+
+class ArmDriver:
+    """One arm, stepped every `period` s. Poses, directions and wrenches are in world axes, SI units.
+
+    A new motion starts where the one before it comes to rest (`anchor`), never at the measured pose.
+    """
+
+    def __init__(
+        self,
+        arm: Arm,
+        virtual: mujoco.MjModel,
+        gains: Gains,
+        limits: ArmLimits,
+        base: Callable[[], Pose],
+        period: float,
+    ) -> None:
+        """Hold the arm where it is. `virtual` is the arm's `virtual_model`; `base` tells where the arm stands."""
+        self.gains, self.limits = gains, limits
+        self.fault: str | None = None
+        self._arm, self._base, self._period = arm, base, period
+        self._state = arm.state()
+        self._laws = laws(gains, limits, virtual, self._state, period)
+        self._kinematics = VirtualArm(virtual)
+        self._yielding = Yielding(gains)
+        self._guide = Guide(self._state.tool, gains.acceleration_limit)
+        self._observers: tuple[Observer, ...] = ()
+        self._now = 0.0
+        self._joints: JointGuide | None = self._joint_guide(self._state.q, np.zeros_like(self._state.q))
+
+    # --- the control loop ---
+
+    def step(self, now: float) -> None:
+        """Do one control period at `now` s. ControlError when a measurement or a command is not a number."""
+        self._now = now
+        state = self._arm.state()
+        if not np.isfinite(state.q.sum() + state.dq.sum() + state.wrench.sum() + state.tool.position.sum()):
+            self._arm.command(self._holding())
+            raise ControlError("the arm reports something that is not a number")
+        self._take_in(state)
+        command = self._decide(state)
+        if not np.isfinite((command.tau if isinstance(command, Torque) else command.q).sum()):
+            self._arm.command(self._holding())
+            raise ControlError("the control law does not yield a number")
+        self._arm.command(command)
+        for observer in self._observers:
+            observer(state)
+
+    def _take_in(self, state: ArmState) -> None:
+        """Remember a state; a tool centre point that jumps was moved on the hand, say by taking hold of a tool."""
+        jumped = float(np.abs(state.tool.position - self._state.tool.position).max()) > TOOL_JUMP_M_S * self._period
+        self._state = state
+        if jumped and self._joints is None:
+            self._laws.tool.reset(state, self._laws.joints_now(state))
+            self._guide.take_up(self._laws.tool.tool, np.zeros(6), self._now)
+
+    def _decide(self, state: ArmState) -> Command:
+        compliance = self._yielding.step(self._period)
+        try:
+            if self._joints is not None:
+                return self._laws.joints.command(state, self._joints.sample(self._now), self._period)
+            reference = self._guide.sample(self._now)
+            return self._laws.tool.command(state, reference, compliance, self._period)
+        except ControlError as fault:
+            self._joints = self._joint_guide(state.q, np.zeros_like(state.q))
+            self.abort(str(fault))
+            return self._holding()
+
+    def _holding(self) -> Command:
+        """Return what keeps the arm where it was last known to be."""
+        if self._arm.interface == "torque":
+            return Torque(self._state.bias.copy())
+        return JointPosition(self._state.q.copy())
+
+    def watch(self, observer: Observer) -> None:
+        """Call the observer after every control period."""
+        self._observers = (*self._observers, observer)
+
+    def unwatch(self, observer: Observer) -> None:
+        """Call the observer no more."""
+        self._observers = tuple(each for each in self._observers if each != observer)
+
+    def abort(self, reason: str) -> None:
+        """Stop moving and pushing; whoever moves the arm finds the reason in `fault`."""
+        self.fault = reason
+        self.stop()
+        self._yielding.push_off()
+
+    # --- where the arm is ---
+
+    @property
+    def pose(self) -> Pose:
+        """The measured tool pose."""
+        return self._base() @ self._state.tool
+
+    @property
+    def velocity(self) -> Array:
+        """The measured twist (6,) of the tool, m/s and rad/s."""
+        return self._in_world(self._state.jacobian @ self._state.dq)
+
+    @property
+    def wrench(self) -> Array:
+        """What the environment does to the tool (6,), N and N m; measured at the wrist, else estimated by the law."""
+        return self._in_world(self.wrench_in_base)
+
+    @property
+    def wrench_in_base(self) -> Array:
+        """The same in the arm's base axes."""
+        return self._state.wrench if self._joints is not None else self._laws.tool.contact_wrench
+
+    @property
+    def q(self) -> Array:
+        """The measured joints (nv,) in rad."""
+        return self._state.q.copy()
+
+    @property
+    def reference(self) -> Reference:
+        """Where the tool shall be now."""
+        if self._joints is None:
+            return moved(self._guide.sample(self._now), self._base())
+        reference = self._joints.sample(self._now)
+        tool, jacobian = self._tool_at(reference.q)
+        return moved(Reference(tool, jacobian @ reference.dq, jacobian @ reference.ddq), self._base())
+
+    @property
+    def anchor(self) -> Pose:
+        """Where a new motion of the tool starts: where its reference rests when stopped now."""
+        self._move_tool()
+        return self._base() @ self._guide.anchor(self._now)
+
+    @property
+    def joint_anchor(self) -> Array:
+        """Where a new joint motion starts (nv,)."""
+        self._move_joints()
+        return self._joints.anchor(self._now) if self._joints else self.q
+
+    @property
+    def done(self) -> bool:
+        """Whether the reference rests."""
+        return (self._joints or self._guide).done(self._now)
+
+    @property
+    def behind(self) -> str | None:
+        """How far the arm is from its reference along what it is to hold; None when near enough."""
+        if self._joints is not None:
+            far = float(np.abs(self._joints.sample(self._now).q - self._state.q).max())
+            return f"a joint is {far:.3f} rad away from where it shall be" if far > NEAR_JOINT_RAD else None
+        reference, wanted = self._guide.sample(self._now).pose, self._yielding.wanted
+        C = reference.rotation @ wanted.frame
+        stiff = wanted.stiffness > 0
+        position = C.T @ (self._state.tool.position - reference.position) * stiff[:3]
+        rotation = C.T @ log(self._state.tool.rotation @ reference.rotation.T) * stiff[3:]
+        far, turned = float(np.linalg.norm(position)), float(np.linalg.norm(rotation))
+        near = NEAR_M + float(np.linalg.norm(wanted.force)) / self.gains.linear_stiffness
+        if far <= near and turned <= NEAR_RAD:
+            return None
+        return f"the tool is {far * 1e3:.0f} mm and {np.degrees(turned):.1f} deg away from where it shall be"
+
+    def at_joints(self, q: Array) -> bool:
+        """Tell whether the joints are measured to be at q (nv,)."""
+        return bool(np.abs(self._state.q - q).max() < NEAR_JOINT_RAD)
+
+    # --- moving ---
+
+    def move_along(self, trajectory: Trajectory) -> None:
+        """Move the tool along a trajectory, which must start at `anchor`; ValueError where it does not."""
+        self._move_tool()
+        self._guide.follow(Moved(trajectory, self._base().inverse()), self._now)
+
+    def move_joints(self, goal: Array, share: float) -> None:
+        """Move the joints to `goal` (nv,) with a share, above 0 to 1, of their greatest speeds."""
+        speed = share * self.limits.velocity
+        start = self.joint_anchor
+        assert self._joints is not None, "moving by joints"
+        self._joints.follow(joint_motion(start, goal, speed, speed / JOINT_RAMP_S), self._now)
+
+    def stop(self) -> None:
+        """Come to rest within the acceleration limit; compliance, push and overlays stay."""
+        (self._joints or self._guide).stop(self._now)
+
+    def hold_position(self) -> None:
+        """Come to rest and hold the tool, with springs on a compliant arm, from now on."""
+        self._move_tool()
+        self._guide.stop(self._now)
+
+    def pause(self) -> None:
+        """Slow down to a standstill on the way."""
+        (self._joints or self._guide).pause(self._now)
+
+    def resume(self) -> None:
+        """Go on where `pause` stopped."""
+        (self._joints or self._guide).resume(self._now)
+
+    def add_overlay(self, overlay: Overlay, axes: Array, fade: float) -> int:
+        """Add a motion along `axes` (3, 3) to whatever the tool does, growing for `fade` s; return its handle."""
+        self._move_tool()
+        return self._guide.add(overlay, self._base().rotation.T @ axes, fade, self._now)
+
+    def remove_overlay(self, handle: int) -> None:
+        """Let an overlay fade out."""
+        self._guide.remove(handle, self._now)
+
+    def inverse_kinematics(self, target: Pose, seed: Array) -> Array | None:
+        """Return joints (nv,) within limits that put the tool at a pose, near `seed` (nv,); None if there are none."""
+        self._kinematics.mount(self._state.q, self._state.tool)
+        return inverse(self._kinematics, self._base().inverse() @ target, seed, self.limits.range)
+
+    # --- yielding and pushing ---
+
+    def release(self, axis: Array, stiffness: float = 0.0) -> None:
+        """Let the tool yield along a unit direction (3,), fixed to the reference tool frame from now on.
+
+        Without a push the tool stays where it is; pushed with F it moves with about F / gains.release_damping.
+        Nested releases must be parallel or at right angles to the first, else ValueError.
+        """
+        self._move_tool()
+        self._yielding.release(self._in_tool(axis), stiffness)
+
+    def restore(self) -> None:
+        """Undo the last release: hold the tool, along what it has yielded, where it is now. Gives up a motion."""
+        reference, tool = self._guide.sample(self._now).pose, self._laws.tool.tool
+        away = tool.position - reference.position
+        regained = reference.rotation @ self._yielding.regained()
+        self._yielding.restore((reference.rotation @ self._yielding.wanted.frame).T @ away)
+        resting = self._guide.present(self._now)
+        place = Pose(resting.position + regained @ (regained.T @ away), resting.rotation)
+        self._guide.place(place, np.eye(3) - regained @ regained.T, self._now)
+
+    def yields_along(self, axis: Array) -> bool:
+        """Tell whether the tool was released along a direction (3,)."""
+        return self._joints is None and self._yielding.yields(self._in_tool(axis))
+
+    def push(self, axis: Array, force_n: float) -> None:
+        """Press against what lies opposite to `axis` (3,), along which the tool must yield; else ValueError."""
+        if not 0 <= force_n <= self.gains.force_limit:
+            raise ValueError(f"{force_n:g} N is beyond the {self.gains.force_limit:g} N that the arm may push with")
+        self._move_tool()
+        self._yielding.push(-self._in_tool(axis), force_n)
+
+    def push_off(self) -> None:
+        """Let the push fade."""
+        self._yielding.push_off()
+
+    def release_rotation(self) -> None:
+        """Let the tool turn about the two axes across the released one."""
+        self._move_tool()
+        self._yielding.turn_freely(True)
+
+    def restore_rotation(self) -> None:
+        """Hold the tool in the rotation that it has now. Gives up a motion."""
+        self._yielding.turn_freely(False)
+        resting = self._guide.present(self._now)
+        self._guide.place(Pose(resting.position, self._laws.tool.tool.rotation), np.eye(3), self._now)
+
+    # --- frames and modes ---
+
+    def in_base(self, direction: Array) -> Array:
+        """Return a direction (3,) of the world in the arm's base axes."""
+        return self._base().rotation.T @ direction
+
+    def _in_tool(self, direction: Array) -> Array:
+        """Return a direction (3,) of the world in the reference tool frame."""
+        return self._guide.present(self._now).rotation.T @ self.in_base(direction)
+
+    def _in_world(self, vector: Array) -> Array:
+        return (vector.reshape(2, 3) @ self._base().rotation.T).ravel()
+
+    def _tool_at(self, q: Array) -> tuple[Pose, Array]:
+        """Return the tool in base and the Jacobian (6, nv) at joints q."""
+        self._kinematics.mount(self._state.q, self._state.tool)
+        self._kinematics.move(q)
+        return self._kinematics.tool, self._kinematics.jacobian.copy()
+
+    def _move_tool(self) -> None:
+        """Hand over from joint to tool control: the tool goes on as the joints moved it."""
+        if self._joints is None:
+            return
+        reference = self._joints.sample(self._now)
+        tool, jacobian = self._tool_at(reference.q)
+        self._laws.tool.reset(self._state, reference.q)
+        self._guide.take_up(tool, jacobian @ reference.dq, self._now)
+        self._joints = None
+
+    def _move_joints(self) -> None:
+        """Hand over from tool to joint control: the joints go on as the tool moved them."""
+        if self._joints is None:
+            self._joints = self._joint_guide(self._laws.joints_now(self._state), self._state.dq)
+
+    def _joint_guide(self, q: Array, dq: Array) -> JointGuide:
+        return JointGuide(q, dq, float(self.limits.velocity.min()) / JOINT_RAMP_S, self._now)

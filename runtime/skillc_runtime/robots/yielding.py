@@ -1,0 +1,131 @@
+"""How an arm yields and pushes at the moment: what skills have set up, and what of it has reached the controller yet.
+
+Everything is along the axes of the compliance frame C, which is fixed in the reference tool frame while an axis is
+released; so it turns with the tool when the tool is aligned.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from skillc_runtime.controllers.filters import Lag
+from skillc_runtime.controllers.gains import Gains
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.motion.reference import Compliance
+
+PARALLEL = 0.99
+"""Cosine above which two directions count as one: about 8 degrees."""
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """What skills want: stiffness (6,) and pushing force (3,) along C's axes, C in the tool frame (3, 3)."""
+
+    stiffness: Array
+    force: Array
+    frame: Array
+
+
+class Yielding:
+    """The wanted settings, innermost last, and the compliance that follows them with the gains' command time."""
+
+    def __init__(self, gains: Gains) -> None:
+        stiffness = np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3)
+        self._settings = [Setting(stiffness, np.zeros(3), np.eye(3))]
+        self._stiffness = Lag(stiffness, gains.command_time, grain=1e-2)
+        self._wrench = Lag(np.zeros(6), gains.command_time, grain=1e-3)
+        self._target = np.zeros(6)
+        self._ratio = gains.damping_ratio
+        self.compliance = self._compliance()
+
+    @property
+    def wanted(self) -> Setting:
+        """The innermost setting."""
+        return self._settings[-1]
+
+    @property
+    def released(self) -> bool:
+        """Tell whether some skill has released an axis."""
+        return len(self._settings) > 1
+
+    def step(self, period: float) -> Compliance:
+        """Let stiffness and wrench follow for `period` s; the arrays of the result are reused."""
+        self._stiffness.step(self.wanted.stiffness, period)
+        self._target[:3] = self.wanted.force
+        self._wrench.step(self._target, period)
+        return self.compliance
+
+    def release(self, direction: Array, stiffness: float) -> None:
+        """Let the tool yield along a unit direction (3,) of the tool frame. ValueError for one askew to another."""
+        frame = self.wanted.frame if self.released else _frame_along(direction)
+        axis = _axis(frame, direction)
+        wanted = self.wanted.stiffness.copy()
+        wanted[axis] = stiffness
+        if not self.released:
+            self._wrench.value[:3] = frame.T @ self.wanted.frame @ self._wrench.value[:3]
+        self._settings.append(Setting(wanted, self.wanted.force if self.released else np.zeros(3), frame))
+        self.compliance = self._compliance()
+
+    def restore(self, error: Array) -> None:
+        """Undo the last release; C stays until the next one.
+
+        error (3,): tool minus reference along C's axes, which the caller is about to take as nothing on the axes that
+        regain stiffness; the force that their springs exert is kept as a push and fades.
+        """
+        before = self._settings.pop()
+        back = self.wanted.stiffness[:3] != before.stiffness[:3]
+        self._wrench.value[:3] -= back * self._stiffness.value[:3] * error
+        force = before.force if self.released else np.zeros(3)
+        self._settings[-1] = replace(self.wanted, force=force, frame=before.frame)
+
+    def regained(self) -> Array:
+        """Return, of C's axes in the tool frame, those that `restore` would make stiff again (3, n)."""
+        before, after = self._settings[-1], self._settings[-2]
+        return before.frame[:, before.stiffness[:3] != after.stiffness[:3]]
+
+    def push(self, direction: Array, force_n: float) -> None:
+        """Press along a unit direction (3,) of the tool frame. ValueError where the tool does not yield along it."""
+        axis = _axis(self.wanted.frame, direction)
+        if not self.yields(direction):
+            raise ValueError("the arm does not yield along the direction in which it shall push")
+        force = np.zeros(3)
+        force[axis] = force_n * np.sign(self.wanted.frame[:, axis] @ direction)
+        self._settings[-1] = replace(self.wanted, force=force)
+
+    def push_off(self) -> None:
+        """Stop pushing."""
+        self._settings[-1] = replace(self.wanted, force=np.zeros(3))
+
+    def yields(self, direction: Array) -> bool:
+        """Tell whether the tool yields along a direction (3,) of the tool frame."""
+        cosines = np.abs(self.wanted.frame.T @ direction)
+        axis = int(cosines.argmax())
+        return bool(cosines[axis] > PARALLEL and self.wanted.stiffness[axis] != self._settings[0].stiffness[axis])
+
+    def turn_freely(self, free: bool) -> None:
+        """Release, or restore, the two rotations about C's x and y."""
+        stiffness = self.wanted.stiffness.copy()
+        stiffness[3:5] = 0.0 if free else self._settings[0].stiffness[3:5]
+        self._settings[-1] = replace(self.wanted, stiffness=stiffness)
+
+    def _compliance(self) -> Compliance:
+        return Compliance(self._stiffness.value, self._wrench.value, self.wanted.frame, self._ratio)
+
+
+def _frame_along(direction: Array) -> Array:
+    """Return axes (3, 3) whose z is the direction and whose x is as near to the tool's x as it can be."""
+    near = np.eye(3)[0] if abs(direction[0]) < 0.9 else np.eye(3)[1]
+    x = near - direction * (near @ direction)
+    x /= np.linalg.norm(x)
+    return np.column_stack([x, np.cross(direction, x), direction])
+
+
+def _axis(frame: Array, direction: Array) -> int:
+    """Return which of the frame's axes a direction is parallel to."""
+    cosines = np.abs(frame.T @ direction)
+    axis = int(cosines.argmax())
+    if cosines[axis] < PARALLEL:
+        raise ValueError("the direction must be parallel or at right angles to the one released before")
+    return axis
