@@ -8,7 +8,7 @@ from lark import Token
 
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label, Outcome
 from skillc_dsl.grammar import DECLARATIONS, END, first_on_line
-from skillc_dsl.lexing import span_of
+from skillc_dsl.lexing import after, span_of
 from skillc_dsl.source import Span
 
 
@@ -51,18 +51,13 @@ def _close(
         elif token.type == "RBRACE" and opened:
             while len(problems) < missing and len(opened) > 1 and opened[-1][1] > indent:
                 problems.append(_unclosed(*opened.pop(), result[-1], token, path))
-                result.append(_brace(result[-1]))
+                result.append(after(result[-1], "RBRACE"))
             opened.pop()
         result.append(token)
     for opener, column in reversed(opened):
         problems.append(_unclosed(opener, column, result[-1], following, path))
-        result.append(_brace(result[-1]))
+        result.append(after(result[-1], "RBRACE"))
     return tuple(result), problems
-
-
-def _brace(after: Token) -> Token:
-    place = (after.end_pos, after.end_line, after.end_column, after.end_line, after.end_column, after.end_pos)
-    return Token("RBRACE", "", *place)
 
 
 def _unclosed(opener: Token, indent: int, last: Token, found: Token, path: str) -> Diagnostic:

@@ -24,9 +24,9 @@ class Phrase:
 def _phrases() -> tuple[Phrase, ...]:
     """Return the phrases, those that cover most first; what they cover is read off the grammar."""
     impl = "IMPL NAME OF NAME LBRACE"
-    names = following("USE")
     values = following(f"{impl} LET NAME EQUAL")
     conditions = following(f"{impl} DO IF")
+    relations = names() & following(f"{impl} DO IF NAME")
     operators = _set("PLUS MINUS STAR SLASH DOT LPAR")
     table = (
         ("a declaration such as `skill` or `impl`", "CLASS SKILL", following("") - {END}),
@@ -35,11 +35,11 @@ def _phrases() -> tuple[Phrase, ...]:
         ("a member of a task, such as `scene` or `goal`", "SCENE GOAL DO", _set("SCENE GOAL DO")),
         ("a condition", "NOT EXISTS NUMBER", conditions | values),
         ("a step, such as `seq` or a call", "SEQ IF", following(f"{impl} DO")),
-        ("a value", "NUMBER QUANTITY STRING", values | names),
-        ("a relation", "NAME HAS", names | {"HAS", "IS"}),
-        ("a name", "NAME", names),
+        ("a value", "NUMBER QUANTITY STRING", values | names()),
+        ("a relation", "NAME HAS", relations | {"HAS", "IS"}),
+        ("a name", "NAME", names()),
         ("a comparison such as `==`", "EQUALS LESS", _set("EQUALS UNEQUAL LESS LESS_EQUAL MORE MORE_EQUAL")),
-        ("`and` or `or`", "AND OR", _set("AND OR IMPLIES") | operators),
+        ("a connective such as `and`", "AND OR", _set("AND OR IMPLIES") | operators),
         ("an operator such as `+`", "PLUS STAR", operators),
         ("a name with its `:`", "LABEL", _set("LABEL")),
         ("a number", "NUMBER", _set("NUMBER MINUS")),
@@ -51,6 +51,23 @@ def _phrases() -> tuple[Phrase, ...]:
     return tuple(Phrase(text, _set(signs), covers) for text, signs, covers in table)
 
 
+@functools.cache
+def names() -> frozenset[str]:
+    """Return every terminal that may be a name."""
+    return following("USE")
+
+
+def home(token: Token) -> str:
+    """Return help that says where a member belongs, empty for what is no member."""
+    homes = (
+        ("a `skill`", "SKILL NAME LBRACE"),
+        ("an `impl`", "IMPL NAME OF NAME LBRACE"),
+        ("a `task`", "TASK NAME LBRACE"),
+    )
+    fitting = [kind for kind, start in homes if token.type != "RBRACE" and token.type in following(start)]
+    return f"`{token}` belongs in {' or '.join(fitting)}" if fitting else ""
+
+
 def _set(terminals: str) -> frozenset[str]:
     return frozenset(terminals.split())
 
@@ -58,13 +75,13 @@ def _set(terminals: str) -> frozenset[str]:
 def described(terminals: Iterable[str]) -> str:
     """Return what `terminals` are to an author: `a value, a relation or `}``."""
     left = set(terminals)
-    phrases = []
+    phrases: list[str] = []
     for phrase in _phrases():
         if phrase.signs <= left:
             phrases.append(phrase.text)
             left -= phrase.covers
-    phrases += sorted(f"`{words()[terminal]}`" for terminal in left if terminal in words())
-    *others, last = phrases or ["nothing more"]
+    marks = sorted(f"`{words()[terminal]}`" for terminal in left if terminal in words())
+    *others, last = [*marks, *phrases] or ["nothing more"]
     return f"{', '.join(others)} or {last}" if others else last
 
 

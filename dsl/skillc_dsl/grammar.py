@@ -79,5 +79,5 @@ def following(terminals: str) -> frozenset[str]:
 
 
 def first_on_line(tokens: Sequence[Token], index: int) -> bool:
-    """Whether a line begins with the token at `index`."""
-    return index == 0 or tokens[index].line != tokens[index - 1].end_line
+    """Whether a line begins with the token at `index`; the end of the file does."""
+    return index == 0 or tokens[index].type == END or tokens[index].line != tokens[index - 1].end_line

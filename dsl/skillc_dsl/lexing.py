@@ -54,9 +54,13 @@ def tokens_of(source: Source) -> Outcome[tuple[Token, ...]]:
             _skip(thread.state, source, tokens, problems)
         else:
             break
-    counter = thread.state.line_ctr
-    place = (counter.char_pos, counter.line, counter.column, counter.line, counter.column, counter.char_pos)
-    return Outcome((*tokens, Token(END, "", *place)), tuple(problems))
+    return Outcome((*tokens, after(tokens[-1] if tokens else None, END)), tuple(problems))
+
+
+def after(last: Token | None, terminal: str) -> Token:
+    """Return an empty token right after `last`, or at the start of the file."""
+    line, column, position = (last.end_line, last.end_column, last.end_pos) if last else (1, 1, 0)
+    return Token(terminal, "", position, line, column, line, column, position)
 
 
 def _skip(state: LexerState, source: Source, tokens: list[Token], problems: list[Diagnostic]) -> None:

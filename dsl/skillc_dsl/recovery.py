@@ -9,9 +9,9 @@ from lark.exceptions import UnexpectedToken
 from lark.parsers.lalr_parser_state import ParserState
 
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.expectations import described, shown
+from skillc_dsl.expectations import described, home, names, shown
 from skillc_dsl.grammar import DECLARATIONS, END, first_on_line, fits, fitting, machine
-from skillc_dsl.lexing import span_of
+from skillc_dsl.lexing import after, span_of
 from skillc_dsl.repairs import Fault, repair
 
 _LISTS = ("__start_star", "__skill_star", "__impl_star", "__task_star", "___nodes_star")
@@ -64,7 +64,8 @@ class Recovery:
         if index and not expected & {"RBRACE", END} and first_on_line(self.tokens, index):
             last = self.tokens[index - 1]
             span, found = span_of(last, self.path), f"something is missing after {shown(last)}"
-        return Diagnostic("syntax", span, f"{found}: expected {described(expected)}")
+        help_ = home(token) if "RBRACE" in expected else ""
+        return Diagnostic("syntax", span, f"{found}: expected {described(expected)}", help_)
 
     def _resume(self, index: int) -> int:
         """Skip to a token that begins or ends a member, a node or a declaration, and drop what was left incomplete."""
@@ -81,8 +82,10 @@ class Recovery:
         raise AssertionError("the last token is the end")
 
     def _cut(self, position: int) -> bool:
-        """Drop the incomplete member if the tokens at `position` can follow those before it."""
-        following = [token.type for token in self.tokens[position : position + 2]]
+        """Drop the incomplete member if the token at `position` can follow; a name proves it only with the next one."""
+        is_name = self.tokens[position].type in names() and not first_on_line(self.tokens, position + 1)
+        count = 2 if is_name else 1
+        following = [token.type for token in self.tokens[position : position + count]]
         level = self._level("RBRACE")
         if level is None or not fits(self._state.state_stack[: level + 1], *following):
             return False
@@ -95,16 +98,16 @@ class Recovery:
         inner = self._level("RBRACE")
         while inner is not None and inner > outer:
             self._drop(inner)
-            self._state.feed_token(Token("RBRACE", "", None, *self._end()))
+            self._state.feed_token(after(self._last(), "RBRACE"))
             outer, inner = self._level(terminal) or 0, self._level("RBRACE")
         self._drop(outer)
 
-    def _end(self) -> tuple[int, int, int, int]:
-        """Return the place where the last thing that was understood begins."""
+    def _last(self) -> Token:
+        """Return the last token of what was understood."""
         last = self._state.value_stack[-1]
         while isinstance(last, Tree):
             last = last.children[-1]
-        return (last.end_line, last.end_column, last.end_line, last.end_column)
+        return last
 
     def _level(self, terminal: str) -> int | None:
         """Return how much of the stack to keep so that `terminal` fits after a whole member or at the start."""

@@ -15,6 +15,8 @@ from skillc_dsl.source import Span
 from skillc_dsl.spelling import joined, missing_space
 
 _INSERTED = ("RPAR", "RSQB", "COMMA", "EQUAL", "OF", "DOTS", "LBRACE", "COLON", "LPAR", "IN", "SEQ", "PYTHON", "ARROW")
+_SPACED = ("EQUAL", "DOTS", "LBRACE", "ARROW")
+_WORDS = ("OF", "PYTHON")
 _SWAPPED = {"EQUAL": "EQUALS", "EQUALS": "EQUAL"}
 _KEPT = DECLARATIONS | {"NAME", "QNAME", "LABEL", "LBRACE", "RBRACE", END}
 
@@ -55,8 +57,14 @@ class Fault:
         return Span(self.path, before.end_line, before.end_column, before.end_line, before.end_column)
 
     def mended_by(self, *terminals: str, skip: int = 1) -> bool:
-        """Whether `terminals` in the place of the faulty token, and two tokens after it, fit."""
-        after = self.tokens[self.index + skip : self.index + skip + 2]
+        """Whether `terminals` in the place of the faulty token fit, and so do the two tokens after it.
+
+        What comes later on another line may have a fault of its own, so that only the first token there counts.
+        """
+        start = self.index + skip
+        after = self.tokens[start : start + 2]
+        if first_on_line(self.tokens, min(start, len(self.tokens) - 1)):
+            after = after[:1]
         return fits(self.states, *terminals, *(token.type for token in after))
 
 
@@ -77,7 +85,7 @@ def _label(fault: Fault) -> Iterator[Repair]:
         yield Repair(missing_space(span_of(label, fault.path), rest), (label, value))
     elif token.isidentifier() and fault.mended_by("LABEL"):
         end = Span(fault.path, fault.span.line, fault.span.end_column, fault.span.line, fault.span.end_column)
-        problem = Diagnostic("syntax", fault.span, f"a `:` is missing after `{token}`", fix=Fix(end, ":", "insert it"))
+        problem = Diagnostic("syntax", fault.span, f"`:` is missing after `{token}`", fix=Fix(end, ":", "insert `:`"))
         yield Repair(problem, (joined("LABEL", token, token, f"{token}:"),))
 
 
@@ -107,15 +115,14 @@ def _keyword(fault: Fault) -> Iterator[Repair]:
 
 def _missing(fault: Fault) -> Iterator[Repair]:
     """A bracket, a comma, or a small word left out before the token at fault."""
+    name_fits = fits(fault.states, "NAME")
     for terminal in _INSERTED:
-        if fault.mended_by(terminal, skip=0):
+        if fault.mended_by(terminal, skip=0) and not (name_fits and terminal in _WORDS):
             text, gap = words()[terminal], fault.gap
             before = fault.tokens[fault.index - 1] if fault.index else ""
-            padded = (
-                f" {text}" if terminal in ("EQUAL", "OF", "DOTS", "LBRACE", "IN", "SEQ", "PYTHON", "ARROW") else text
-            )
+            padded = f" {text}" if text.isalpha() or terminal in _SPACED else text
             fix = Fix(gap, padded, f"insert `{text}`")
-            problem = Diagnostic("syntax", fault.span, f"a `{text}` is missing after `{before}`", fix=fix)
+            problem = Diagnostic("syntax", fault.span, f"`{text}` is missing after `{before}`", fix=fix)
             place = (None, gap.line, gap.column, gap.line, gap.column, None)
             yield Repair(problem, (Token(terminal, text, *place), fault.token))
 

@@ -1,0 +1,30 @@
+"""Diagnostics as a JSON list."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Source
+
+
+def render(diagnostics: Iterable[Diagnostic], sources: Mapping[str, Source]) -> str:
+    """Return a list of objects; lines and columns count from 1, the end column is exclusive."""
+    return json.dumps([as_data(diagnostic) for diagnostic in diagnostics], indent=2, ensure_ascii=False) + "\n"
+
+
+def as_data(diagnostic: Diagnostic) -> dict[str, str | int]:
+    """Return the fields of one diagnostic that machines read."""
+    span = diagnostic.span
+    return {
+        "name": diagnostic.name,
+        "severity": diagnostic.severity,
+        "path": span.path,
+        "line": span.line,
+        "column": span.column,
+        "end_line": span.end_line,
+        "end_column": span.end_column,
+        "message": diagnostic.message,
+        "help": diagnostic.help,
+    }
