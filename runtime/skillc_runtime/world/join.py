@@ -18,7 +18,8 @@ def solutions(
 ) -> Iterator[dict[str, str]]:
     """Yield each way to bind the variables (name to class) under which all conditions about them hold.
 
-    The order is the same every time. Conditions that speak of none of the variables are not looked at. EvaluationError as in `evaluate`.
+    The order is the same every time. Conditions that speak of none of the variables are not looked at.
+    EvaluationError as in `evaluate`.
     """
     filters = [_filter(part, variables) for condition in conditions for part in _parts(condition)]
     relevant = tuple(each for each in filters if each.about)

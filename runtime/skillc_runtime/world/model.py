@@ -62,7 +62,7 @@ class WorldModel:
             if strange:
                 raise WorldError(f"there is no relation or property {before.vocabulary.short(strange[0])}")
             after = before.changed(made)
-            problems = [problem for change in _lasting(made) for problem in broken(after, change)]
+            problems = [breach.message for change in _lasting(made) for breach in broken(after, change)]
             if problems:
                 raise WorldError("; ".join(dict.fromkeys(problems)))
             self._state = after

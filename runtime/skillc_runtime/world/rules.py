@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from itertools import combinations
 from typing import assert_never
 
@@ -33,8 +34,16 @@ from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value, finite, show
 
 
-def broken(state: WorldState, change: Change) -> Iterator[str]:
-    """Yield what is wrong with a change in the version it led to, each as a sentence."""
+@dataclass(frozen=True, slots=True)
+class Breach:
+    """An axiom that a change breaks, by name, and the axiom with the facts in words."""
+
+    axiom: str
+    message: str
+
+
+def broken(state: WorldState, change: Change) -> Iterator[Breach]:
+    """Yield what is wrong with a change in the version it led to."""
     match change:
         case AddIndividual(individual, types):
             yield from _classes(state, individual, types)
@@ -61,13 +70,13 @@ def unknown(state: WorldState, change: Change) -> str | None:
             assert_never(change)
 
 
-def disjoint_classes(state: WorldState, types: Iterable[str]) -> tuple[str, str] | None:
+def _disjoint_classes(state: WorldState, types: Iterable[str]) -> tuple[str, str] | None:
     """Return two of the classes that no individual can both be of, None when there are none."""
     pairs = combinations(sorted(types), 2)
     return next(((one, other) for one, other in pairs if state.vocabulary.disjoint(one, other)), None)
 
 
-def misfit(state: WorldState, term: RelationTerm, subject: str, object_: str) -> str | None:
+def _misfit(state: WorldState, term: RelationTerm, subject: str, object_: str) -> str | None:
     """Say what a relation takes, when it takes neither signature's subject and object; None when one fits."""
     fits = (state.is_a(subject, each.domain) and state.is_a(object_, each.range) for each in term.signatures)
     if not term.signatures or any(fits):
@@ -89,54 +98,72 @@ def wrong_value(term: PropertyTerm, value: Value) -> str | None:
     return None
 
 
-def _classes(state: WorldState, individual: str, types: tuple[str, ...]) -> Iterator[str]:
+def _classes(state: WorldState, individual: str, types: tuple[str, ...]) -> Iterator[Breach]:
     short = state.vocabulary.short
     for cls in types:
         if cls not in state.vocabulary.ancestors:
-            yield f"{short(individual)} cannot be a {short(cls)}: there is no such class"
-    clash = disjoint_classes(state, state.types(individual))
+            yield Breach("unknown-class", f"{short(individual)} cannot be a {short(cls)}: there is no such class")
+    clash = _disjoint_classes(state, state.types(individual))
     if clash:
         one, other = map(short, clash)
-        yield f"{short(individual)} cannot be both a {one} and a {other}: the classes are disjoint"
+        both = f"{short(individual)} cannot be both a {one} and a {other}"
+        yield Breach("disjoint-classes", f"{both}: the classes are disjoint")
 
 
-def _relation(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[str]:
+def _relation(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[Breach]:
     short = state.vocabulary.short
     fact = f"{short(subject)} {short(relation)} {short(object_)}"
     absent = [each for each in (subject, object_) if each not in state.individuals]
     if absent:
-        yield f"`{fact}`: there is no individual {short(absent[0])}"
+        yield Breach("unknown-individual", f"`{fact}`: there is no individual {short(absent[0])}")
         return
     if not state.holds(subject, relation, object_):
-        yield f"`{fact}`: the same write gives a functional relation another value"
+        yield Breach("functional-relation", f"`{fact}`: {_rival(state, subject, relation, object_)}")
         return
     for implied, flipped in state.axioms.implied[relation]:
         term = state.vocabulary.relations[implied]
         start, end = (object_, subject) if flipped else (subject, object_)
         if term.irreflexive and start == end:
-            yield f"`{fact}`: {short(implied)} is irreflexive, nothing has it to itself"
+            yield Breach("irreflexive-relation", f"`{fact}`: {short(implied)} is irreflexive, nothing has it to itself")
         if term.asymmetric and state.holds(end, implied, start):
-            yield f"`{fact}`: {short(implied)} is asymmetric, and `{short(end)} {short(implied)} {short(start)}` holds"
-        wrong = misfit(state, term, start, end)
+            opposite = f"{short(end)} {short(implied)} {short(start)}"
+            yield Breach("asymmetric-relation", f"`{fact}`: {short(implied)} is asymmetric, and `{opposite}` holds")
+        wrong = _misfit(state, term, start, end)
         if wrong:
-            yield f"`{fact}`: {wrong}"
+            yield Breach("relation-range", f"`{fact}`: {wrong}")
 
 
-def _property(state: WorldState, individual: str, property_: str, value: Value) -> Iterator[str]:
+def _rival(state: WorldState, subject: str, relation: str, object_: str) -> str:
+    """Say which fact took the place of one that was written, and why both cannot be."""
+    short = state.vocabulary.short
+    for implied, flipped in state.axioms.implied[relation]:
+        term = state.vocabulary.relations[implied]
+        start, end = (object_, subject) if flipped else (subject, object_)
+        if term.functional and (others := state.objects(start, implied) - {end}):
+            fact = f"{short(start)} {short(implied)} {short(min(others))}"
+            return f"{short(implied)} is functional, and `{fact}` is said too"
+        if term.inverse_functional and (others := state.subjects(implied, end) - {start}):
+            fact = f"{short(min(others))} {short(implied)} {short(end)}"
+            return f"{short(implied)} is inverse functional, and `{fact}` is said too"
+    return "the same write takes it back"
+
+
+def _property(state: WorldState, individual: str, property_: str, value: Value) -> Iterator[Breach]:
     short, term = state.vocabulary.short, state.vocabulary.properties[property_]
     fact = f"{short(individual)}.{short(property_)} = {show(value)}"
     if individual not in state.individuals:
-        yield f"`{fact}`: there is no individual {short(individual)}"
+        yield Breach("unknown-individual", f"`{fact}`: there is no individual {short(individual)}")
         return
     if term.computed_by is not None:
-        yield f"`{fact}`: the property is computed from other facts and cannot be set"
+        yield Breach("computed-property", f"`{fact}`: the property is computed from other facts and cannot be set")
     if term.domains and not any(state.is_a(individual, domain) for domain in term.domains):
-        yield f"`{fact}`: it belongs to {' or '.join(map(short, term.domains))}; {_described(state, individual)}"
+        owners = " or ".join(_class(state, domain) for domain in term.domains)
+        yield Breach("property-domain", f"`{fact}`: it belongs to {owners}; {_described(state, individual)}")
     several = not term.functional and isinstance(value, tuple)
     for one in value if several and isinstance(value, tuple) else (value,):
         wrong = wrong_value(term, one)
         if wrong:
-            yield f"`{fact}`: {wrong}"
+            yield Breach("wrong-data-type", f"`{fact}`: {wrong}")
 
 
 def _class(state: WorldState, iri: str) -> str:

@@ -1,0 +1,67 @@
+"""Which statements of Turtle documents are facts about individuals, and the classes a scene declares itself."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Sequence
+
+import msgspec
+import pyoxigraph as ox
+
+from skillc_compiler.library.vocabulary import THING, ClassTerm, Vocabulary
+from skillc_runtime.world.documents import Node, Placed
+from skillc_runtime.world.turtle import RDF_TYPE
+
+RDF = "http://www.w3.org/1999/02/22-rdf-syntax-ns#"
+RDFS = "http://www.w3.org/2000/01/rdf-schema#"
+OWL = "http://www.w3.org/2002/07/owl#"
+SKIROS = "http://rvmi.aau.dk/ontologies/skiros.owl#"
+ABOUT_TERMS = (OWL, RDFS, RDF, "http://purl.org/vocab/vann/")
+CLASS_DECLARATIONS = (f"{OWL}Class", f"{OWL}class")  # SkiROS2's scenes write the second
+TEMPLATE, HAS_TEMPLATE = f"{SKIROS}Template", f"{SKIROS}hasTemplate"
+NAMED_INDIVIDUAL, ANNOTATION = f"{OWL}NamedIndividual", f"{OWL}AnnotationProperty"
+
+
+def with_own_classes(vocabulary: Vocabulary, said: Sequence[Placed]) -> Vocabulary:
+    """Return the vocabulary with the classes that the documents declare beside it."""
+    declared = {s for kind in CLASS_DECLARATIONS for s in _typed(said, kind)}
+    missing = sorted(declared - vocabulary.classes.keys() - vocabulary.aliases.keys())
+    if not missing:
+        return vocabulary
+    parents: dict[str, list[str]] = defaultdict(list)
+    for each in said:
+        if each.predicate == f"{RDFS}subClassOf" and isinstance(each.object, ox.NamedNode):
+            parents[iri_of(each.subject)].append(each.object.value)
+    own = {iri: ClassTerm(iri=iri, parents=tuple(parents[iri])) for iri in missing}
+    return msgspec.structs.replace(vocabulary, classes={**vocabulary.classes, **own})
+
+
+def facts(said: Sequence[Placed], vocabulary: Vocabulary) -> tuple[Placed, ...]:
+    """Return what is said of individuals: not of terms, not of templates, no annotations."""
+    terms = {*vocabulary.classes, *vocabulary.relations, *vocabulary.properties, *vocabulary.aliases}
+    for each in said:
+        if each.predicate == RDF_TYPE and _is_term_kind(iri_of(each.object)):
+            terms.add(iri_of(each.subject))
+    notes = set(_typed(said, ANNOTATION)) - vocabulary.properties.keys() | {HAS_TEMPLATE}
+    return tuple(
+        each
+        for each in said
+        if isinstance(each.subject, ox.NamedNode)
+        and each.subject.value not in terms
+        and each.predicate not in notes
+        and (each.predicate == RDF_TYPE or not each.predicate.startswith(ABOUT_TERMS))
+        and iri_of(each.object) != NAMED_INDIVIDUAL
+    )
+
+
+def iri_of(node: Node) -> str:
+    """Return the IRI of a node, nothing for a blank node or a literal."""
+    return node.value if isinstance(node, ox.NamedNode) else ""
+
+
+def _typed(said: Sequence[Placed], kind: str) -> list[str]:
+    return [iri_of(each.subject) for each in said if each.predicate == RDF_TYPE and iri_of(each.object) == kind]
+
+
+def _is_term_kind(cls: str) -> bool:
+    return cls == TEMPLATE or (cls.startswith((OWL, RDFS, RDF)) and cls not in (THING, NAMED_INDIVIDUAL))
