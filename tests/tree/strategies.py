@@ -1,0 +1,129 @@
+"""Random trees of scripted skills, with the library they need and the scripts they follow."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from hypothesis import strategies as st
+
+from skillc_compiler.library import tree
+from skillc_compiler.library.conditions import Compare, Condition, Individual, Literal, PropertyOf
+from skillc_compiler.library.skills import SkillLibrary
+from tree.stage import DEVICES, FLAGS, ON, PERIOD_S, Library, Script, call, here, par, sel, seq, with_
+
+ENDINGS = ("success", "success", "success", "fail", "fail", "crash", "refuse", "crash at start")
+
+
+@dataclass(frozen=True)
+class Play:
+    """A tree with everything that decides what happens: scripts by name, flag changes by tick, when to halt."""
+
+    body: tree.Node
+    library: SkillLibrary = field(repr=False)
+    scripts: dict[str, list[Script]]
+    switches: tuple[tuple[int, str, bool], ...]
+    halt_at: int | None
+
+
+@st.composite
+def plays(draw: st.DrawFn, size: int = 12) -> Play:
+    """Draw a tree of about so many leaves."""
+    writer = _Writer(draw, size)
+    body = writer.node(4)
+    ticks = st.integers(1, 12)
+    switches = draw(st.lists(st.tuples(ticks, st.sampled_from(FLAGS), st.booleans()), max_size=6))
+    halt_at = draw(st.one_of(st.none(), ticks))
+    return Play(body, writer.library.build(), writer.scripts, tuple(switches), halt_at)
+
+
+class _Writer:
+    def __init__(self, draw: st.DrawFn, size: int) -> None:
+        self.draw = draw
+        self.left = size
+        self.library = Library()
+        self.scripts: dict[str, list[Script]] = {}
+
+    def node(self, depth: int) -> tree.Node:
+        if depth == 0 or self.left <= 0:
+            return self.leaf()
+        kinds = ("leaf", "several", "several", "several", "loop", "decorator", "around", "branch")
+        kind = self.draw(st.sampled_from(kinds))
+        make = {
+            "several": self.several,
+            "loop": self.loop,
+            "decorator": self.decorator,
+            "around": self.around,
+            "branch": self.branch,
+        }
+        return self.leaf() if kind == "leaf" else make[kind](depth - 1)
+
+    def leaf(self) -> tree.Node:
+        self.left -= 1
+        skills = ("Act", "Act", "Act", "Setup", "Kept", "Lit", "Set", "Use", "Either", "Another", "")
+        skill = self.draw(st.sampled_from(skills))
+        if not skill:
+            return self.condition_leaf()
+        more: dict[str, str | bool] = {}
+        if skill in ("Kept", "Lit", "Set"):
+            more["flag"] = self.draw(st.sampled_from(FLAGS))
+        if skill == "Set":
+            more["value"] = self.draw(st.booleans())
+        if skill == "Use":
+            more["device"] = self.draw(st.sampled_from(DEVICES))
+        return call(skill, name=self.name(), **more)
+
+    def condition_leaf(self) -> tree.Node:
+        kind = self.draw(st.sampled_from(("check", "until", "wait")))
+        if kind == "wait":
+            return tree.Wait(seconds=Literal(self.draw(st.integers(0, 3)) * PERIOD_S), source=here())
+        condition = self.condition()
+        if kind == "check":
+            return tree.Check(condition=condition, text="on", source=here())
+        return tree.WaitUntil(condition=condition, text="on", source=here())
+
+    def several(self, depth: int) -> tree.Node:
+        children = tuple(self.node(depth) for _ in range(self.draw(st.integers(1, 4))))
+        kind = self.draw(st.sampled_from(("seq", "sel", "par", "par")))
+        if kind == "par":
+            return par(self.draw(st.sampled_from(("all", "any", "race", "lead"))), *children)
+        reactive = self.draw(st.booleans())
+        return seq(*children, reactive=reactive) if kind == "seq" else sel(*children, reactive=reactive)
+
+    def loop(self, depth: int) -> tree.Node:
+        child, count = self.node(depth), self.draw(st.integers(1, 3))
+        kind = self.draw(st.sampled_from(("retry", "repeat", "while")))
+        if kind == "retry":
+            return tree.Retry(count=count, child=child, source=here())
+        if kind == "repeat":
+            return tree.Repeat(count=count, child=child, source=here())
+        return tree.While(condition=self.condition(), text="on", limit=count, child=child, source=here())
+
+    def decorator(self, depth: int) -> tree.Node:
+        child = self.node(depth)
+        kind = self.draw(st.sampled_from((tree.Try, tree.Invert, tree.Once, tree.Timeout)))
+        if kind is tree.Timeout:
+            return tree.Timeout(seconds=Literal(self.draw(st.integers(0, 4)) * PERIOD_S), child=child, source=here())
+        return kind(child=child, source=here())
+
+    def around(self, depth: int) -> tree.Node:
+        child = self.node(depth)
+        kind = self.draw(st.sampled_from(("with", "with", "guarded", "using")))
+        if kind == "guarded":
+            return call(self.library.guarded(child), flag=self.draw(st.sampled_from(FLAGS)))
+        if kind == "using":
+            return call(self.library.using(child), device=self.draw(st.sampled_from(DEVICES)))
+        return with_(self.name(), child)
+
+    def branch(self, depth: int) -> tree.Node:
+        orelse = self.node(depth) if self.draw(st.booleans()) else None
+        return tree.If(condition=self.condition(), text="on", then=self.node(depth), orelse=orelse, source=here())
+
+    def condition(self) -> Condition:
+        flag = Individual(self.draw(st.sampled_from(FLAGS)))
+        return Compare(PropertyOf(flag, ON), "==", Literal(self.draw(st.booleans())))
+
+    def name(self) -> str:
+        name = f"a{len(self.scripts)}"
+        script = st.builds(Script, st.sampled_from(ENDINGS), st.integers(1, 4))
+        self.scripts[name] = self.draw(st.lists(script, min_size=1, max_size=3))
+        return name
