@@ -59,9 +59,7 @@ class SimulatedArm:
         self._jacobian, self._mass = np.zeros((6, count)), np.zeros((count, count))
         self._full_mass, self._next_mass_time = np.zeros((model.nv, model.nv)), 0.0
         self._payload_jacobian = np.zeros((3, model.nv))
-        self._wrist = (
-            Wrist(model, data, gripper, facts.sheet.number("forceTorqueTime")) if _felt(facts, gripper) else None
-        )
+        self._wrist = _wrist(facts, gripper, model, data)
         self._still = np.zeros(6)
         self._increment, self._steps_left, self._steps_per_command = np.zeros(count), 0, steps_per_command
         self._q[:] = facts.home
@@ -158,8 +156,10 @@ class SimulatedArm:
         self._next_mass_time = self._data.time + MASS_MATRIX_PERIOD_S - 1e-9
 
 
-def _felt(facts: ArmFacts, gripper: str | None) -> bool:
-    return facts.force_torque and gripper is not None
+def _wrist(facts: ArmFacts, gripper: str | None, model: Any, data: Any) -> Wrist | None:
+    if not facts.force_torque or gripper is None:
+        return None
+    return Wrist(model, data, gripper, facts.sheet.number("forceTorqueTime"))
 
 
 def _root_body(model: Any, body: int, prefix: str) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from typing import Any
 
 import mujoco
@@ -89,10 +90,9 @@ def _add_base(spec: Any, scene: SceneFacts, base: BaseFacts) -> tuple[Any, Pose]
 
 def _add_welds(spec: Any, scene: SceneFacts) -> None:
     """Add an inactive weld for every gripper and tool; a grasp switches it on."""
-    for arm in scene.arms:
-        for tool in scene.tools if arm.gripper else ():
-            gripper_name, tool_name = scene.names[arm.gripper.individual], scene.names[tool.individual]
-            equality = spec.add_equality(name=weld(gripper_name, tool_name), type=mujoco.mjtEq.mjEQ_WELD)
-            equality.objtype = mujoco.mjtObj.mjOBJ_BODY
-            equality.name1, equality.name2 = part(gripper_name, "palm"), part(tool_name, "block")
-            equality.solref, equality.solimp, equality.active = WELD_SOLREF, WELD_SOLIMP, False
+    grippers = [scene.names[arm.gripper.individual] for arm in scene.arms if arm.gripper is not None]
+    for gripper, tool in product(grippers, (scene.names[tool.individual] for tool in scene.tools)):
+        equality = spec.add_equality(name=weld(gripper, tool), type=mujoco.mjtEq.mjEQ_WELD)
+        equality.objtype = mujoco.mjtObj.mjOBJ_BODY
+        equality.name1, equality.name2 = part(gripper, "palm"), part(tool, "block")
+        equality.solref, equality.solimp, equality.active = WELD_SOLREF, WELD_SOLIMP, False

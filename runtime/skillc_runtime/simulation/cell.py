@@ -13,7 +13,7 @@ from skillc_runtime.simulation.base import SimulatedBase
 from skillc_runtime.simulation.build import build
 from skillc_runtime.simulation.coverage import CoverageMap
 from skillc_runtime.simulation.drivers import driver
-from skillc_runtime.simulation.facts import SceneFacts, read_scene
+from skillc_runtime.simulation.facts import SceneFacts, SurfaceFacts, read_scene
 from skillc_runtime.simulation.gripper import SimulatedGripper
 from skillc_runtime.simulation.inspection import SimulatedCamera
 from skillc_runtime.simulation.observer import ToolObserver
@@ -46,13 +46,10 @@ class SimulatedCell:
         self._bases = {b.individual: SimulatedBase(b, names[b.individual], self.model, self.data) for b in facts.bases}
         mujoco.mj_forward(self.model, self.data)
         self._drivers = {a.individual: driver(a, self.arms[a.individual], self.period_s) for a in facts.arms}
-        self.coverage = {
-            s.individual: CoverageMap(self.variation.of(s.individual).true_pose(s.pose), s.size[:2])
-            for s in facts.surfaces
-        }
+        self.coverage = {s.individual: CoverageMap(self.true_pose(s), s.size[:2]) for s in facts.surfaces}
         self._observers = {
-            t.individual: ToolObserver(t, names[t.individual], self.model, self.data, self.coverage)
-            for t in facts.tools
+            tool.individual: ToolObserver(tool, names[tool.individual], self.model, self.data, self.coverage)
+            for tool in facts.tools
         }
         self._camera = SimulatedCamera(self.coverage)
         self.marks: list[tuple[float, str]] = []
@@ -87,6 +84,10 @@ class SimulatedCell:
     def camera(self) -> SimulatedCamera:
         """Return what inspects surfaces."""
         return self._camera
+
+    def true_pose(self, surface: SurfaceFacts) -> Pose:
+        """Return where a surface really is, in the world."""
+        return self.variation.of(surface.individual).true_pose(surface.pose)
 
     def mark(self, name: str) -> None:
         """Remember that something named begins or ends now."""

@@ -36,7 +36,8 @@ class CoverageMap:
     def add(self, position: Array, rotation: Array, tool: Array, seconds: float) -> None:
         """Count the cells under a tool's working face for some seconds.
 
-        position (3,), rotation (3, 3): the middle of the face in the world, x and y along its edges; tool (2,): its size.
+        position (3,), rotation (3, 3): the middle of the face in the world, x and y along its edges; tool (2,): its
+        size in m.
         """
         half = tool / 2
         centre = self._in_surface.at(position)
@@ -49,7 +50,7 @@ class CoverageMap:
         self.dose[rows, columns] += seconds * (along & across)
 
     def near(self, position: Array, reach_m: float) -> bool:
-        """Whether a point of the world lies at this surface: over it or within `reach_m` of its edge, close to its plane."""
+        """Whether a point of the world is close to this surface's plane, over it or within `reach_m` of its edge."""
         point = self._in_surface.at(position)
         over = abs(point[0]) <= self.x[-1] + reach_m and abs(point[1]) <= self.y[-1] + reach_m
         return bool(over and abs(point[2]) <= NEAR_PLANE_M)
@@ -58,7 +59,7 @@ class CoverageMap:
 def _centres(length: float) -> Array:
     """Return the middles of the cells along an edge in m, symmetric to 0; the cells fill the edge evenly."""
     count = max(1, round(length / CELL_M))
-    return (np.arange(count) + 0.5) * (length / count) - length / 2
+    return np.asarray((np.arange(count) + 0.5) * (length / count) - length / 2, dtype=np.float64)
 
 
 def _window(centres: Array, middle: float, reach: float) -> slice:

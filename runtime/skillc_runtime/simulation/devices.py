@@ -9,7 +9,8 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.motion.pose import Pose, quaternion_of
-from skillc_runtime.simulation.facts import ArmFacts, GripperFacts, ToolFacts, working_face
+from skillc_runtime.robots.tools import working_face
+from skillc_runtime.simulation.facts import ArmFacts, GripperFacts, ToolFacts
 from skillc_runtime.simulation.names import face_sensor, part, wrist_sensor
 
 TOUCH_MARGIN_M = 0.01
@@ -99,7 +100,7 @@ def _set_foundation(model: Any, tool: ToolFacts) -> None:
 
 
 def _add_face_sensors(spec: Any, name: str) -> None:
-    """Add, in this order: normal force on the face; position, quaternion and linear velocity of the face in the world."""
+    """Add, in this order: the normal force on the face; its position, quaternion and linear velocity in the world."""
     _add_sensor(spec, face_sensor(name, "touch"), mujoco.mjtSensor.mjSENS_TOUCH, part(name, "touch"))
     for quantity, kind in (
         ("position", mujoco.mjtSensor.mjSENS_FRAMEPOS),

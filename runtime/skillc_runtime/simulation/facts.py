@@ -6,8 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-import numpy as np
-
 from skillc_ontology.catalogue import model as model_path
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.simulation.sheet import Sheet, SheetError, number, sheet_of, text
@@ -106,7 +104,7 @@ class FurnitureFacts:
 
 @dataclass(frozen=True, slots=True)
 class SceneFacts:
-    """Everything that is built, each kind in order of IRI; `names` are the short names for model, plots and messages."""
+    """Everything that is built, each kind in order of IRI; `names` are the short names of all individuals."""
 
     names: dict[str, str]
     arms: tuple[ArmFacts, ...]
@@ -201,8 +199,3 @@ def _surface(state: WorldState, surface: str) -> SurfaceFacts:
         offset_range_m=number(state, surface, WIPING + "offsetRange", default=0.0),
         tilt_range_rad=number(state, surface, WIPING + "tiltRange", default=0.0),
     )
-
-
-def working_face(tool_size: Array) -> Pose:
-    """Return the tool centre point of a tool in its frame: in the middle of the working face, z out of the tool."""
-    return Pose(np.array([0.0, 0.0, -tool_size[2] / 2]), np.diag([1.0, -1.0, -1.0]))

@@ -1,12 +1,13 @@
-"""A gripper in the simulation: a servo on the opening; a grasp is contact from both sides, then a weld that keeps it."""
+"""A gripper in the simulation: a servo on the opening; contact from both sides is a grasp, a weld then keeps it."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from skillc_runtime.motion.pose import Array, Pose, quaternion_of
+from skillc_runtime.robots.tools import working_face
 from skillc_runtime.simulation.arm import Payload, SimulatedArm
-from skillc_runtime.simulation.facts import GripperFacts, ToolFacts, working_face
+from skillc_runtime.simulation.facts import GripperFacts, ToolFacts
 from skillc_runtime.simulation.names import part, weld
 
 STILL_M_S, STILL_TIME_S = 0.002, 0.05
@@ -94,7 +95,7 @@ class SimulatedGripper:
         return any(one @ other < OPPOSING for one in normals for other in normals)
 
     def attach(self, thing: str, in_tool_centre: Pose) -> None:
-        """Keep a touched thing by a weld where it really is; the arm's payload and tool centre point become the thing's.
+        """Keep a touched thing by a weld where it really is; it becomes the arm's payload and tool centre point.
 
         The arm believes the thing to be at `in_tool_centre`. RuntimeError when it is not touched from both sides.
         """

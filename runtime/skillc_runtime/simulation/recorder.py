@@ -17,9 +17,9 @@ COLUMNS = 18
 class Recording:
     """A stretch of a run, one row a step, read-only. Truth from the simulator, in the world, SI units.
 
-    force (n,): N, normal force of all contacts of the tool's working face. position (n, 3), quaternion (n, 4), velocity
-    (n, 3): of the middle of that face, z out of the tool. reference, reference_velocity (n, 3): what the arm's controller
-    was asked for.
+    force (n,): N, normal force of all contacts of the tool's working face. position (n, 3), quaternion (n, 4),
+    velocity (n, 3): of the middle of that face, z out of the tool. reference, reference_velocity (n, 3): what the
+    arm's controller was asked for.
     """
 
     rows: Array

@@ -15,14 +15,12 @@ from skillc_runtime.simulation.names import part, wrist_sensor
 class Wrist:
     """The sensor between flange and gripper.
 
-    MuJoCo reports what the parent does to the child: a hanging child of 2 kg reads +20 N upwards. With the weight m g at
-    c, both relative to the sensor S: f_ext = -m g - f_S, t_ext = -c x m g - t_S, and at the tool centre point p:
+    MuJoCo reports what the parent does to the child: a hanging child of 2 kg reads +20 N upwards. With the weight m g
+    at c, relative to the sensor S: f_ext = -m g - f_S, t_ext = -c x m g - t_S, at the tool centre point p:
     t_ext - p x f_ext.
     """
 
-    def __init__(self, model: Any, data: Any, gripper: str | None, time_constant_s: float) -> None:
-        if gripper is None:
-            raise ValueError("a wrist sensor needs a gripper behind it")
+    def __init__(self, model: Any, data: Any, gripper: str, time_constant_s: float) -> None:
         first = model.sensor(wrist_sensor(gripper, "force")).adr[0]
         self._raw = data.sensordata[first : first + 6]
         site, body = model.site(part(gripper, "wrist")).id, model.body(part(gripper, "palm")).id

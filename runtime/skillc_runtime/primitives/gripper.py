@@ -1,0 +1,70 @@
+"""Moving the fingers of a gripper: one class for each kind of gripper, since they take their commands differently."""
+
+from __future__ import annotations
+
+from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.robots.cell import Cell
+
+COUNTS = 255
+"""The three-finger gripper takes opening and force as whole numbers from 0 to this."""
+
+TOLERANCE_M = 0.003
+
+
+class ParallelGripper(Primitive):
+    """Two parallel fingers: opening and force are taken as they are."""
+
+    def __init__(self, cell: Cell, *, gripper: str, opening: float, force: float) -> None:
+        super().__init__(cell)
+        self._gripper = cell.gripper(gripper)
+        self._name, self._opening, self._force = gripper, opening, force
+
+    def start(self) -> None:
+        """Begin to move; SkillFailure when the fingers cannot open so far."""
+        if self._opening > self._gripper.max_opening_m + TOLERANCE_M:
+            raise SkillFailure(
+                f"{self._name} opens to {1000 * self._gripper.max_opening_m:.0f} mm, "
+                f"not to {1000 * self._opening:.0f} mm"
+            )
+        self._gripper.move(*self.command())
+
+    def command(self) -> tuple[float, float]:
+        """Return the opening in m and the force in N that the gripper is asked for."""
+        return self._opening, self._force
+
+    def tick(self) -> Status:
+        """Wait until the fingers rest; SkillFailure when they did not open as far as asked."""
+        if self._gripper.moving:
+            return Status.RUNNING
+        opening = self._gripper.opening_m
+        if opening < self._opening - TOLERANCE_M:
+            raise SkillFailure(
+                f"{self._name} is {1000 * opening:.0f} mm open, not {1000 * self._opening:.0f} mm: "
+                "something is in the way"
+            )
+        return Status.SUCCESS
+
+    def halt(self, reason: str) -> None:
+        """Keep the fingers where they are."""
+        self._gripper.stop()
+
+    def pause(self) -> None:
+        """Keep the fingers where they are."""
+        self._gripper.stop()
+
+    def resume(self) -> None:
+        """Go on."""
+        self._gripper.move(*self.command())
+
+
+class ThreeFingerGripper(ParallelGripper):
+    """Three coupled fingers, whose controller takes opening and force in counts of 255ths of their greatest values."""
+
+    def command(self) -> tuple[float, float]:
+        """Return what the nearest counts mean: opening in m, force in N."""
+        largest, strongest = self._gripper.max_opening_m, self._gripper.max_force_n
+        return _counted(self._opening, largest), _counted(self._force, strongest)
+
+
+def _counted(value: float, greatest: float) -> float:
+    return min(round(value / greatest * COUNTS), COUNTS) * greatest / COUNTS

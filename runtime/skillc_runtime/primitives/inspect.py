@@ -1,0 +1,35 @@
+"""Looking at a surface and noting what was seen."""
+
+from __future__ import annotations
+
+from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.robots.cell import Cell
+from skillc_runtime.world.changes import SetProperty
+
+WIPING = "https://w3id.org/skillc/wiping#"
+COVERAGE, IS_CLEAN, CLEAN_THRESHOLD = WIPING + "coverage", WIPING + "isClean", WIPING + "cleanThreshold"
+
+
+class Inspect(Primitive):
+    """Measures which share of a surface is wiped; it is clean when that share reaches the surface's threshold."""
+
+    def __init__(self, cell: Cell, *, surface: str) -> None:
+        super().__init__(cell)
+        self._surface = surface
+
+    def start(self) -> None:
+        """SkillFailure when the world model does not say from which share on the surface is clean."""
+        if not isinstance(self._threshold(), float):
+            raise SkillFailure(f"the world model has no wiping:cleanThreshold for {self._surface}")
+
+    def tick(self) -> Status:
+        """Look, and note coverage and cleanness."""
+        seen, threshold = self.cell.camera().inspect(self._surface), self._threshold()
+        clean = isinstance(threshold, float) and seen >= threshold
+        self.cell.world.commit(
+            [SetProperty(self._surface, COVERAGE, seen), SetProperty(self._surface, IS_CLEAN, clean)], "Inspect"
+        )
+        return Status.SUCCESS
+
+    def _threshold(self) -> object:
+        return self.cell.world.snapshot().value(self._surface, CLEAN_THRESHOLD)
