@@ -92,7 +92,7 @@ def _side(setting: Setting, scope: Scope, written: s.Value | s.Anything) -> Valu
 
 def _relation(setting: Setting, name: s.Name, subject: Type, object_: Type) -> str | None:
     names, vocabulary = setting.names, setting.vocabulary
-    if names.is_visible("property", name.text) and not names.is_visible("relation", name.text):
+    if names.is_term("property", name.text) and not names.is_term("relation", name.text):
         setting.report(
             "unknown-relation",
             name.span,

@@ -37,7 +37,7 @@ class Names:
         self.used.add(name.text)
         if ":" in name.text:
             return self._qualified_term(kind, name, fits)
-        found = self._bare(kind).get(name.text, ())
+        found = self.bare[kind].get(name.text, ())
         if len(found) > 1:
             self._ambiguous(name, found)
         elif not found:
@@ -79,12 +79,21 @@ class Names:
         """Return what kind of term an IRI is, None for an individual."""
         return next((kind for kind in KINDS if iri in self.known[kind]), None)
 
-    def is_visible(self, kind: Kind, text: str) -> bool:
-        """Whether a bare name means a term of this kind here."""
-        return text in self._bare(kind)
+    def is_term(self, kind: Kind, text: str) -> bool:
+        """Whether a bare or qualified name means a term of this kind here."""
+        prefix, _, local = text.rpartition(":")
+        if not prefix:
+            return text in self.bare[kind]
+        iri = self.prefixes.get(prefix, "") + local
+        return self.vocabulary.aliases.get(iri, iri) in self.known[kind]
 
-    def _bare(self, kind: Kind) -> Mapping[str, tuple[str, ...]]:
-        return self.bare[kind]
+    def short(self, iri: str) -> str:
+        """Return an IRI as it can be written here: with the longest prefix that fits."""
+        fitting = [(len(base), prefix) for prefix, base in self.prefixes.items() if iri.startswith(base)]
+        if not fitting:
+            return iri
+        length, prefix = max(fitting)
+        return f"{prefix}:{iri[length:]}"
 
     def _qualified_term(self, kind: Kind, name: s.Name, fits: Callable[[str], bool]) -> str | None:
         written = self.individual(name)
@@ -95,18 +104,18 @@ class Names:
             return iri
         base = self.prefixes[name.text.partition(":")[0]]
         there = (i for i in self.known[kind] if i.startswith(base) and fits(i))
-        candidates = [self.vocabulary.short(i) for i in there]
+        candidates = [self.short(i) for i in there]
         self._report_unknown(kind, name, candidates)
         return None
 
     def _ambiguous(self, name: s.Name, found: tuple[str, ...]) -> None:
-        ways = " and ".join(f"`{self.vocabulary.short(iri)}`" for iri in found)
+        ways = " and ".join(f"`{self.short(iri)}`" for iri in found)
         self.problems.append(
             Diagnostic(
                 "ambiguous-name",
                 name.span,
                 f"`{name.text}` may mean {ways}",
-                help=f"write the prefix, such as `{self.vocabulary.short(found[0])}`",
+                help=f"write the prefix, such as `{self.short(found[0])}`",
             )
         )
 
@@ -126,7 +135,7 @@ class Names:
                 )
             )
             return
-        candidates = (text for text, iris in self._bare(kind).items() if fits(iris[0]))
+        candidates = (text for text, iris in self.bare[kind].items() if fits(iris[0]))
         self._report_unknown(kind, name, candidates)
 
     def _report_unknown(self, what: str, name: s.Name, candidates: Iterable[str]) -> None:

@@ -33,7 +33,7 @@ def value_type(names: Names, written: s.TypeName) -> ValueType:
             return ListType(value_type(names, element))
         case s.Name(text=text) if text in BUILT_IN:
             return BUILT_IN[text]
-        case s.Name(text=text) if ":" not in text and not names.is_visible("class", text):
+        case s.Name(text=text) if ":" not in text and not names.is_term("class", text):
             return _unknown(names, written)
         case s.Name():
             return _class(names, written)

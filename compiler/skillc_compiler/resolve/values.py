@@ -71,7 +71,7 @@ def value(setting: Setting, scope: Scope, written: s.Value, wanted: Wanted = ANY
 def _reference(setting: Setting, scope: Scope, written: s.Reference, wanted: Wanted) -> Valued:
     text, span = written.name.text, written.span
     if ":" in text:
-        return _individual(setting, written)
+        return _individual(setting, written, wanted)
     known = scope.variables.get(text)
     if known is not None:
         if not known.sure:
@@ -102,11 +102,11 @@ def _unknown_name(setting: Setting, scope: Scope, written: s.Reference, wanted: 
         "unknown-parameter",
         written.span,
         f"{scope.owner} has no parameter or other name `{written.name.text}`",
-        did_you_mean(written.name.text, fitting) or "declare it as a parameter, or write an individual with its prefix",
+        did_you_mean(written.name.text, fitting) or "an individual is written with its prefix: `lab:Board-1`",
     )
 
 
-def _individual(setting: Setting, written: s.Reference) -> Valued:
+def _individual(setting: Setting, written: s.Reference, wanted: Wanted) -> Valued:
     iri = setting.names.individual(written.name)
     if iri is None:
         return Valued(Individual(written.name.text), UNKNOWN, written.span)
@@ -119,7 +119,24 @@ def _individual(setting: Setting, written: s.Reference) -> Valued:
             "write a parameter, or an individual of the scene",
         )
         return Valued(Individual(iri), UNKNOWN, written.span)
-    return Valued(Individual(iri), Thing(None), written.span)
+    return Valued(Individual(iri), _class_of(setting, written, iri, wanted), written.span)
+
+
+def _class_of(setting: Setting, written: s.Reference, iri: str, wanted: Wanted) -> Type:
+    """Return the type of an individual; one that the scene does not have is reported."""
+    known = setting.individuals
+    if known is None:
+        return Thing(None)
+    if iri in known:
+        return Thing(known[iri])
+    fitting = [other for other, cls in known.items() if fits(setting.vocabulary, Thing(cls), wanted.type)]
+    setting.report(
+        "unknown-individual",
+        written.span,
+        f"there is no `{written.name.text}` in the scene",
+        did_you_mean(written.name.text, map(setting.names.short, fitting)),
+    )
+    return UNKNOWN
 
 
 def _member(setting: Setting, scope: Scope, written: s.Member) -> Valued:
@@ -134,7 +151,7 @@ def _member(setting: Setting, scope: Scope, written: s.Member) -> Valued:
 def property_of(setting: Setting, of: Valued, name: s.Name) -> str | None:
     """Return the IRI of a property; near misses are those that `of` can have."""
     names, vocabulary = setting.names, setting.vocabulary
-    if names.is_visible("relation", name.text) and not names.is_visible("property", name.text):
+    if names.is_term("relation", name.text) and not names.is_term("property", name.text):
         setting.report(
             "unknown-property",
             name.span,

@@ -1,0 +1,140 @@
+"""Goals in PDDL text, as the same syntax that a `.skill` goal has."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Span
+
+_TOKEN = re.compile(r"[()]|[^\s()]+")
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """A name, variable, keyword or `-`."""
+
+    text: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """`( .. )`"""
+
+    parts: tuple[Expression, ...]
+    span: Span
+
+
+Expression: TypeAlias = Word | Group
+
+
+class PddlGoalError(Exception):
+    """A text that is no PDDL goal; `problem` says where and why."""
+
+    def __init__(self, problem: Diagnostic) -> None:
+        super().__init__(problem.message)
+        self.problem = problem
+
+
+def read_group(text: str, path: str) -> Group | None:
+    """Return a text as nested groups, None if it is not exactly one well-nested group."""
+    stack: list[tuple[list[Expression], Span]] = []
+    whole: Group | None = None
+    for word in _words(text, path):
+        if whole is not None:
+            return None
+        if word.text == "(":
+            stack.append(([], word.span))
+        elif not stack:
+            return None
+        elif word.text == ")":
+            parts, start = stack.pop()
+            group = Group(tuple(parts), start.to(word.span))
+            if stack:
+                stack[-1][0].append(group)
+            else:
+                whole = group
+        else:
+            stack[-1][0].append(word)
+    return whole
+
+
+def goal(group: Group, is_class: Callable[[str], bool]) -> s.Condition:
+    """Return the condition that a PDDL goal stands for. Raises PddlGoalError for what is no goal."""
+    match group.parts:
+        case [Word(text="and"), *parts]:
+            return s.And(tuple(goal(_group(part), is_class) for part in parts), group.span)
+        case [Word(text="or"), *parts]:
+            return s.Or(tuple(goal(_group(part), is_class) for part in parts), group.span)
+        case [Word(text="not"), body]:
+            return s.Not(goal(_group(body), is_class), group.span)
+        case [Word(text="imply"), premise, then]:
+            return s.Implies(goal(_group(premise), is_class), goal(_group(then), is_class), group.span)
+        case [Word(text="exists"), Group() as variables, body]:
+            return _quantified("exists", variables, goal(_group(body), is_class), group)
+        case [Word(text="forall"), Group() as variables, body]:
+            return _quantified("forall", variables, goal(_group(body), is_class), group)
+        case [Word(text="="), Word() as left, Word() as right]:
+            return s.Compare(_reference(left), "==", _reference(right), group.span)
+        case [Word() as relation, Word() as subject, Word() as object_]:
+            return s.Relation(_reference(subject), _name(relation), _reference(object_), group.span)
+        case [Word() as name, Word() as subject] if is_class(name.text):
+            return s.Is(_reference(subject), _name(name), group.span)
+        case [Word() as name, Word() as subject]:
+            value = s.Member(_reference(subject), _name(name), group.span)
+            return s.Compare(value, "==", s.Boolean(True, group.span), group.span)
+    raise _refusal(group.span, "this is no goal")
+
+
+def _quantified(kind: Literal["exists", "forall"], variables: Group, body: s.Condition, whole: Group) -> s.Condition:
+    for variable, cls in reversed(list(_typed(variables.parts, whole))):
+        body = s.Quantified(kind, variable, cls, body, whole.span)
+    return body
+
+
+def _group(part: Expression) -> Group:
+    if isinstance(part, Group):
+        return part
+    raise _refusal(part.span, f"`{part.text}` stands alone where a goal in parentheses belongs")
+
+
+def _typed(parts: Sequence[Expression], of: Group) -> Iterator[tuple[s.Name, s.Name]]:
+    """Yield the variables of `(?x ?y - Class ..)` with their classes; `Thing` where none is written."""
+    waiting: list[Word] = []
+    remaining = iter(parts)
+    for part in remaining:
+        if not isinstance(part, Word):
+            raise _refusal(part.span, "variables are written `?x - Class`")
+        if part.text != "-":
+            waiting.append(part)
+            continue
+        cls = next(remaining, None)
+        if not isinstance(cls, Word):
+            raise _refusal(of.span, "a class is missing after `-`")
+        yield from ((_name(variable), _name(cls)) for variable in waiting)
+        waiting = []
+    yield from ((_name(variable), s.Name("Thing", variable.span)) for variable in waiting)
+
+
+def _reference(word: Word) -> s.Reference:
+    return s.Reference(_name(word), word.span)
+
+
+def _name(word: Word) -> s.Name:
+    return s.Name(word.text.removeprefix("?"), word.span)
+
+
+def _refusal(span: Span, message: str) -> PddlGoalError:
+    help_ = "a goal is `(relation subject object)` or `(property individual)`, joined by and, or, not, exists, forall"
+    return PddlGoalError(Diagnostic("syntax", span, message, help_))
+
+
+def _words(text: str, path: str) -> Iterator[Word]:
+    for number, line in enumerate(text.splitlines(), start=1):
+        for found in _TOKEN.finditer(line.partition(";")[0]):
+            yield Word(found.group(), Span(path, number, found.start() + 1, number, found.end() + 1))

@@ -1,0 +1,95 @@
+"""The setting in which a goal or a call is understood: all vocabularies, a library's skills, a scene's individuals."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from skillc_compiler.library import skills as library
+from skillc_compiler.library.conditions import Expression, Literal
+from skillc_compiler.library.vocabulary import THING, Position, Vocabulary
+from skillc_compiler.program import Parameter, Skill, Valued
+from skillc_compiler.resolve.names import Names, bare_terms
+from skillc_compiler.resolve.scope import Setting
+from skillc_compiler.types import Type, of_library
+from skillc_dsl.source import Span
+
+Individuals = Mapping[str, Sequence[str]]
+
+
+def setting(
+    vocabulary: Vocabulary,
+    individuals: Individuals,
+    prefixes: Mapping[str, str],
+    skills: Mapping[str, library.Skill] | None = None,
+) -> Setting:
+    """Return the setting: every term may be written bare where that is unambiguous.
+
+    `individuals` are the IRIs known, with their classes; `prefixes` may be written besides the vocabulary's.
+    """
+    understood = {name: _skill(skill) for name, skill in (skills or {}).items()}
+    names = Names(
+        bare=bare_terms(vocabulary, vocabulary.prefixes),
+        known={
+            "class": set(vocabulary.classes),
+            "relation": set(vocabulary.relations),
+            "property": set(vocabulary.properties),
+        },
+        vocabulary=vocabulary,
+        prefixes={**prefixes, **vocabulary.prefixes},
+        functions=vocabulary.functions,
+        skills=set(understood),
+        elsewhere={},
+    )
+    return Setting(
+        names=names,
+        vocabulary=vocabulary,
+        skills=understood,
+        implementations={name: skill.implementations for name, skill in (skills or {}).items()},
+        individuals={iri: _most_specific(vocabulary, classes) for iri, classes in individuals.items()},
+    )
+
+
+def _most_specific(vocabulary: Vocabulary, classes: Sequence[str]) -> str:
+    """Return a class of which no other one given is a subclass, the first by IRI; `owl:Thing` if none is given."""
+    others = {one: [other for other in classes if other != one] for one in sorted(classes)}
+    lowest = (one for one, rest in others.items() if not any(vocabulary.is_a(other, one) for other in rest))
+    return next(lowest, THING)
+
+
+def _skill(skill: library.Skill) -> Skill:
+    """Return a compiled skill as the callee that calls are understood against."""
+    return Skill(
+        name=skill.name,
+        doc=skill.doc,
+        parameters=tuple(_parameter(p) for p in skill.parameters),
+        requirements=(),
+        duration=None,
+        devices=(),
+        flags=frozenset({"scoped"}) if skill.scoped else frozenset(),
+        name_span=_span(skill.source),
+        span=_span(skill.source),
+    )
+
+
+def _parameter(parameter: library.Parameter) -> Parameter:
+    kind, span = of_library(parameter.type), _span(parameter.source)
+    return Parameter(
+        name=parameter.name,
+        direction=parameter.direction,
+        any_=parameter.any_,
+        declared=parameter.type,
+        type=kind,
+        default=_valued(parameter.default, kind, span),
+        low=_valued(None if parameter.low is None else Literal(parameter.low), kind, span),
+        high=_valued(None if parameter.high is None else Literal(parameter.high), kind, span),
+        doc=parameter.doc,
+        span=span,
+    )
+
+
+def _valued(meaning: Expression | None, kind: Type, span: Span) -> Valued | None:
+    return Valued(meaning, kind, span) if meaning is not None else None
+
+
+def _span(place: Position) -> Span:
+    return Span(place.path, place.line, place.column, place.line, place.column + 1)

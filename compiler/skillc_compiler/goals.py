@@ -1,0 +1,125 @@
+"""Goals and calls given at run time, in `.skill` or PDDL text, understood and checked like those in files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Literal
+
+import msgspec
+
+from skillc_compiler.asking.pddl_text import Group, PddlGoalError, Word, goal, read_group
+from skillc_compiler.asking.setting import Individuals, setting
+from skillc_compiler.checks import check
+from skillc_compiler.library import tree
+from skillc_compiler.library.conditions import Condition
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_compiler.library.vocabulary import Position, Vocabulary
+from skillc_compiler.lower.bodies import node
+from skillc_compiler.lower.folding import fold_condition
+from skillc_compiler.program import Program, Task
+from skillc_compiler.resolve.names import Names
+from skillc_compiler.resolve.scope import Setting
+from skillc_compiler.resolve.tasks import task
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.parser import parse
+from skillc_dsl.source import Source, Span
+
+LINES_ABOVE = 2
+
+
+def parse_goal(
+    text: str, vocabulary: Vocabulary, individuals: Individuals, prefixes: Mapping[str, str] | None = None
+) -> Outcome[Condition | None]:
+    """Understand a goal such as `lab:Board.isClean == true` or `(skiros:contain lab:Box-1 lab:Part-1)`.
+
+    `individuals` are the IRIs of the scene with their classes, `prefixes` those its file declares. The value is None
+    if there are errors; spans count in `text`, under the path `goal`.
+    """
+    asked = setting(vocabulary, individuals, prefixes or {})
+    group = read_group(text, "goal")
+    if group is not None and _is_pddl(group, asked.names):
+        understood = _understood(asked, _from_pddl(group, text, asked.names))
+    else:
+        understood = _in_text(_understood(asked, _wrapped(text, "goal")), text, "goal")
+    reached = understood.value.goal if understood.value else None
+    return Outcome(fold_condition(reached.meaning) if reached else None, understood.diagnostics)
+
+
+def parse_call(
+    text: str, library: SkillLibrary, individuals: Individuals, prefixes: Mapping[str, str] | None = None
+) -> Outcome[tree.Call | None]:
+    """Understand a call such as `Wipe(surface: lab:Board)`; as `parse_goal`, with the path `call`."""
+    asked = setting(library.vocabulary, individuals, prefixes or {}, library.skills)
+    understood = _in_text(_understood(asked, _wrapped(text, "call")), text, "call")
+    called = node(understood.value.body) if understood.value and understood.value.body else None
+    if not isinstance(called, tree.Call):
+        return Outcome(None, understood.diagnostics)
+    return Outcome(msgspec.structs.replace(called, source=Position("call", 1, 1)), understood.diagnostics)
+
+
+def _is_pddl(group: Group, names: Names) -> bool:
+    """Whether a text in parentheses is PDDL: `(a r b)` is not when `r` is a relation and `a` is none."""
+    match group.parts:
+        case [Word(text="not"), inner]:
+            return isinstance(inner, Group)
+        case [Word(text="and" | "or" | "imply" | "exists" | "forall" | "="), *_]:
+            return True
+        case [Word(text=first), Word(text=second), Word()]:
+            return names.is_term("relation", first) or not names.is_term("relation", second)
+        case [Word(), Word()]:
+            return True
+    return False
+
+
+def _from_pddl(group: Group, text: str, names: Names) -> Outcome[s.TaskDeclaration | None]:
+    try:
+        condition = goal(group, lambda name: names.is_term("class", name))
+    except PddlGoalError as refusal:
+        return Outcome(None, (refusal.problem,))
+    return Outcome(s.TaskDeclaration(s.Name("goal", group.span), None, condition, text, None, "", group.span))
+
+
+def _wrapped(text: str, what: Literal["goal", "call"]) -> Outcome[s.TaskDeclaration | None]:
+    """Parse a goal or a call as the only member of a task, which begins LINES_ABOVE lines before it."""
+    member = "goal" if what == "goal" else "do"
+    parsed = parse(Source(what, f"task {what} {{\n{member}\n{text}\n}}\n"))
+    if parsed.diagnostics:
+        return Outcome(None, parsed.diagnostics)
+    match parsed.value:
+        case s.File(header=(), declarations=[s.TaskDeclaration(scene=None) as alone]):
+            is_goal = alone.goal is not None and alone.body is None
+            is_call = alone.goal is None and alone.body is not None and isinstance(alone.body.node, s.CallSkill)
+            if is_goal if what == "goal" else is_call:
+                return Outcome(alone)
+    example = "`lab:Board-1.isClean == true`" if what == "goal" else "`Skill(parameter: value, ..)`"
+    span = Span(what, 1 + LINES_ABOVE, 1, 1 + LINES_ABOVE, 2)
+    return Outcome(None, (Diagnostic("syntax", span, f"this is not one {what}", f"write {example}"),))
+
+
+def _understood(asked: Setting, written: Outcome[s.TaskDeclaration | None]) -> Outcome[Task | None]:
+    """Resolve and check; the value is None if there are errors."""
+    if written.value is None:
+        return Outcome(None, written.diagnostics)
+    understood = task(asked, written.value)
+    program = Program("", asked.vocabulary, (), {}, (), (understood,), {})
+    outcome: Outcome[Task | None] = Outcome(understood, (*asked.names.problems, *check(program)))
+    return outcome if outcome.ok else Outcome(None, outcome.diagnostics)
+
+
+def _in_text(outcome: Outcome[Task | None], text: str, path: str) -> Outcome[Task | None]:
+    """Count places in the text itself, not in the task that was put around it."""
+    last = max(1, len(text.splitlines()))
+
+    def place(span: Span) -> Span:
+        if span.path != path:
+            return span
+        lines = (min(max(line - LINES_ABOVE, 1), last) for line in (span.line, span.end_line))
+        return Span(path, next(lines), span.column, next(lines), span.end_column)
+
+    moved = (
+        replace(d, span=place(d.span), labels=tuple(replace(label, span=place(label.span)) for label in d.labels))
+        for d in outcome.diagnostics
+    )
+    return Outcome(outcome.value, tuple(moved))
