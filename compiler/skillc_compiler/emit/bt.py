@@ -1,0 +1,90 @@
+"""trees/: behaviour trees in the XML of BehaviorTree.CPP, version 4.
+
+A file per skill that has a compound implementation, and per task written by hand. Each can be loaded by itself: it holds
+the trees of all skills it calls and declares every node it uses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from xml.etree.ElementTree import Element, indent, tostring
+
+from skillc_compiler.emit.bt_model import Model
+from skillc_compiler.emit.bt_names import Names, legal
+from skillc_compiler.emit.bt_nodes import Body, is_tree
+from skillc_compiler.emit.bt_skills import implementation_tree, skill_tree
+from skillc_compiler.emit.headers import XML_DECLARATION
+from skillc_compiler.library.pddl.reading import walk
+from skillc_compiler.library.skills import Compound, Skill, SkillLibrary, Task
+from skillc_compiler.library.tree import Call, Node
+
+
+def emit(library: SkillLibrary) -> dict[str, str]:
+    """Return a file for each skill with a compound implementation, and for each task that is written by hand."""
+    names = _names(library)
+    files = {}
+    for _, skill in sorted(library.skills.items()):
+        if any(isinstance(each.body, Compound) for each in library.implementations_of(skill.name)):
+            files[f"trees/{legal(skill.name)}.xml"] = _skill_file(skill, library, names)
+    for _, task in sorted(library.tasks.items()):
+        if task.body is not None:
+            files[f"trees/task_{legal(task.name)}.xml"] = _task_file(task, task.body, library, names)
+    return files
+
+
+def _names(library: SkillLibrary) -> Names:
+    """Return names in which skills and implementations come first, so that they are the same in every file."""
+    names = Names()
+    for skill in sorted(library.skills):
+        names.of(skill)
+    for _, implementation in sorted(library.implementations.items()):
+        names.of(implementation.skill, implementation.name)
+    return names
+
+
+def _skill_file(skill: Skill, library: SkillLibrary, names: Names) -> str:
+    model = Model()
+    skills = [skill, *(library.skills[name] for name in sorted(_called([skill.name], library) - {skill.name}))]
+    trees = [tree for each in skills for tree in _trees(each, library, names, model)]
+    return _document(names.of(skill.name), trees, model)
+
+
+def _task_file(task: Task, body: Node, library: SkillLibrary, names: Names) -> str:
+    model = Model()
+    identity = names.of("task", task.name)
+    tree = Element("BehaviorTree", ID=identity, _description=str(task.source))
+    tree.append(Body(library, names, model, ("task", task.name)).node(body))
+    called = _called([each.skill for each in walk(body) if isinstance(each, Call)], library)
+    others = [each for name in sorted(called) for each in _trees(library.skills[name], library, names, model)]
+    return _document(identity, [tree, *others], model)
+
+
+def _called(start: list[str], library: SkillLibrary) -> set[str]:
+    """Return these skills and all that they call, directly or not."""
+    seen: set[str] = set()
+    todo = list(start)
+    while todo:
+        name = todo.pop()
+        if name not in seen:
+            seen.add(name)
+            bodies = [each.body for each in library.implementations_of(name)]
+            nodes = [body.node for body in bodies if isinstance(body, Compound)]
+            todo += [each.skill for node in nodes for each in walk(node) if isinstance(each, Call)]
+    return seen
+
+
+def _trees(skill: Skill, library: SkillLibrary, names: Names, model: Model) -> Iterator[Element]:
+    if not is_tree(library, skill, ()):
+        return
+    yield skill_tree(Body(library, names, model, (skill.name,)), skill)
+    for each in library.implementations_of(skill.name):
+        if isinstance(each.body, Compound):
+            body = Body(library, names, model, (skill.name, each.name), posts=each.post)
+            yield implementation_tree(body, each)
+
+
+def _document(main: str, trees: list[Element], model: Model) -> str:
+    root = Element("root", BTCPP_format="4", main_tree_to_execute=main)
+    root.extend([*trees, model.element()])
+    indent(root)
+    return XML_DECLARATION + tostring(root, encoding="unicode") + "\n"

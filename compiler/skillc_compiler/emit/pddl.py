@@ -1,0 +1,37 @@
+"""domain.pddl and domain.temporal.pddl: what planners read."""
+
+from __future__ import annotations
+
+from skillc_compiler.library.pddl.planning import planning_domain
+from skillc_compiler.library.pddl.text import domain_text, temporal_text
+from skillc_compiler.library.skills import SkillLibrary
+
+
+class DomainRefused(Exception):  # noqa: N818  (what happened to the domain; the mistake is ours, not the author's)
+    """An independent parser does not take the domain that was printed: a mistake of this compiler."""
+
+
+def emit(library: SkillLibrary) -> dict[str, str]:
+    """Return the classical and the temporal domain; DomainRefused if the classical one cannot be read back."""
+    domain = planning_domain(library)
+    classical = domain_text(domain)
+    read_back(classical, {action.name for action in domain.actions})
+    return {"domain.pddl": classical, "domain.temporal.pddl": temporal_text(domain)}
+
+
+def read_back(text: str, actions: set[str]) -> None:
+    """Read the domain with the `pddl` package; DomainRefused unless it is whole and has these actions.
+
+    That package wants :numeric-fluents beside static cost functions, Fast Downward refuses them: only it is shown them.
+    """
+    from lark.exceptions import LarkError
+    from pddl.exceptions import PDDLParsingError, PDDLValidationError
+    from pddl.parser.domain import DomainParser
+
+    shown = text.replace(":action-costs)", ":action-costs :numeric-fluents)", 1)
+    try:
+        read = DomainParser()(shown)
+    except (LarkError, PDDLParsingError, PDDLValidationError) as error:
+        raise DomainRefused(f"the domain printed for this library is not PDDL: {error}") from error
+    if {action.name for action in read.actions} != actions:
+        raise DomainRefused("the domain printed for this library lost an action")

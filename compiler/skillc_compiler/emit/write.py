@@ -1,0 +1,74 @@
+"""Artifacts onto the disk: each file is either the old one or the whole new one."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from skillc_compiler.emit.headers import COMMENTS, is_ours
+
+HEAD_BYTES = 1000
+
+
+class EmitError(OSError):
+    """The artifacts could not be written; the message says what, where and why."""
+
+
+def write(artifacts: Mapping[str, str], directory: Path) -> tuple[Path, ...]:
+    """Write the artifacts below the directory and remove those of an earlier compile; return the paths written.
+
+    A file that does not carry our header is never removed. EmitError when the disk is full or not writable.
+    """
+    written = []
+    for relative, text in sorted(artifacts.items()):
+        path = directory / relative
+        _write_whole(path, text.encode())
+        written.append(path)
+    for path in _outdated(directory, set(written)):
+        _remove(path)
+    return tuple(written)
+
+
+def _write_whole(path: Path, content: bytes) -> None:
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        descriptor, name = tempfile.mkstemp(prefix=".skillc-", dir=path.parent)
+    except OSError as error:
+        raise _refused(path, error) from error
+    try:
+        with os.fdopen(descriptor, "wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        Path(name).chmod(0o644)
+        Path(name).replace(path)
+    except OSError as error:
+        Path(name).unlink(missing_ok=True)
+        raise _refused(path, error) from error
+
+
+def _outdated(directory: Path, written: set[Path]) -> Iterator[Path]:
+    for path in sorted(directory.rglob("*")):
+        if path.suffix in COMMENTS and path not in written and path.is_file() and _carries_header(path):
+            yield path
+
+
+def _carries_header(path: Path) -> bool:
+    try:
+        with path.open("rb") as file:
+            return is_ours(file.read(HEAD_BYTES).decode(errors="replace"))
+    except OSError:
+        return False
+
+
+def _remove(path: Path) -> None:
+    try:
+        path.unlink()
+    except OSError as error:
+        raise EmitError(f"cannot remove {path}, which is out of date: {error.strerror}") from error
+
+
+def _refused(path: Path, error: OSError) -> EmitError:
+    return EmitError(f"cannot write {path}: {error.strerror}; the artifacts already there are whole")
