@@ -55,10 +55,12 @@ class SimulatedArm:
         self.limits = _limits(model, joints, actuator, facts)
         self.fixed_tool = _fixed_tool(model, name, gripper)
         self._tool, self.payload = self.fixed_tool, NO_PAYLOAD
-        self._position_jacobian, self._rotation_jacobian = np.zeros((3, model.nv)), np.zeros((3, model.nv))
+        self._both = np.zeros((2, 3, model.nv))
+        self._both_arm = self._both[:, :, self._dofs]
         self._jacobian, self._mass = np.zeros((6, count)), np.zeros((count, count))
+        self._jacobian_halves = self._jacobian.reshape(2, 3, count)
         self._full_mass, self._next_mass_time = np.zeros((model.nv, model.nv)), 0.0
-        self._payload_jacobian = np.zeros((3, model.nv))
+        self._load, self._gravity, self._compensated = np.zeros(6), model.opt.gravity.copy(), np.zeros(count)
         self._wrist = _wrist(facts, gripper, model, data)
         self._still = np.zeros(6)
         self._increment, self._steps_left, self._steps_per_command = np.zeros(count), 0, steps_per_command
@@ -76,32 +78,27 @@ class SimulatedArm:
         """The arm's base in the world."""
         return Pose(self._base_position.copy(), self._base_rotation.copy())
 
-    @property
-    def payload_weight(self) -> Array:
-        """What the payload's weight asks of the joints, (nv,) N m; zeros without payload."""
-        if self.payload.mass_kg == 0.0:
-            return np.zeros_like(self._bias)
-        point = self._link_position + self._link_rotation @ self.payload.centre
-        mujoco.mj_jac(self._model, self._data, self._payload_jacobian, None, point, self._link)
-        weight = -self.payload.mass_kg * self._model.opt.gravity
-        return np.asarray(weight @ self._payload_jacobian[:, self._dofs])
-
     def state(self) -> ArmState:
         """Return the present state, in the arm's base frame."""
         turn = self._base_rotation.T
-        point = self._link_position + self._link_rotation @ self._tool.position
-        mujoco.mj_jac(self._model, self._data, self._position_jacobian, self._rotation_jacobian, point, self._link)
-        np.matmul(turn, self._position_jacobian[:, self._dofs], out=self._jacobian[:3])
-        np.matmul(turn, self._rotation_jacobian[:, self._dofs], out=self._jacobian[3:])
+        hand, placed = self._link_rotation, self._tool
+        point = hand @ placed.position
+        point += self._link_position
+        mujoco.mj_jac(self._model, self._data, self._both[0], self._both[1], point, self._link)
+        np.matmul(turn, self._both_arm, out=self._jacobian_halves)
         if self._data.time >= self._next_mass_time:
             self._update_mass_matrix()
+        bias = self._bias.copy()
+        if self.payload.mass_kg > 0.0:
+            bias += self._payload_weight(turn, point)
+        self._compensated = bias
         return ArmState(
             q=self._q.copy(),
             dq=self._dq.copy(),
-            tool=Pose(turn @ (point - self._base_position), turn @ self._link_rotation @ self._tool.rotation),
+            tool=Pose(turn @ (point - self._base_position), turn @ hand @ placed.rotation),
             jacobian=self._jacobian,
             mass_matrix=self._mass,
-            bias=self._bias + self.payload_weight,
+            bias=bias,
             wrench=self._still if self._wrist is None else self._wrist.external(point, turn, self.payload_at()),
         )
 
@@ -125,7 +122,7 @@ class SimulatedArm:
         compensate its weight, Coriolis forces and configured payload.
         """
         if self._interface == "position":
-            np.add(self._bias, self.payload_weight, out=self._feedforward)
+            self._feedforward[:] = self._compensated
             if self._steps_left > 0:
                 self._control += self._increment
                 self._steps_left -= 1
@@ -145,13 +142,22 @@ class SimulatedArm:
         self.payload, self._tool = NO_PAYLOAD, self.fixed_tool
         self._next_mass_time = 0.0
 
+    def _payload_weight(self, turn: Array, point: Array) -> Array:
+        """Return the joint torques (nv,) that carry the payload: J^T [w; r x w], w = -m g at r from the tool centre."""
+        mass, centre = self.payload_at()
+        lift, lever = turn @ (-mass * self._gravity), turn @ (centre - point)
+        self._load[:3] = lift
+        mujoco.mju_cross(self._load[3:], lever, lift)
+        return np.asarray(self._load @ self._jacobian)
+
     def _update_mass_matrix(self) -> None:
         mujoco.mj_fullM(self._model, self._data, self._full_mass)
         self._mass[:] = self._full_mass[self._dofs, self._dofs]
         mass, point = self.payload_at()
         if mass > 0.0:
-            mujoco.mj_jac(self._model, self._data, self._payload_jacobian, None, point, self._link)
-            jacobian = self._payload_jacobian[:, self._dofs]
+            at_centre = np.zeros((3, self._model.nv))
+            mujoco.mj_jac(self._model, self._data, at_centre, None, point, self._link)
+            jacobian = at_centre[:, self._dofs]
             self._mass += mass * jacobian.T @ jacobian
         self._next_mass_time = self._data.time + MASS_MATRIX_PERIOD_S - 1e-9
 

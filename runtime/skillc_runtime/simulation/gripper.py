@@ -13,6 +13,9 @@ from skillc_runtime.simulation.names import part, weld
 STILL_M_S, STILL_TIME_S = 0.002, 0.05
 """Fingers that have been slower than this for that long, at the end of their way or held up, have arrived."""
 
+HANDLE, PAD = 4, 8
+"""Contact bits of what fingers may touch and of the fingers' pads."""
+
 OPPOSING = -0.7
 """Cosine below which two contact normals count as opposite sides."""
 
@@ -36,7 +39,7 @@ class SimulatedGripper:
         self._length = data.actuator_length[self._actuator : self._actuator + 1]
         self._speed = data.actuator_velocity[self._actuator : self._actuator + 1]
         self._pads = frozenset(_pads(model, self._name))
-        self._goal = self._target = 0.0
+        self._set_opening(facts.max_opening_m / 2)
         self._still_since, self._holding, self._idle = 0.0, "", True
 
     @property
@@ -109,6 +112,7 @@ class SimulatedGripper:
         row[:3], row[3:6], row[6:10], row[10] = 0.0, truth.position, quaternion_of(truth.rotation), 1.0
         self._data.eq_active[equality] = 1
         self._holding, tool = thing, self._tools[thing]
+        self._set_grip_contact(thing, False)
         centre = _pose(self._data, block).inverse().at(self._data.subtree_com[block])
         payload = Payload(tool.mass_kg, (self._arm.fixed_tool @ in_tool_centre).at(centre))
         self._arm.carry(payload, in_tool_centre @ working_face(tool.size))
@@ -118,6 +122,7 @@ class SimulatedGripper:
         if not self._holding:
             return
         equality = self._model.equality(weld(self._name, self._names[self._holding])).id
+        self._set_grip_contact(self._holding, True)
         self._data.eq_active[equality], self._holding = 0, ""
         self._arm.carry_nothing()
 
@@ -128,6 +133,22 @@ class SimulatedGripper:
             q = self._data.qpos[joint.qposadr[0] : joint.qposadr[0] + 7]
             moved = motion @ Pose.of(q[:3], q[3:])
             q[:3], q[3:] = moved.position, quaternion_of(moved.rotation)
+
+    def _set_opening(self, opening_m: float) -> None:
+        """Put the fingers somewhere at once: each joint of the opening's tendon takes its share."""
+        tendon = int(self._model.actuator_trnid[self._actuator, 0])
+        first = int(self._model.tendon_adr[tendon])
+        span = slice(first, first + int(self._model.tendon_num[tendon]))
+        joints, shares = self._model.wrap_objid[span], self._model.wrap_prm[span]
+        self._data.qpos[self._model.jnt_qposadr[joints]] = opening_m / shares.sum()
+        self._data.ctrl[self._actuator] = self._goal = self._target = opening_m
+
+    def _set_grip_contact(self, thing: str, on: bool) -> None:
+        """Let pads touch a thing or not: while the weld keeps it, their contact would only cost time."""
+        handle = self._model.geom(part(self._names[thing], "handle")).id
+        self._model.geom_contype[handle], self._model.geom_conaffinity[handle] = (HANDLE, PAD) if on else (0, 0)
+        if not on:
+            self.stop()
 
     def _pushes(self) -> bool:
         """Whether the servo pushes with all the force it may."""
