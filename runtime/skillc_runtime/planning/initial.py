@@ -1,0 +1,103 @@
+"""What is true at first, and what things cost: facts of the index, static conditions settled for every tuple."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import product
+from typing import assert_never
+
+from skillc_compiler.library.pddl.costs import ASSUMED_SECONDS, units
+from skillc_compiler.library.pddl.domain import (
+    ClassFact,
+    CostFunction,
+    GoalFact,
+    GuardFact,
+    PlanningDomain,
+    Predicate,
+    PropertyFact,
+    RelationFact,
+)
+from skillc_compiler.library.pddl.formulas import Atom, Typed
+from skillc_compiler.library.pddl.problem import CostValue
+from skillc_runtime.world.conditions import evaluate
+from skillc_runtime.world.expressions import EvaluationError, property_of, value_of
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.values import has
+
+
+class Initial:
+    """Reads a version of the world for a planner; `undecided` collects what had no value for some individuals."""
+
+    def __init__(self, domain: PlanningDomain, state: WorldState, objects: Sequence[Typed], names: dict[str, str]):
+        self._domain, self._state = domain, state
+        self._iris = names
+        self._names = {iri: name for name, iri in names.items()}
+        self._members = {type_: domain.of_type(objects, type_) for type_ in _types(domain)}
+        self.undecided: dict[str, None] = {}
+
+    def atoms(self) -> Iterator[Atom]:
+        """Yield what is true at first, sorted within each predicate."""
+        for predicate in self._domain.predicates:
+            yield from (Atom(predicate.name, terms) for terms in sorted(self._tuples(predicate)))
+
+    def costs(self) -> Iterator[CostValue]:
+        """Yield the value of each cost function for all tuples of its types."""
+        for function in self._domain.costs:
+            for names in product(*(self._members[each.type] for each in function.parameters)):
+                yield CostValue(function.name, names, self._units(function, names))
+
+    def _tuples(self, predicate: Predicate) -> Iterable[tuple[str, ...]]:
+        match predicate.meaning:
+            case RelationFact(relation, narrower):
+                return self._relation(relation, narrower)
+            case PropertyFact(property_, value):
+                return ((self._names[iri],) for iri in self._with_value(property_, value) if iri in self._names)
+            case ClassFact(cls):
+                return ((self._names[iri],) for iri in self._state.instances(cls) if iri in self._names)
+            case GuardFact():
+                return self._guard(predicate, predicate.meaning)
+            case GoalFact():
+                return ()
+            case _:
+                assert_never(predicate.meaning)
+
+    def _relation(self, relation: str, narrower: tuple[tuple[str, bool], ...]) -> Iterator[tuple[str, ...]]:
+        names, holds = self._names, self._state.holds
+        for subject, object_ in self._state.pairs(relation):
+            if subject in names and object_ in names:
+                said_by_others = any(
+                    holds(object_, other, subject) if swapped else holds(subject, other, object_)
+                    for other, swapped in narrower
+                )
+                if not said_by_others:
+                    yield names[subject], names[object_]
+
+    def _with_value(self, property_: str, value: bool | str) -> Iterable[str]:
+        term = self._state.vocabulary.properties[property_]
+        if term.computed_by is None:
+            return self._state.having(property_, value)
+        owners = (each for domain in term.domains for each in self._state.instances(domain))
+        return {each for each in owners if has(property_of(self._state, each, property_), value)}
+
+    def _guard(self, predicate: Predicate, fact: GuardFact) -> Iterator[tuple[str, ...]]:
+        for names in product(*(self._members[each.type] for each in predicate.parameters)):
+            bindings = {variable: self._iris[name] for variable, name in zip(fact.variables, names, strict=True)}
+            try:
+                if evaluate(fact.condition, self._state, bindings):
+                    yield names
+            except EvaluationError as error:
+                self.undecided[f"condition `{fact.label}` of {fact.skill}: {error}"] = None
+
+    def _units(self, function: CostFunction, names: tuple[str, ...]) -> int:
+        bindings = {variable: self._iris[name] for variable, name in zip(function.variables, names, strict=True)}
+        try:
+            seconds = value_of(function.expression, self._state, bindings)
+        except EvaluationError as error:
+            self.undecided[f"duration of {function.skill}: {error}"] = None
+            return units(ASSUMED_SECONDS)
+        return units(seconds) if isinstance(seconds, int | float) else units(ASSUMED_SECONDS)
+
+
+def _types(domain: PlanningDomain) -> set[str]:
+    typed = [each for predicate in domain.predicates for each in predicate.parameters]
+    return {each.type for each in (*typed, *(each for function in domain.costs for each in function.parameters))}

@@ -1,0 +1,44 @@
+"""From the planner's words back to steps: names through the tables, costs from the problem."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from skillc_compiler.library.pddl.domain import Action, ComputedCost, FixedCost
+from skillc_compiler.library.pddl.problem import Problem
+from skillc_runtime.planning.plan import Plan, Step
+
+
+class PlanTextError(ValueError):
+    """Something that is no plan of the problem; the message quotes it."""
+
+
+def plan_of(problem: Problem, actions: Iterable[tuple[str, ...]]) -> Plan:
+    """Return the plan of actions given as (name, object ..); PlanTextError when there is no such action or object."""
+    ground = [_action(problem, each) for each in actions]
+    values = {(each.function, each.arguments): each.units for each in problem.costs}
+    units = sum(_units(action, arguments, values) for action, arguments in ground)
+    steps = tuple(
+        Step(action.skill, dict(zip(action.binds, map(problem.names.__getitem__, arguments), strict=True)))
+        for action, arguments in ground
+        if action.skill is not None
+    )
+    return Plan(steps, units / problem.domain.scale)
+
+
+def _action(problem: Problem, words: tuple[str, ...]) -> tuple[Action, tuple[str, ...]]:
+    name, *arguments = words or ("",)
+    action = problem.domain.action.get(name)
+    known = all(each in problem.names for each in arguments)
+    if action is None or not known or len(arguments) != len(action.parameters):
+        raise PlanTextError(f"`{' '.join(words)}` is no action of the problem")
+    return action, tuple(arguments)
+
+
+def _units(action: Action, arguments: tuple[str, ...], values: dict[tuple[str, tuple[str, ...]], int]) -> int:
+    match action.cost:
+        case FixedCost(units):
+            return units
+        case ComputedCost(function, variables):
+            bound = {each.name: value for each, value in zip(action.parameters, arguments, strict=True)}
+            return values[function, tuple(bound[each] for each in variables)]
