@@ -13,6 +13,7 @@ from skillc_compiler.library.skills import (
     Compound,
     Implementation,
     ImplementationBody,
+    Let,
     Parameter,
     Post,
     Requirement,
@@ -140,9 +141,9 @@ def parameter(name: str, type_: ClassType | PlainType, direction: Literal["in", 
     return Parameter(name=name, direction=direction, type=type_, source=here())
 
 
-def requirement(label: str, condition: Condition) -> Requirement:
+def requirement(label: str, text: str, condition: Condition) -> Requirement:
     """Make a pre- or hold condition."""
-    return Requirement(label=label, condition=condition, text=label, source=here())
+    return Requirement(label=label, condition=condition, text=text, source=here())
 
 
 NAME, THE_FLAG = parameter("name", TEXT), parameter("flag", ClassType(FLAG))
@@ -155,7 +156,7 @@ WRITTEN = Post(
     text="flag.on == value",
     source=here(),
 )
-LIT = requirement("flag.on == true", is_on(Variable("flag")))
+LIT = requirement("lit", "flag.on == true", is_on(Variable("flag")))
 
 VOCABULARY = Vocabulary(
     prefixes={"stage": NS},
@@ -178,9 +179,10 @@ def world() -> WorldModel:
 
 
 class Library:
-    """Skills, added one by one."""
+    """Skills, added one by one; `python` is the class of every primitive."""
 
-    def __init__(self) -> None:
+    def __init__(self, python: str = SCRIPTED) -> None:
+        self._python = python
         self._skills: dict[str, Skill] = {}
         self._implementations: dict[str, Implementation] = {}
         name, flag, value, device = NAME, THE_FLAG, VALUE, THE_DEVICE
@@ -193,7 +195,9 @@ class Library:
         self.add(Skill(name="Either", parameters=(name,), source=here()), count=2)
         self.add(Skill(name="Another", parameters=(name,), fallback=True, source=here()), count=2)
 
-    def add(self, skill: Skill, body: ImplementationBody | None = None, count: int = 1) -> str:
+    def add(
+        self, skill: Skill, body: ImplementationBody | None = None, count: int = 1, lets: tuple[Let, ...] = ()
+    ) -> str:
         """Add a skill with so many equal implementations, scripted ones unless a body is given."""
         impls = tuple(f"way{number}" for number in range(count))
         for impl in impls:
@@ -204,7 +208,8 @@ class Library:
                 pre=skill.pre,
                 hold=skill.hold,
                 post=skill.post,
-                body=body or PrimitiveBody(SCRIPTED),
+                lets=lets,
+                body=body or PrimitiveBody(self._python),
                 source=here(),
             )
         values = {field: getattr(skill, field) for field in skill.__struct_fields__}

@@ -38,7 +38,7 @@ def text_of(value: Value, type_: ValueType, vocabulary: Vocabulary) -> str:
     """Return a value as an author would write it: individuals by short name, numbers with their SI unit."""
     if isinstance(type_, ClassType) and isinstance(value, str):
         return vocabulary.short(value)
-    if isinstance(type_, NumberType) and isinstance(value, int | float):
+    if isinstance(type_, NumberType) and isinstance(value, int | float) and not isinstance(value, bool):
         return f"{value:g} {UNITS.get(type_.dimension, '')}".rstrip()
     if isinstance(type_, ListType) and isinstance(value, tuple) and len(value) > 3:
         return f"{len(value)} values"

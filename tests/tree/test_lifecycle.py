@@ -1,0 +1,212 @@
+"""What a primitive is told, and that everything is given back, whatever breaks."""
+
+from __future__ import annotations
+
+import itertools
+
+import pytest
+
+from skillc_compiler.library import tree
+from skillc_compiler.library.conditions import Literal
+from skillc_runtime.primitives.primitive import SkillFailure, Status
+from skillc_runtime.tree.locks import Locks
+from skillc_runtime.tree.run import Run
+from skillc_runtime.world.changes import SetProperty
+from tree.stage import (
+    DEVICES,
+    FLAGS,
+    ON,
+    PERIOD_S,
+    Library,
+    Script,
+    Scripted,
+    Stage,
+    act,
+    call,
+    here,
+    par,
+    seq,
+    with_,
+    world,
+)
+
+LONG = Script(ticks=1000)
+
+
+def stage(**scripts: Script) -> Stage:
+    """Return a stage on which each name does the same at every start."""
+    return Stage(world(), {name: [script] for name, script in scripts.items()})
+
+
+def finish(run: Run, stage: Stage, ticks: int = 20) -> Status:
+    """Tick until the run ends."""
+    for _ in range(ticks):
+        if run.tick() is not Status.RUNNING:
+            return run.status
+        stage.now += PERIOD_S
+    raise AssertionError("the run does not end")
+
+
+def test_halts_come_once_and_in_reverse_order_of_start() -> None:
+    cell = stage(a=LONG, b=LONG, c=LONG)
+    run = Run(par("all", act("a"), seq(act("x"), act("b")), act("c")), Library().build(), cell)
+    run.tick()
+    run.halt("enough")
+    run.halt("enough, really")
+    assert cell.said("halt") == ["halt c", "halt b", "halt a"]
+    assert run.status is Status.HALTED
+    assert run.failure is not None and (run.failure.kind, run.failure.message) == ("halted", "enough")
+
+
+def test_an_exception_halts_the_siblings_and_the_one_that_raised() -> None:
+    cell = stage(a=LONG, b=Script("crash", 2), c=LONG)
+    run = Run(par("all", act("a"), act("b"), act("c")), Library().build(), cell)
+    assert finish(run, cell) is Status.FAILURE
+    assert cell.said("halt") == ["halt b", "halt c", "halt a"]
+    assert run.failure is not None and run.failure.kind == "error"
+    assert run.failure.message.startswith("RuntimeError: b broke (stage.py:")
+
+
+def test_what_ended_by_itself_is_not_halted() -> None:
+    cell = stage(a=Script("success", 2), b=Script("fail", 3))
+    run = Run(par("all", act("a"), act("b")), Library().build(), cell)
+    assert finish(run, cell) is Status.FAILURE
+    assert cell.said("halt") == []
+
+
+def test_pause_and_resume_reach_what_runs_and_time_stands_still() -> None:
+    cell = stage(a=Script(ticks=2), b=LONG)
+    timed = tree.Timeout(seconds=Literal(1.0), child=act("b"), source=here())
+    run = Run(par("all", act("a"), timed), Library().build(), cell)
+    run.tick()
+    run.tick()
+    run.pause()
+    run.pause()
+    cell.now += 100.0
+    assert run.tick() is Status.RUNNING and run.paused
+    run.resume()
+    run.resume()
+    assert cell.said("pause", "resume") == ["pause b", "resume b"]
+    assert run.tick() is Status.RUNNING
+    cell.now += 1.0
+    assert run.tick() is Status.FAILURE
+    assert run.failure is not None and run.failure.kind == "timeout"
+
+
+def test_a_paused_run_can_be_halted() -> None:
+    cell = stage(a=LONG)
+    run = Run(act("a"), Library().build(), cell)
+    run.tick()
+    run.pause()
+    run.halt("enough")
+    run.resume()
+    assert run.status is Status.HALTED and cell.said() == ["start a", "tick a", "pause a", "halt a"]
+
+
+FAULTS = ("start", "tick", "halt", "release", "pause", "resume")
+
+
+class Faulty(Scripted):
+    """Raises where its name says: `start SkillFailure`; otherwise as scripted."""
+
+    def start(self) -> None:
+        super().start()
+        self._fault("start")
+
+    def tick(self) -> Status:
+        self._fault("tick")
+        return super().tick()
+
+    def halt(self, reason: str) -> None:
+        super().halt(reason)
+        self._fault("halt")
+
+    def release(self) -> None:
+        super().release()
+        self._fault("release")
+
+    def pause(self) -> None:
+        self._fault("pause")
+
+    def resume(self) -> None:
+        self._fault("resume")
+
+    def _fault(self, where: str) -> None:
+        place, _, kind = self.name.partition(" ")
+        if place == where:
+            raise {"SkillFailure": SkillFailure, "RuntimeError": RuntimeError}[kind](f"fault in {where}")
+
+
+@pytest.mark.parametrize(("where", "kind"), [*itertools.product(FAULTS, ("SkillFailure", "RuntimeError"))])
+@pytest.mark.parametrize("exit_by", ["success", "fail", "halt"])
+@pytest.mark.parametrize("faulty", ["outer", "inner", "body"])
+def test_scopes_are_undone_whatever_raises(where: str, kind: str, exit_by: str, faulty: str) -> None:
+    """Everything that was set up is released once, the last first, and nothing stays locked or running."""
+    names = {"outer": "outer", "inner": "inner", "body": "body"} | {faulty: f"{where} {kind}"}
+    ending = Script("fail" if exit_by == "fail" else "success", 3)
+    cell, locks = Stage(world(), {names["body"]: [ending]}), Locks()
+    body = with_(names["inner"], call("Use", name=names["body"], device=DEVICES[0]))
+    run = Run(with_(names["outer"], body), Library("tree.test_lifecycle:Faulty").build(), cell, locks=locks)
+    run.tick()
+    if where in ("pause", "resume"):
+        run.pause()
+        run.resume()
+    if exit_by == "halt":
+        run.halt("enough")
+    finish(run, cell)
+    set_up = [name for name in (names["outer"], names["inner"]) if f"start {name}" in cell.said()]
+    if (where, kind) == ("start", "SkillFailure") and faulty != "body":
+        set_up.remove(names[faulty])
+    assert cell.said("release") == [f"release {name}" for name in reversed(set_up)]
+    assert len(set(cell.said("start", "halt"))) == len(cell.said("start", "halt"))
+    assert not locks.held
+
+
+def test_an_undo_that_raises_fails_the_scope_and_the_others_are_undone() -> None:
+    cell = stage()
+    library = Library("tree.test_lifecycle:Faulty").build()
+    run = Run(with_("outer", with_("release RuntimeError", act("body"))), library, cell)
+    assert finish(run, cell) is Status.FAILURE
+    assert run.failure is not None and "could not be undone: RuntimeError: fault in release" in run.failure.message
+    assert cell.said("release") == ["release release RuntimeError", "release outer"]
+
+
+class Interrupting(Scripted):
+    """Is interrupted from the keyboard while it ticks."""
+
+    def tick(self) -> Status:
+        super().tick()
+        raise KeyboardInterrupt
+
+
+def test_an_interrupt_leaves_everything_to_be_halted() -> None:
+    cell, locks = stage(), Locks()
+    run = Run(
+        call("Use", name="a", device=DEVICES[0]), Library("tree.test_lifecycle:Interrupting").build(), cell, (), locks
+    )
+    with pytest.raises(KeyboardInterrupt):
+        run.tick()
+    assert locks.held == {DEVICES[0]}
+    run.halt("interrupted")
+    assert cell.said() == ["start a", "tick a", "halt a"] and not locks.held
+
+
+def test_what_is_set_up_outside_a_scope_lasts_until_the_run_ends() -> None:
+    cell = stage()
+    run = Run(seq(call("Setup", name="a"), call("Setup", name="b"), act("c")), Library().build(), cell)
+    assert finish(run, cell) is Status.SUCCESS
+    assert cell.said("start", "release") == ["start a", "start b", "start c", "release b", "release a"]
+
+
+def test_a_broken_hold_is_not_hidden_and_names_the_facts() -> None:
+    cell = stage(a=LONG)
+    kept = call("Kept", name="a", flag=FLAGS[1])
+    run = Run(tree.Try(child=kept, source=here()), Library().build(), cell)
+    run.tick()
+    cell.world.commit([SetProperty(FLAGS[1], ON, False)])
+    assert run.tick() is Status.FAILURE
+    assert cell.said() == ["start a", "tick a", "halt a"]
+    assert run.failure is not None and (run.failure.kind, run.failure.skill) == ("hold", "Kept")
+    assert run.failure.message == (
+        "hold `lit: flag.on == true` does not hold for flag = stage:flag1: stage:flag1.on is false; needed: true"
+    )
