@@ -10,7 +10,7 @@ import skillc_ontology
 
 from skillc_runtime.controllers.gains import gains
 from skillc_runtime.controllers.virtual_arm import virtual_model
-from skillc_runtime.motion.pose import Pose, quaternion_of
+from skillc_runtime.motion.pose import Pose, quaternion_of, skew
 from skillc_runtime.robots.arm import ArmLimits, ArmState, JointPosition, Torque
 from skillc_runtime.robots.driver import ArmDriver
 
@@ -42,7 +42,7 @@ TOOL_M = np.array([0.1, 0.05, 0.03])
 
 
 class Bench:
-    """Implements `Arm`. The plate lies `gap` m below the tool, tilted by the rotation vector `tilt`; None for no plate."""
+    """Implements `Arm`, to be read between `mj_step1` and `mj_step2`. The plate lies `gap` m below the tool, tilted by the rotation vector `tilt`; None for no plate."""
 
     def __init__(
         self, robot: str, gap: float | None = None, tilt=(0.0, 0.0, 0.0), friction=0.5, period=0.001, base=None
@@ -56,7 +56,8 @@ class Bench:
         self.data.qpos[: self.nv] = HOMES[robot]
         if self.interface == "position":
             self.data.ctrl[:] = HOMES[robot]
-        self._tip = self.model.site("tip").id
+        self._tip, self._flange = self.model.site("tip").id, self.model.site("flange").id
+        self._pad, self._eraser = self.model.geom("pad").id, self.model.body("eraser").id
         self._jacobian = np.zeros((6, self.model.nv))
         mujoco.mj_forward(self.model, self.data)
         ranges = self.model.jnt_range.copy()
@@ -75,7 +76,7 @@ class Bench:
         M = np.zeros((m.nv, m.nv))
         mujoco.mj_fullM(m, d, M)
         tip = Pose(d.site_xpos[self._tip].copy(), d.site_xmat[self._tip].reshape(3, 3).copy())
-        wrench = self.contact(tip.position) if self.interface == "position" else np.zeros(6)
+        wrench = self._wrist(tip.position) if self.interface == "position" else np.zeros(6)
         in_base = (J.reshape(2, 3, -1).transpose(0, 2, 1) @ R).transpose(0, 2, 1).reshape(6, -1)
         return ArmState(
             d.qpos.copy(),
@@ -87,16 +88,23 @@ class Bench:
             (wrench.reshape(2, 3) @ R).ravel(),
         )
 
-    def contact(self, point) -> np.ndarray:
-        """What the plate does to the tool, in the world, at a point."""
-        total, local = np.zeros(6), np.zeros(6)
-        for i, contact in enumerate(self.data.contact):
+    def contact(self) -> np.ndarray:
+        """The force of the plate on the tool, in the world, as the solver has it."""
+        total, local = np.zeros(3), np.zeros(6)
+        for i in range(self.data.ncon):
             mujoco.mj_contactForce(self.model, self.data, i, local)
-            sign = 1 if self.model.geom(contact.geom2).name == "pad" else -1
-            force = sign * (contact.frame.reshape(3, 3).T @ local[:3])
-            total[:3] += force
-            total[3:] += np.cross(contact.pos - point, force)
+            sign = 1 if self.data.contact.geom2[i] == self._pad else -1
+            total += sign * (local[:3] @ self.data.contact.frame[i].reshape(3, 3))
         return total
+
+    def _wrist(self, point) -> np.ndarray:
+        """What the wrist sensor feels, at a point, its tool's weight removed; in the world."""
+        axes = self.data.site_xmat[self._flange].reshape(3, 3)
+        force, torque = self.data.sensordata.reshape(2, 3) @ axes.T
+        weight = self.model.body_mass[self._eraser] * self.model.opt.gravity
+        origin, mass_at = self.data.site_xpos[self._flange], self.data.xipos[self._eraser]
+        force, torque = -weight - force, -skew(mass_at - origin) @ weight - torque
+        return np.concatenate([force, torque - skew(point - origin) @ force])
 
     def command(self, command) -> None:
         match command:
@@ -110,11 +118,14 @@ class Bench:
     def run(self, seconds: float, each=None) -> None:
         """Step the arm at the control period and the world at 1 ms."""
         for _ in range(round(seconds / self.period)):
+            mujoco.mj_step1(self.model, self.data)
             self.driver.step(self.data.time)
-            for _ in range(round(self.period / 0.001)):
+            self._physics()
+            for _ in range(round(self.period / 0.001) - 1):
+                mujoco.mj_step1(self.model, self.data)
                 self._physics()
             self.log["time"].append(self.data.time)
-            self.log["force"].append(self.contact(np.zeros(3))[:3])
+            self.log["force"].append(self.contact())
             self.log["tool"].append(self.driver.pose.position)
             self.log["torque"].append(self.data.ctrl.copy())
             if each:
@@ -128,7 +139,6 @@ class Bench:
             self.run(0.01)
 
     def _physics(self) -> None:
-        mujoco.mj_step1(self.model, self.data)
         if self.interface == "position":
             self.data.qfrc_applied[:] = self.data.qfrc_bias
         mujoco.mj_step2(self.model, self.data)
@@ -141,8 +151,13 @@ def _model(robot: str, gap, tilt, friction, base: Pose) -> mujoco.MjModel:
     root.pos, root.quat = base.position, quaternion_of(base.rotation)
     flange = spec.site("flange")
     tool = flange.parent.add_body(name="eraser", pos=flange.pos, quat=flange.quat)
-    tool.add_geom(name="pad", type=mujoco.mjtGeom.mjGEOM_BOX, size=TOOL_M / 2, pos=[0, 0, TOOL_M[2] / 2 + 0.1], mass=0.2)
+    tool.add_geom(
+        name="pad", type=mujoco.mjtGeom.mjGEOM_BOX, size=TOOL_M / 2, pos=[0, 0, TOOL_M[2] / 2 + 0.1], mass=0.2
+    )
     tool.add_site(name="tip", pos=[0, 0, TOOL_M[2] + 0.1])
+    wrist = tool.add_site(name="wrist")
+    for kind in (mujoco.mjtSensor.mjSENS_FORCE, mujoco.mjtSensor.mjSENS_TORQUE):
+        spec.add_sensor(type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=wrist.name)
     pad = spec.geom("pad")
     pad.contype, pad.conaffinity, pad.priority = 2, 1, 1
     pad.solref, pad.solimp, pad.friction = [0.08, 1], [0.05, 0.9, 0.02, 0.5, 2], [friction, 0.005, 0.0001]

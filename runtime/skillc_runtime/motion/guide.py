@@ -6,7 +6,7 @@ import numpy as np
 
 from skillc_runtime.motion.brake import brake
 from skillc_runtime.motion.overlays import Faded
-from skillc_runtime.motion.pose import Array, Pose, exp
+from skillc_runtime.motion.pose import Array, Pose, exp, skew
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory, at_rest
 from skillc_runtime.motion.tempo import Tempo
 
@@ -120,7 +120,7 @@ class Guide:
         turn, spin, change = self._turn.at(time)
         E = exp(turn)
         turning = E @ motion.twist[3:]
-        angular = change + E @ motion.acceleration[3:] + np.cross(spin, turning)
+        angular = change + E @ motion.acceleration[3:] + skew(spin) @ turning
         return Reference(
             Pose(motion.pose.position + offset, E @ motion.pose.rotation),
             np.concatenate([motion.twist[:3] + velocity, turning + spin]),

@@ -15,7 +15,7 @@ from math import sqrt
 
 import numpy as np
 
-from skillc_runtime.motion.pose import Array, Pose, exp
+from skillc_runtime.motion.pose import Array, Pose, exp, skew
 from skillc_runtime.motion.reference import Reference
 from skillc_runtime.motion.segments import MotionLimits, Segment, segment
 
@@ -98,5 +98,5 @@ class _Moving:
         spin = rate * piece.axis
         self.rotation = turned @ self.rotation
         self.twist[3:] = turned @ self.twist[3:]
-        self.acceleration[3:] = turned @ self.acceleration[3:] + change * piece.axis + np.cross(spin, self.twist[3:])
+        self.acceleration[3:] = turned @ self.acceleration[3:] + change * piece.axis + skew(spin) @ self.twist[3:]
         self.twist[3:] += spin

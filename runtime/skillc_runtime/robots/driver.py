@@ -14,22 +14,21 @@ import numpy as np
 from skillc_runtime.controllers.controller import ControlError
 from skillc_runtime.controllers.gains import Gains
 from skillc_runtime.controllers.virtual_arm import VirtualArm
-from skillc_runtime.motion.guide import Guide
 from skillc_runtime.motion.joint import joint_motion
 from skillc_runtime.motion.joint_guide import JointGuide
 from skillc_runtime.motion.moved import Moved, moved
-from skillc_runtime.motion.pose import Array, Pose, log
+from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
 from skillc_runtime.robots.arm import Arm, ArmLimits, ArmState, Command, JointPosition, Torque
 from skillc_runtime.robots.inverse import inverse
 from skillc_runtime.robots.laws import laws
-from skillc_runtime.robots.yielding import Yielding
+from skillc_runtime.robots.tool_task import ToolTask
 
 JOINT_RAMP_S = 0.5
 """Seconds in which a joint motion reaches its full speed."""
 
-NEAR_M, NEAR_RAD, NEAR_JOINT_RAD = 0.005, 0.05, 0.02
-"""How far from its reference an arm may be to count as there; a pushing arm may be behind by friction besides."""
+NEAR_JOINT_RAD = 0.02
+"""How far a joint may be from its reference to count as there."""
 
 TOOL_JUMP_M_S = 3.0
 """No tool moves this fast; one that seems to was moved on the hand."""
@@ -56,12 +55,11 @@ class ArmDriver:
         """Hold the arm where it is. `virtual` is the arm's `virtual_model`; `base` tells where the arm stands."""
         self.gains, self.limits = gains, limits
         self.fault: str | None = None
-        self._arm, self._base, self._period = arm, base, period
+        self._arm, self._base, self.period = arm, base, period
         self._state = arm.state()
         self._laws = laws(gains, limits, virtual, self._state, period)
         self._kinematics = VirtualArm(virtual)
-        self._yielding = Yielding(gains)
-        self._guide = Guide(self._state.tool, gains.acceleration_limit)
+        self._tool = ToolTask(gains, self._laws.tool, self._state.tool)
         self._observers: tuple[Observer, ...] = ()
         self._now = 0.0
         self._joints: JointGuide | None = self._joint_guide(self._state.q, np.zeros_like(self._state.q))
@@ -86,19 +84,17 @@ class ArmDriver:
 
     def _take_in(self, state: ArmState) -> None:
         """Remember a state; a tool centre point that jumps was moved on the hand, say by taking hold of a tool."""
-        jumped = float(np.abs(state.tool.position - self._state.tool.position).max()) > TOOL_JUMP_M_S * self._period
+        jumped = float(np.abs(state.tool.position - self._state.tool.position).max()) > TOOL_JUMP_M_S * self.period
         self._state = state
         if jumped and self._joints is None:
-            self._laws.tool.reset(state, self._laws.joints_now(state))
-            self._guide.take_up(self._laws.tool.tool, np.zeros(6), self._now)
+            self._tool.retake(state, self._laws.joints_now(state), self._now)
 
     def _decide(self, state: ArmState) -> Command:
-        compliance = self._yielding.step(self._period)
+        self._tool.yielding.step(self.period)
         try:
             if self._joints is not None:
-                return self._laws.joints.command(state, self._joints.sample(self._now), self._period)
-            reference = self._guide.sample(self._now)
-            return self._laws.tool.command(state, reference, compliance, self._period)
+                return self._laws.joints.command(state, self._joints.sample(self._now), self.period)
+            return self._tool.command(state, self._now, self.period)
         except ControlError as fault:
             self._joints = self._joint_guide(state.q, np.zeros_like(state.q))
             self.abort(str(fault))
@@ -122,7 +118,7 @@ class ArmDriver:
         """Stop moving and pushing; whoever moves the arm finds the reason in `fault`."""
         self.fault = reason
         self.stop()
-        self._yielding.push_off()
+        self._tool.yielding.push_off()
 
     # --- where the arm is ---
 
@@ -144,7 +140,7 @@ class ArmDriver:
     @property
     def wrench_in_base(self) -> Array:
         """The same in the arm's base axes."""
-        return self._state.wrench if self._joints is not None else self._laws.tool.contact_wrench
+        return self._state.wrench if self._joints is not None else self._tool.contact_wrench
 
     @property
     def q(self) -> Array:
@@ -155,7 +151,7 @@ class ArmDriver:
     def reference(self) -> Reference:
         """Where the tool shall be now."""
         if self._joints is None:
-            return moved(self._guide.sample(self._now), self._base())
+            return moved(self._tool.guide.sample(self._now), self._base())
         reference = self._joints.sample(self._now)
         tool, jacobian = self._tool_at(reference.q)
         return moved(Reference(tool, jacobian @ reference.dq, jacobian @ reference.ddq), self._base())
@@ -164,7 +160,7 @@ class ArmDriver:
     def anchor(self) -> Pose:
         """Where a new motion of the tool starts: where its reference rests when stopped now."""
         self._move_tool()
-        return self._base() @ self._guide.anchor(self._now)
+        return self._base() @ self._tool.guide.anchor(self._now)
 
     @property
     def joint_anchor(self) -> Array:
@@ -175,7 +171,7 @@ class ArmDriver:
     @property
     def done(self) -> bool:
         """Whether the reference rests."""
-        return (self._joints or self._guide).done(self._now)
+        return (self._joints or self._tool.guide).done(self._now)
 
     @property
     def behind(self) -> str | None:
@@ -183,16 +179,7 @@ class ArmDriver:
         if self._joints is not None:
             far = float(np.abs(self._joints.sample(self._now).q - self._state.q).max())
             return f"a joint is {far:.3f} rad away from where it shall be" if far > NEAR_JOINT_RAD else None
-        reference, wanted = self._guide.sample(self._now).pose, self._yielding.wanted
-        C = reference.rotation @ wanted.frame
-        stiff = wanted.stiffness > 0
-        position = C.T @ (self._state.tool.position - reference.position) * stiff[:3]
-        rotation = C.T @ log(self._state.tool.rotation @ reference.rotation.T) * stiff[3:]
-        far, turned = float(np.linalg.norm(position)), float(np.linalg.norm(rotation))
-        near = NEAR_M + float(np.linalg.norm(wanted.force)) / self.gains.linear_stiffness
-        if far <= near and turned <= NEAR_RAD:
-            return None
-        return f"the tool is {far * 1e3:.0f} mm and {np.degrees(turned):.1f} deg away from where it shall be"
+        return self._tool.behind(self._state, self._now)
 
     def at_joints(self, q: Array) -> bool:
         """Tell whether the joints are measured to be at q (nv,)."""
@@ -203,7 +190,7 @@ class ArmDriver:
     def move_along(self, trajectory: Trajectory) -> None:
         """Move the tool along a trajectory, which must start at `anchor`; ValueError where it does not."""
         self._move_tool()
-        self._guide.follow(Moved(trajectory, self._base().inverse()), self._now)
+        self._tool.guide.follow(Moved(trajectory, self._base().inverse()), self._now)
 
     def move_joints(self, goal: Array, share: float) -> None:
         """Move the joints to `goal` (nv,) with a share, above 0 to 1, of their greatest speeds."""
@@ -214,29 +201,29 @@ class ArmDriver:
 
     def stop(self) -> None:
         """Come to rest within the acceleration limit; compliance, push and overlays stay."""
-        (self._joints or self._guide).stop(self._now)
+        (self._joints or self._tool.guide).stop(self._now)
 
     def hold_position(self) -> None:
         """Come to rest and hold the tool, with springs on a compliant arm, from now on."""
         self._move_tool()
-        self._guide.stop(self._now)
+        self._tool.guide.stop(self._now)
 
     def pause(self) -> None:
         """Slow down to a standstill on the way."""
-        (self._joints or self._guide).pause(self._now)
+        (self._joints or self._tool.guide).pause(self._now)
 
     def resume(self) -> None:
         """Go on where `pause` stopped."""
-        (self._joints or self._guide).resume(self._now)
+        (self._joints or self._tool.guide).resume(self._now)
 
     def add_overlay(self, overlay: Overlay, axes: Array, fade: float) -> int:
         """Add a motion along `axes` (3, 3) to whatever the tool does, growing for `fade` s; return its handle."""
         self._move_tool()
-        return self._guide.add(overlay, self._base().rotation.T @ axes, fade, self._now)
+        return self._tool.guide.add(overlay, self._base().rotation.T @ axes, fade, self._now)
 
     def remove_overlay(self, handle: int) -> None:
         """Let an overlay fade out."""
-        self._guide.remove(handle, self._now)
+        self._tool.guide.remove(handle, self._now)
 
     def inverse_kinematics(self, target: Pose, seed: Array) -> Array | None:
         """Return joints (nv,) within limits that put the tool at a pose, near `seed` (nv,); None if there are none."""
@@ -252,43 +239,39 @@ class ArmDriver:
         Nested releases must be parallel or at right angles to the first, else ValueError.
         """
         self._move_tool()
-        self._yielding.release(self._in_tool(axis), stiffness)
+        self._tool.yielding.release(self._in_tool(axis), stiffness)
 
     def restore(self) -> None:
         """Undo the last release: hold the tool, along what it has yielded, where it is now. Gives up a motion."""
-        reference, tool = self._guide.sample(self._now).pose, self._laws.tool.tool
-        away = tool.position - reference.position
-        regained = reference.rotation @ self._yielding.regained()
-        self._yielding.restore((reference.rotation @ self._yielding.wanted.frame).T @ away)
-        resting = self._guide.present(self._now)
-        place = Pose(resting.position + regained @ (regained.T @ away), resting.rotation)
-        self._guide.place(place, np.eye(3) - regained @ regained.T, self._now)
+        if self._joints is not None:
+            self._tool.yielding.restore(np.zeros(3))
+        else:
+            self._tool.restore(self._now)
 
     def yields_along(self, axis: Array) -> bool:
         """Tell whether the tool was released along a direction (3,)."""
-        return self._joints is None and self._yielding.yields(self._in_tool(axis))
+        return self._joints is None and self._tool.yielding.yields(self._in_tool(axis))
 
     def push(self, axis: Array, force_n: float) -> None:
         """Press against what lies opposite to `axis` (3,), along which the tool must yield; else ValueError."""
-        if not 0 <= force_n <= self.gains.force_limit:
-            raise ValueError(f"{force_n:g} N is beyond the {self.gains.force_limit:g} N that the arm may push with")
         self._move_tool()
-        self._yielding.push(-self._in_tool(axis), force_n)
+        self._tool.push(-self.in_base(axis), force_n, self._now)
 
     def push_off(self) -> None:
         """Let the push fade."""
-        self._yielding.push_off()
+        self._tool.yielding.push_off()
 
     def release_rotation(self) -> None:
         """Let the tool turn about the two axes across the released one."""
         self._move_tool()
-        self._yielding.turn_freely(True)
+        self._tool.yielding.turn_freely(True)
 
     def restore_rotation(self) -> None:
         """Hold the tool in the rotation that it has now. Gives up a motion."""
-        self._yielding.turn_freely(False)
-        resting = self._guide.present(self._now)
-        self._guide.place(Pose(resting.position, self._laws.tool.tool.rotation), np.eye(3), self._now)
+        if self._joints is not None:
+            self._tool.yielding.turn_freely(False)
+        else:
+            self._tool.restore_rotation(self._now)
 
     # --- frames and modes ---
 
@@ -298,7 +281,7 @@ class ArmDriver:
 
     def _in_tool(self, direction: Array) -> Array:
         """Return a direction (3,) of the world in the reference tool frame."""
-        return self._guide.present(self._now).rotation.T @ self.in_base(direction)
+        return self._tool.in_tool(self.in_base(direction), self._now)
 
     def _in_world(self, vector: Array) -> Array:
         return (vector.reshape(2, 3) @ self._base().rotation.T).ravel()
@@ -315,8 +298,7 @@ class ArmDriver:
             return
         reference = self._joints.sample(self._now)
         tool, jacobian = self._tool_at(reference.q)
-        self._laws.tool.reset(self._state, reference.q)
-        self._guide.take_up(tool, jacobian @ reference.dq, self._now)
+        self._tool.take_up(self._state, reference.q, tool, jacobian @ reference.dq, self._now)
         self._joints = None
 
     def _move_joints(self) -> None:

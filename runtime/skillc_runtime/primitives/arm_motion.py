@@ -1,0 +1,62 @@
+"""What all motions of an arm have in common: they end when the arm is there, and fail when it does not come."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from skillc_runtime.motion.segments import MotionLimits
+from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+
+if TYPE_CHECKING:
+    from skillc_runtime.robots.cell import Cell
+    from skillc_runtime.robots.driver import ArmDriver
+
+PATIENCE_S = 1.5
+"""How long after its reference an arm may come to rest."""
+
+
+class ArmMotion(Primitive):
+    """A motion that `start` gives to the arm's driver; `tick`, `halt`, `pause` and `resume` are alike for all."""
+
+    def __init__(self, cell: Cell, arm: str) -> None:
+        super().__init__(cell)
+        self.arm: ArmDriver = cell.arm(arm)
+        self._ended: float | None = None
+
+    def tick(self) -> Status:
+        """Return SUCCESS once the arm is there."""
+        raise_fault(self.arm)
+        if not self.arm.done:
+            return Status.RUNNING
+        behind = self.arm.behind
+        if behind is None:
+            return Status.SUCCESS
+        self._ended = self.cell.now if self._ended is None else self._ended
+        if self.cell.now - self._ended > PATIENCE_S:
+            raise SkillFailure(behind)
+        return Status.RUNNING
+
+    def halt(self, reason: str) -> None:
+        """Come to rest."""
+        self.arm.stop()
+
+    def pause(self) -> None:
+        """Slow down to a standstill."""
+        self.arm.pause()
+
+    def resume(self) -> None:
+        """Go on."""
+        self.arm.resume()
+
+    def limits(self, speed: float) -> MotionLimits:
+        """Return the limits of a motion of the tool with a speed in m/s; SkillFailure where the arm allows less."""
+        if speed > self.arm.gains.speed_limit:
+            raise SkillFailure(f"{speed:g} m/s is faster than the {self.arm.gains.speed_limit:g} m/s the arm allows")
+        return MotionLimits(speed, self.arm.gains.acceleration_limit)
+
+
+def raise_fault(arm: ArmDriver) -> None:
+    """Fail with what made the driver stop, once."""
+    fault, arm.fault = arm.fault, None
+    if fault is not None:
+        raise SkillFailure(fault)

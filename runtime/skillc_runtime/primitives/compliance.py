@@ -1,0 +1,144 @@
+"""Yielding, pushing, aligning."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.primitives.arm_motion import raise_fault
+from skillc_runtime.primitives.localise import localise
+from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.robots.contact import Approach, advance
+
+if TYPE_CHECKING:
+    from skillc_runtime.robots.arm import ArmState
+    from skillc_runtime.robots.cell import Cell
+
+APPROACH_M_S = 0.05
+"""Speed of the approach to a surface whose place is not known well."""
+
+RAMP_S = 0.4
+"""Time in which the push reaches its force and the tool comes to rest."""
+
+REST_S = 0.3
+"""Time after aligning in which springs and reference settle."""
+
+
+class ReleaseAxis(Primitive):
+    """Let the arm yield along `along` (3,), with `stiffness` N/m, until the scope ends."""
+
+    def __init__(self, cell: Cell, *, arm: str, along: Array, stiffness: float) -> None:
+        super().__init__(cell)
+        self.arm = cell.arm(arm)
+        self._along, self._stiffness = along, stiffness
+
+    def start(self) -> None:
+        """Release the axis; the tool stays where it is."""
+        try:
+            self.arm.release(self._along, self._stiffness)
+        except ValueError as refusal:
+            raise SkillFailure(str(refusal)) from refusal
+
+    def tick(self) -> Status:
+        """Succeed at once."""
+        return Status.SUCCESS
+
+    def release(self) -> None:
+        """Hold the axis where the tool is."""
+        self.arm.restore()
+
+
+class Push(Primitive):
+    """Approach what lies opposite to `along` (3,) gently, then press on it with `force` N until the scope ends.
+
+    Fails when nothing is met within `travel` m; stops the arm when, later, contact is lost and it sinks by as much.
+    """
+
+    def __init__(self, cell: Cell, *, arm: str, along: Array, force: float, travel: float) -> None:
+        super().__init__(cell)
+        self.arm = cell.arm(arm)
+        self._along, self._force, self._travel = along, force, travel
+        self._approach = Approach(APPROACH_M_S, travel)
+        self._axis = along
+        self._now = self._touched_at = 0.0
+        self._surface: float | None = None
+
+    def start(self) -> None:
+        """Begin the approach."""
+        if not self.arm.yields_along(self._along):
+            raise SkillFailure(
+                "the arm must yield along the direction in which it shall push; use it within Compliance"
+            )
+        if self._force > self.arm.gains.force_limit:
+            raise SkillFailure(f"{self._force:g} N is more than the {self.arm.gains.force_limit:g} N the arm allows")
+        self._axis = self.arm.in_base(self._along)
+        self.arm.push(self._along, APPROACH_M_S * self.arm.gains.release_damping)
+        self.arm.watch(self._observe)
+
+    def tick(self) -> Status:
+        """Return SUCCESS once the tool presses with the force."""
+        raise_fault(self.arm)
+        if self._surface is None:
+            return Status.RUNNING
+        self._touched_at = self._touched_at or self.cell.now
+        return Status.SUCCESS if self.cell.now - self._touched_at >= RAMP_S else Status.RUNNING
+
+    def release(self) -> None:
+        """Stop pushing."""
+        self.arm.unwatch(self._observe)
+        self.arm.push_off()
+
+    def _observe(self, state: ArmState) -> None:
+        """Look, once a control period, whether something is touched, and later whether it still is there."""
+        height = float(self._axis @ state.tool.position)
+        if self._surface is not None:
+            if self._surface - height > self._travel:
+                self._give_up(f"contact was lost: the tool sank by {self._travel * 100:.0f} cm")
+            return
+        speed = -float(self._axis @ (state.jacobian[:3] @ state.dq))
+        force = float(self._axis @ self.arm.wrench_in_base[:3])
+        self._approach = advance(self._approach, speed, force, self.arm.period)
+        if self._approach.outcome == "touching":
+            self._surface = height
+            self.arm.push(self._along, self._force)
+        elif self._approach.outcome == "missing":
+            self._give_up(f"nothing to push against within {self._travel * 100:.0f} cm")
+
+    def _give_up(self, reason: str) -> None:
+        self.arm.unwatch(self._observe)
+        self.arm.abort(reason)
+
+
+class Align(Primitive):
+    """Let the pushed tool turn for `settle` s until it lies flush on `surface`, and note where that really is."""
+
+    def __init__(self, cell: Cell, *, arm: str, surface: str, settle: float) -> None:
+        super().__init__(cell)
+        self.arm = cell.arm(arm)
+        self._surface, self._settle = surface, settle
+        self._began, self._held = 0.0, False
+
+    def start(self) -> None:
+        """Let the tool turn."""
+        self._began = self.cell.now
+        self.arm.release_rotation()
+
+    def tick(self) -> Status:
+        """Return SUCCESS once the tool lies flush, is held so, and the surface's place is noted."""
+        raise_fault(self.arm)
+        elapsed = self.cell.now - self._began
+        if elapsed >= self._settle and not self._held:
+            self._hold()
+        if elapsed < self._settle + REST_S:
+            return Status.RUNNING
+        localise(self.cell.world, self._surface, self.arm.pose)
+        return Status.SUCCESS
+
+    def halt(self, reason: str) -> None:
+        """Hold the tool as it is."""
+        if not self._held:
+            self._hold()
+
+    def _hold(self) -> None:
+        self._held = True
+        self.arm.restore_rotation()

@@ -1,0 +1,63 @@
+"""Moving an arm to a pose or a posture."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from skillc_runtime.motion.path import path
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.primitives.arm_motion import ArmMotion
+from skillc_runtime.primitives.posture import posture_of
+from skillc_runtime.primitives.primitive import SkillFailure
+
+if TYPE_CHECKING:
+    from skillc_runtime.robots.cell import Cell
+
+HOME = "home"
+
+
+class MoveJoints(ArmMotion):
+    """Move the tool to `target` through joint space, with a share `pace` of the joints' greatest speeds."""
+
+    def __init__(self, cell: Cell, *, arm: str, target: Pose, pace: float) -> None:
+        super().__init__(cell, arm)
+        self._individual, self._target, self._pace = arm, target, pace
+
+    def start(self) -> None:
+        """Find the posture nearest to home that puts the tool there, and go."""
+        seed = posture_of(self.cell.world.snapshot(), self._individual, HOME)
+        q = self.arm.inverse_kinematics(self._target, seed)
+        if q is None:
+            place = ", ".join(f"{part:.3f}" for part in self._target.position)
+            far = np.linalg.norm(self._target.position - self.arm.pose.position)
+            raise SkillFailure(
+                f"the arm cannot reach ({place}) m in this orientation, {far:.2f} m from where its tool is"
+            )
+        self.arm.move_joints(q, self._pace)
+
+
+class TakePosture(ArmMotion):
+    """Take a posture of the arm's data sheet."""
+
+    def __init__(self, cell: Cell, *, arm: str, posture: str, pace: float) -> None:
+        super().__init__(cell, arm)
+        self._individual, self._posture, self._pace = arm, posture, pace
+
+    def start(self) -> None:
+        """Look the posture up and go."""
+        self.arm.move_joints(posture_of(self.cell.world.snapshot(), self._individual, self._posture), self._pace)
+
+
+class MoveLinear(ArmMotion):
+    """Move the tool to `target` along a straight line at `speed` m/s, turning on the way."""
+
+    def __init__(self, cell: Cell, *, arm: str, target: Pose, speed: float) -> None:
+        super().__init__(cell, arm)
+        self._target, self._speed = target, speed
+
+    def start(self) -> None:
+        """Plan the line from where the reference rests, and go."""
+        limits = self.limits(self._speed)
+        self.arm.move_along(path([self.arm.anchor, self._target], limits))
