@@ -1,0 +1,131 @@
+"""How well a surface was wiped, judged by what really happened."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from skillc_runtime.motion.pose import Array, Pose, rotation_of
+from skillc_runtime.simulation.coverage import PRESSED_N, CoverageMap
+from skillc_runtime.simulation.highpass import highpass
+from skillc_runtime.simulation.recorder import Recording
+
+LOST_N = 0.5
+"""Normal force below which contact counts as lost."""
+
+VIBRATION_HZ = 15.0
+COVERAGE_PERIOD_S = 0.01
+
+
+@dataclass(frozen=True, slots=True)
+class Wiped:
+    """What was wiped, with what and how: the true frame of the surface in the world, sizes (2,) m, force N.
+
+    `lane_speed` m/s, `acceleration` m/s^2 and the number of inner `corners` describe lanes without overlay motion.
+    """
+
+    surface: Pose
+    extent: Array
+    tool: Array
+    force_command_n: float
+    lane_speed: float | None = None
+    acceleration: float | None = None
+    corners: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class WipingMetrics:
+    """The quality of one wiping, from the first wiping reference to the end of the last lane, at every simulation step.
+
+    coverage: share of 5 mm cells wiped. Forces in N: mean, root mean square about the command, lost contact included,
+    greatest from first contact to the start of wiping. contact_lost: share of time. Vibration of the tool above 15 Hz,
+    rms in mm/s. Tilt of the tool against the true normal. Tracking: rms distance in the plane from the reference.
+    lane_dwell_s: time lost at each inner corner, None when an overlay hides it.
+    """
+
+    coverage: float
+    force_command_n: float
+    force_mean_n: float
+    force_rmse_n: float
+    contact_lost: float
+    first_impact_n: float
+    vibration_mm_s: float
+    tilt_rms_deg: float
+    tilt_max_deg: float
+    tracking_mm: float
+    lane_dwell_s: float | None
+    duration_s: float
+
+
+def wiping_metrics(recording: Recording, start: float, end: float, wiped: Wiped) -> WipingMetrics:
+    """Judge the wiping from `start` to `end` s of a recording that begins before the first contact.
+
+    ValueError when nothing was recorded in between.
+    """
+    window, before = recording.between(start, end), recording.between(0.0, start)
+    if len(window.time) < 2:
+        raise ValueError(f"nothing was recorded between {start:g} and {end:g} s")
+    tilt = _tilt_deg(window, wiped.surface)
+    return WipingMetrics(
+        coverage=coverage(window, wiped).fraction,
+        force_command_n=wiped.force_command_n,
+        force_mean_n=float(window.force.mean()),
+        force_rmse_n=_rms(window.force - wiped.force_command_n),
+        contact_lost=float((window.force < LOST_N).mean()),
+        first_impact_n=float(before.force.max(initial=0.0)),
+        vibration_mm_s=1000 * _vibration(window),
+        tilt_rms_deg=_rms(tilt),
+        tilt_max_deg=float(tilt.max()),
+        tracking_mm=1000 * _tracking(window, wiped.surface),
+        lane_dwell_s=_lane_dwell(window, wiped),
+        duration_s=end - start,
+    )
+
+
+def coverage(window: Recording, wiped: Wiped) -> CoverageMap:
+    """Return the contact time of every cell of the surface, sampled at 100 Hz or more."""
+    result = CoverageMap(wiped.surface, wiped.extent)
+    stride = max(1, int(COVERAGE_PERIOD_S / _step(window) + 1e-6))
+    seconds = stride * _step(window)
+    for row in np.flatnonzero(window.force[::stride] > PRESSED_N) * stride:
+        result.add(window.position[row], rotation_of(window.quaternion[row]), wiped.tool, seconds)
+    return result
+
+
+def _step(window: Recording) -> float:
+    return float(window.time[1] - window.time[0])
+
+
+def _rms(values: Array) -> float:
+    return float(np.sqrt(np.mean(values * values)))
+
+
+def _vibration(window: Recording) -> float:
+    """Return the rms of the vector of high-passed tool velocity, m/s."""
+    fast = highpass(window.velocity, VIBRATION_HZ, _step(window))
+    return _rms(np.linalg.norm(fast, axis=1))
+
+
+def _tilt_deg(window: Recording, surface: Pose) -> Array:
+    """Return the angle (n,) between the tool's z axis and the surface's -n."""
+    w, x, y, z = window.quaternion.T
+    axis = np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)], axis=1)
+    normal = surface.rotation[:, 2]
+    sine = np.linalg.norm(np.cross(axis, normal), axis=1)
+    return np.asarray(np.degrees(np.arctan2(sine, -axis @ normal)))
+
+
+def _tracking(window: Recording, surface: Pose) -> float:
+    """Return the rms distance in the plane of the surface between tool and reference, m."""
+    in_plane = (window.position - window.reference) @ surface.rotation[:, :2]
+    return _rms(np.linalg.norm(in_plane, axis=1))
+
+
+def _lane_dwell(window: Recording, wiped: Wiped) -> float | None:
+    """Return the time below half the lane speed, without start and end, for each inner corner, s."""
+    if wiped.lane_speed is None or wiped.acceleration is None or wiped.corners == 0:
+        return None
+    speed = np.linalg.norm(window.velocity, axis=1)
+    slow = float((speed < wiped.lane_speed / 2).sum()) * _step(window)
+    return (slow - wiped.lane_speed / wiped.acceleration) / wiped.corners
