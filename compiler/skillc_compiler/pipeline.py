@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from skillc_compiler.checks import check
+from skillc_compiler.followers import without_followers
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.lower.library import lower
@@ -17,13 +18,14 @@ from skillc_dsl.source import Source
 def compile(
     sources: Sequence[Source], vocabulary: Vocabulary, shelf: Mapping[str, Source], name: str
 ) -> Outcome[SkillLibrary]:
-    """Compile a library: read, resolve, check, lower.
+    """Compile a library: read, resolve, check, lower; problems that only follow from a syntax error are not told.
 
     `sources` are the files of the library called `name`, `shelf` those that every library may import, by file name.
     The result holds everything in which no error was found; diagnostics are in the order of the files and lines.
     """
     files = read(sources, shelf, name)
     program = resolve(files.value, vocabulary, name)
-    problems = (*files.diagnostics, *program.diagnostics, *check(program.value))
+    found = (*program.diagnostics, *check(program.value))
+    problems = (*files.diagnostics, *without_followers(found, files.diagnostics, files.value))
     library = lower(program.value, problems)
     return Outcome(library, tuple(sorted(set(problems), key=lambda d: (d.span, d.name))))

@@ -175,6 +175,7 @@ class Task:
     goal: Clause | None
     goal_text: str
     body: Step | None
+    name_span: Span
     span: Span
 
 
@@ -191,7 +192,7 @@ class ReadFile:
     imports: tuple[tuple[s.Import, str], ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Program:
     """A library understood. `used` holds, by file, the bare and qualified names that were looked up in it."""
 

@@ -16,7 +16,10 @@ SHELF = "std"
 
 
 def read(sources: Sequence[Source], shelf: Mapping[str, Source], name: str) -> Outcome[tuple[ReadFile, ...]]:
-    """Parse the sources and what they import; `shelf` is keyed by file name, `name` is the library's."""
+    """Parse the sources and what they import; `shelf` is keyed by file name, `name` is the library's.
+
+    Files of the shelf belong to the library `std` if their path says so, else to this one.
+    """
     reader = _Reader({source.path: source for source in sources}, shelf, name)
     for path in sorted(reader.own):
         reader.read(reader.own[path], name, ())
@@ -56,7 +59,8 @@ class _Reader:
         if library == self.name and beside in self.own:
             return self.own[beside], library
         if wanted in self.shelf:
-            return self.shelf[wanted], SHELF
+            found = self.shelf[wanted]
+            return found, SHELF if found.path.startswith(f"{SHELF}/") else self.name
         return None
 
     def _unknown(self, file: s.File, line: s.Import, library: str) -> None:

@@ -19,5 +19,6 @@ def task(setting: Setting, written: s.TaskDeclaration) -> Task:
         goal=clause(setting, scope, written.goal) if written.goal is not None else None,
         goal_text=written.goal_text,
         body=step(setting, scope, written.body.node)[0] if written.body else None,
+        name_span=written.name.span,
         span=written.span,
     )

@@ -1,0 +1,15 @@
+"""Labels that point to where a term of the vocabulary is declared."""
+
+from __future__ import annotations
+
+from skillc_compiler.library.vocabulary import ClassTerm, FunctionTerm, PropertyTerm, RelationTerm
+from skillc_dsl.diagnostics import Label
+from skillc_dsl.source import Span
+
+
+def declared(term: ClassTerm | RelationTerm | PropertyTerm | FunctionTerm) -> tuple[Label, ...]:
+    """Return a label at a term's declaration, in a `.skill` or Turtle file; none if its place is not known."""
+    place = term.source
+    if place is None:
+        return ()
+    return (Label(Span(place.path, place.line, place.column, place.line, place.column + 1), "declared here"),)

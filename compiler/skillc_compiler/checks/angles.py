@@ -1,0 +1,40 @@
+"""An angle of more than two turns, which was probably meant in degrees.
+
+Suspicious::
+
+    opt tilt: Angle = 90 rad
+
+Good::
+
+    opt tilt: Angle = 90 deg
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from skillc_compiler.library.conditions import Literal
+from skillc_compiler.program import Program
+from skillc_compiler.types import Measure
+from skillc_compiler.walk import values
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.units import ANGLE
+
+NAMES = ("suspicious-angle",)
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a warning for each angle written that is more than two turns."""
+    for value in values(program):
+        match value.meaning:
+            case Literal(value=float(angle)) if value.type == Measure(ANGLE) and abs(angle) > 4 * math.pi:
+                yield Diagnostic(
+                    "suspicious-angle",
+                    value.span,
+                    f"this angle is {abs(angle) / (2 * math.pi):.1f} turns",
+                    help="was it meant in `deg`?",
+                    severity="warning",
+                )
+            case _:
+                pass

@@ -1,0 +1,60 @@
+"""An `apply` of something that is no post of the skill, or that only a measurement can establish.
+
+Bad::
+
+    post gripper contain object
+    do seq { apply held }
+
+Good::
+
+    post held: gripper contain object
+    do seq { apply held }
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from skillc_compiler.program import Program, Requirement, Step
+from skillc_compiler.walk import within
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Label, did_you_mean
+
+NAMES = ("unknown-label", "sensed-post-applied")
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a problem for each label that cannot be applied where it is."""
+    for implementation in program.implementations:
+        if isinstance(implementation.body, Step):
+            requirements = (*implementation.skill.requirements, *implementation.requirements)
+            yield from _labels(implementation.body, [r for r in requirements if r.kind == "post"])
+    for task in program.tasks:
+        if task.body:
+            yield from _labels(task.body, [])
+
+
+def _labels(body: Step, posts: Sequence[Requirement]) -> Iterator[Diagnostic]:
+    labelled = {post.label.text: post for post in posts if post.label}
+    for step in within(body):
+        if isinstance(step.written, s.ApplyPosts):
+            for name in step.written.labels:
+                yield from _label(name, labelled)
+
+
+def _label(name: s.Name, labelled: dict[str, Requirement]) -> Iterator[Diagnostic]:
+    if name.text not in labelled:
+        yield Diagnostic(
+            "unknown-label",
+            name.span,
+            f"no post has the label `{name.text}`",
+            help=did_you_mean(name.text, labelled) or f"label the post: `post {name.text}: ..`",
+        )
+    elif labelled[name.text].sensed:
+        yield Diagnostic(
+            "sensed-post-applied",
+            name.span,
+            f"`{name.text}` is sensed: only a measurement can establish it",
+            help="call a skill that measures it",
+            labels=(Label(labelled[name.text].span, "marked `sensed` here"),),
+        )

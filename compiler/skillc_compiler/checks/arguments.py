@@ -1,0 +1,87 @@
+"""A call that leaves out what it must pass, passes it twice, or uses `with` on a skill that is not scoped.
+
+Bad::
+
+    MoveLinear(arm, speed)                  # where to?
+
+Good::
+
+    MoveLinear(arm, target: above, speed)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.library.conditions import Invoke
+from skillc_compiler.program import Call, Program, Skill, Valued
+from skillc_compiler.walk import calls, steps, values
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Label
+
+NAMES = ("missing-argument", "duplicate-argument", "wrong-argument-count", "not-scoped")
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield what is wrong with the arguments of each call of a skill or function."""
+    for call in calls(program):
+        yield from _twice(call)
+        if call.skill:
+            yield from _missing(call, call.skill)
+    for step in steps(program):
+        if isinstance(step.written, s.With) and step.call and step.call.skill:
+            yield from _scoped(step.call, step.call.skill)
+    for value in values(program):
+        if isinstance(value.meaning, Invoke):
+            yield from _counted(program, value, value.meaning)
+
+
+def _twice(call: Call) -> Iterator[Diagnostic]:
+    seen: dict[str, s.Name] = {}
+    for argument in call.written.arguments:
+        first = seen.setdefault(argument.name.text, argument.name)
+        if first is not argument.name:
+            yield Diagnostic(
+                "duplicate-argument",
+                argument.name.span,
+                f"`{first.text}` is passed twice",
+                help="keep one of them",
+                labels=(Label(first.span, "passed here"),),
+            )
+
+
+def _missing(call: Call, skill: Skill) -> Iterator[Diagnostic]:
+    passed = {argument.name.text for argument in call.written.arguments}
+    missing = [p for p in skill.parameters if p.direction == "in" and p.name not in passed]
+    if missing:
+        names = " and ".join(f"`{p.name}`" for p in missing)
+        yield Diagnostic(
+            "missing-argument",
+            call.written.skill.span,
+            f"`{skill.name}` needs {names}",
+            help=f"pass {', '.join(f'`{p.name}: ..`' for p in missing)}",
+            labels=tuple(Label(p.span, "declared here") for p in missing),
+        )
+
+
+def _scoped(call: Call, skill: Skill) -> Iterator[Diagnostic]:
+    if "scoped" not in skill.flags:
+        yield Diagnostic(
+            "not-scoped",
+            call.written.skill.span,
+            f"`{skill.name}` sets nothing up that could be undone, so it cannot stand after `with`",
+            help="call it as a node of its own, or declare it `scoped`",
+            labels=(Label(skill.name_span, "declared here"),),
+        )
+
+
+def _counted(program: Program, value: Valued, meaning: Invoke) -> Iterator[Diagnostic]:
+    function = program.vocabulary.functions.get(meaning.function)
+    if function and len(function.parameters) != len(meaning.arguments):
+        names = ", ".join(name for name, _ in function.parameters)
+        yield Diagnostic(
+            "wrong-argument-count",
+            value.span,
+            f"`{function.name}` takes {len(function.parameters)} values, not {len(meaning.arguments)}",
+            help=f"write `{function.name}({names})`",
+        )

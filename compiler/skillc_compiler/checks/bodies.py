@@ -1,0 +1,59 @@
+"""An implementation without a body, a skill without an implementation, a task without anything to do.
+
+Bad::
+
+    impl simple of Pick {
+        prefer 2
+    }
+
+Good::
+
+    impl simple of Pick {
+        prefer 2
+        run python "my_robot.pick:Pick"
+    }
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.program import Program, Task
+from skillc_dsl.diagnostics import Diagnostic
+
+NAMES = ("missing-body", "no-implementation")
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a problem for each thing that says not how it is done."""
+    for implementation in program.implementations:
+        if implementation.body is None:
+            yield Diagnostic(
+                "missing-body",
+                implementation.name_span,
+                f"the implementation `{implementation.name}` does not say how it is done",
+                help='add `do seq { .. }` or `run python "module:Class"`',
+            )
+    implemented = {implementation.skill.name for implementation in program.implementations}
+    for skill in program.skills.values():
+        if skill.name not in implemented:
+            yield Diagnostic(
+                "no-implementation",
+                skill.name_span,
+                f"the skill `{skill.name}` has no implementation, so nothing can run it",
+                help=f"add `impl NAME of {skill.name} {{ .. }}`",
+                severity="warning",
+            )
+    for task in program.tasks:
+        yield from _task(task)
+
+
+def _task(task: Task) -> Iterator[Diagnostic]:
+    if (task.goal is None) == (task.body is None):
+        both = task.goal is not None
+        yield Diagnostic(
+            "missing-body",
+            task.name_span,
+            f"the task `{task.name}` has {'both a goal and a body' if both else 'neither a goal nor a body'}",
+            help="write either `goal CONDITION` or `do NODE`",
+        )

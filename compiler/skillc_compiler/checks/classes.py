@@ -1,0 +1,65 @@
+"""A question about classes whose answer is known beforehand.
+
+Bad::
+
+    pre arm is Location             # no arm is a place
+    pre gripper == arm              # nothing is both
+
+Good::
+
+    pre arm is CompliantArm
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.library.conditions import IsA, Same
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.program import Program
+from skillc_compiler.types import Thing, Type, describe
+from skillc_compiler.walk import clauses
+from skillc_dsl.diagnostics import Diagnostic
+
+NAMES = ("disjoint-types", "always-true")
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a problem for each `is` and `==` that can never hold, a warning for each `is` that always does."""
+    for clause in clauses(program):
+        match clause.meaning:
+            case IsA(cls=cls):
+                asked: tuple[Type, Type] = (clause.values[0].type, Thing(cls))
+            case Same():
+                asked = (clause.values[0].type, clause.values[1].type)
+            case _:
+                continue
+        if _disjoint(program.vocabulary, *asked):
+            yield Diagnostic(
+                "disjoint-types",
+                clause.span,
+                f"this never holds: nothing is both {describe(asked[0])} and {describe(asked[1])}",
+                help="take the condition away, or ask for another class",
+            )
+        elif isinstance(clause.meaning, IsA) and _always(program.vocabulary, *asked):
+            yield Diagnostic(
+                "always-true",
+                clause.span,
+                f"this always holds: it is declared to be {describe(asked[0])}",
+                help="take the condition away, or ask for a narrower class",
+                severity="warning",
+            )
+
+
+def _disjoint(vocabulary: Vocabulary, one: Type, other: Type) -> bool:
+    match one, other:
+        case Thing(cls=str(a)), Thing(cls=str(b)):
+            return vocabulary.disjoint(a, b)
+    return False
+
+
+def _always(vocabulary: Vocabulary, one: Type, other: Type) -> bool:
+    match one, other:
+        case Thing(cls=str(a)), Thing(cls=str(b)):
+            return vocabulary.is_a(a, b)
+    return False

@@ -1,0 +1,76 @@
+"""Values that cannot be added, multiplied or compared.
+
+Only like dimensions are added, subtracted and compared; only numbers have an order; a vector is scaled by a number.
+
+Bad::
+
+    let reach = 5 cm + 2 s
+    pre gripper.deviceState < Fault
+
+Good::
+
+    let reach = 5 cm + 2 s * 1 cm/s
+    pre gripper.deviceState != Fault
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.library.conditions import Arithmetic, Compare
+from skillc_compiler.program import Clause, Program, Valued
+from skillc_compiler.resolve.values import result_type
+from skillc_compiler.types import INT, UNKNOWN, Direction, Measure, Type, describe, fits
+from skillc_compiler.walk import clauses, values
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Span
+
+NAMES = ("unlike-dimensions", "wrong-operands")
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a problem for each operation and comparison whose sides do not go together."""
+    for value in values(program):
+        if isinstance(value.meaning, Arithmetic):
+            yield from _arithmetic(value, value.meaning)
+    for clause in clauses(program):
+        if isinstance(clause.meaning, Compare):
+            yield from _compared(program, clause, clause.meaning)
+
+
+def _arithmetic(value: Valued, meaning: Arithmetic) -> Iterator[Diagnostic]:
+    left, right = (part.type for part in value.parts)
+    if result_type(meaning.operator, left, right) is None:
+        yield _problem(value.span, meaning.operator, left, right)
+
+
+def _compared(program: Program, clause: Clause, meaning: Compare) -> Iterator[Diagnostic]:
+    if len(clause.values) != 2:
+        return
+    left, right = (side.type for side in clause.values)
+    if UNKNOWN in (left, right):
+        return
+    alike = fits(program.vocabulary, left, right) or fits(program.vocabulary, right, left)
+    if not alike:
+        yield _problem(clause.span, meaning.operator, left, right)
+    elif meaning.operator not in ("==", "!=") and not _is_number(left):
+        yield Diagnostic(
+            "wrong-operands",
+            clause.span,
+            f"`{meaning.operator}` orders numbers, and this is {describe(left)}",
+            help="compare with `==` or `!=`",
+        )
+
+
+def _problem(span: Span, operator: str, left: Type, right: Type) -> Diagnostic:
+    unlike = _is_number(left) and _is_number(right)
+    return Diagnostic(
+        "unlike-dimensions" if unlike else "wrong-operands",
+        span,
+        f"`{operator}` cannot join {describe(left)} and {describe(right)}",
+        help="bring both sides to one dimension" if unlike else "use values of one type",
+    )
+
+
+def _is_number(kind: Type) -> bool:
+    return kind == INT or isinstance(kind, Measure | Direction)

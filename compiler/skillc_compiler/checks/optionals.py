@@ -1,0 +1,107 @@
+"""An optional parameter without a default, read where it may be unset.
+
+Bad::
+
+    opt tool: Tool
+    pre gripper contain tool
+
+Good::
+
+    opt tool: Tool
+    pre given tool implies gripper contain tool
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from skillc_compiler.library.conditions import And, Given, Not, Or, Variable
+from skillc_compiler.program import Clause, Implementation, Parameter, Program, Skill, Step, Valued
+from skillc_compiler.walk import implementation_values, skill_values, step_values, values_in
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Label
+
+NAMES = ("unset-optional",)
+Guards = frozenset[str]
+NONE: Guards = frozenset()
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a problem for each such reading."""
+    for skill in program.skills.values():
+        yield from _report(skill.parameters, _in_skill(skill))
+    for implementation in program.implementations:
+        yield from _report(implementation.parameters, _in_implementation(implementation))
+
+
+def _report(parameters: Sequence[Parameter], read: Iterator[tuple[Valued, Guards]]) -> Iterator[Diagnostic]:
+    unset = {p.name: p for p in parameters if p.may_be_unset}
+    if not unset:
+        return
+    for value, guards in read:
+        name = value.meaning.name if isinstance(value.meaning, Variable) else ""
+        if name in unset and name not in guards:
+            yield Diagnostic(
+                "unset-optional",
+                value.span,
+                f"`{name}` may be unset here",
+                help=f"give it a default, or read it only under `given {name}`",
+                labels=(Label(unset[name].span, "declared without a default"),),
+            )
+
+
+def _in_skill(skill: Skill) -> Iterator[tuple[Valued, Guards]]:
+    yield from _all(skill_values(skill), NONE)
+    for requirement in skill.requirements:
+        yield from _in_clause(requirement.clause, NONE)
+
+
+def _in_implementation(implementation: Implementation) -> Iterator[tuple[Valued, Guards]]:
+    yield from _all(implementation_values(implementation), NONE)
+    for requirement in implementation.requirements:
+        yield from _in_clause(requirement.clause, NONE)
+    if isinstance(implementation.body, Step):
+        yield from _in_step(implementation.body, NONE)
+
+
+def _in_clause(clause: Clause, guards: Guards) -> Iterator[tuple[Valued, Guards]]:
+    """Yield what a condition reads; in `and` and `or` the parts before guard those after."""
+    yield from _all(iter(clause.values), guards)
+    for part in clause.parts:
+        yield from _in_clause(part, guards)
+        if isinstance(clause.meaning, And):
+            guards |= _given(part, True)
+        elif isinstance(clause.meaning, Or):
+            guards |= _given(part, False)
+
+
+def _given(clause: Clause, holds: bool) -> Guards:
+    """Return the parameters that are certainly set when the condition holds, or when it does not."""
+    match clause.meaning:
+        case Given(parameter=name):
+            return frozenset({name}) if holds else NONE
+        case Not():
+            return _given(clause.parts[0], not holds)
+        case And() if holds:
+            return frozenset().union(*(_given(part, True) for part in clause.parts))
+        case Or() if not holds:
+            return frozenset().union(*(_given(part, False) for part in clause.parts))
+    return NONE
+
+
+def _in_step(step: Step, guards: Guards) -> Iterator[tuple[Valued, Guards]]:
+    yield from _all(step_values(step), guards)
+    for clause in step.clauses:
+        yield from _in_clause(clause, guards)
+    inside, otherwise = guards, guards
+    if isinstance(step.written, s.If | s.While):
+        inside = guards | _given(step.clauses[0], True)
+        otherwise = guards | _given(step.clauses[0], False)
+    for child in step.children:
+        yield from _in_step(child, inside)
+    for child in step.orelse:
+        yield from _in_step(child, otherwise)
+
+
+def _all(read: Iterator[Valued], guards: Guards) -> Iterator[tuple[Valued, Guards]]:
+    return ((part, guards) for value in read for part in values_in(value))

@@ -1,0 +1,93 @@
+"""What the planner cannot use: skills without effect, values it cannot choose or count, names it cannot tell apart.
+
+Suspicious::
+
+    skill LookAround {
+        in arm: ArmDevice
+    }                               # nothing is true afterwards, so no plan will ever contain it
+
+Good::
+
+    skill LookAround {
+        in arm: ArmDevice
+        noplan
+    }
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.library.conditions import Assign
+from skillc_compiler.library.vocabulary import local_name
+from skillc_compiler.lower.effects import effects
+from skillc_compiler.program import Program, Skill
+from skillc_compiler.types import INT, Measure, Thing, Unknown, describe, of_property
+from skillc_dsl.diagnostics import Diagnostic, Label
+
+NAMES = ("no-effect", "unplannable-parameter", "numeric-effect", "colliding-names")
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield warnings about planned skills, and an error for names that are one name in PDDL."""
+    for skill in program.skills.values():
+        if "noplan" not in skill.flags:
+            yield from _effect(skill)
+            yield from _parameters(skill)
+            yield from _numbers(program, skill)
+    yield from _colliding(program)
+
+
+def _effect(skill: Skill) -> Iterator[Diagnostic]:
+    if not any(requirement.kind == "post" for requirement in skill.requirements):
+        yield Diagnostic(
+            "no-effect",
+            skill.name_span,
+            f"nothing is said to be true after `{skill.name}`, so no plan will ever contain it",
+            help="add what it achieves as `post`, or `noplan`",
+            severity="warning",
+        )
+
+
+def _parameters(skill: Skill) -> Iterator[Diagnostic]:
+    for parameter in skill.parameters:
+        if parameter.direction in ("in", "infer") and not isinstance(parameter.type, Thing | Unknown):
+            yield Diagnostic(
+                "unplannable-parameter",
+                parameter.span,
+                f"the planner chooses individuals, not {describe(parameter.type)}, so it cannot use `{skill.name}`",
+                help="make the parameter `opt` with a default, read a property instead, or add `noplan`",
+                severity="warning",
+            )
+
+
+def _numbers(program: Program, skill: Skill) -> Iterator[Diagnostic]:
+    for post in (requirement for requirement in skill.requirements if requirement.kind == "post"):
+        for effect in effects(post.clause):
+            if not isinstance(effect, Assign) or effect.property not in program.vocabulary.properties:
+                continue
+            if isinstance(of_property(program.vocabulary.properties[effect.property].type), Measure) or (
+                of_property(program.vocabulary.properties[effect.property].type) == INT
+            ):
+                yield Diagnostic(
+                    "numeric-effect",
+                    post.clause.span,
+                    f"the planner does not count: it leaves `{skill.name}` out, which changes "
+                    f"`{local_name(effect.property)}`",
+                    help="add `noplan`, or state what is achieved by a relation or a truth value",
+                    severity="warning",
+                )
+
+
+def _colliding(program: Program) -> Iterator[Diagnostic]:
+    seen: dict[str, Skill] = {}
+    for skill in program.skills.values():
+        first = seen.setdefault(skill.name.casefold(), skill)
+        if first is not skill:
+            yield Diagnostic(
+                "colliding-names",
+                skill.name_span,
+                f"`{skill.name}` and `{first.name}` are one name to a planner, which takes no notice of capitals",
+                help="give one of them another name",
+                labels=(Label(first.name_span, "the other one"),),
+            )

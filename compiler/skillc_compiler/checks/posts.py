@@ -1,0 +1,99 @@
+"""A postcondition that says nothing definite, or contradicts another.
+
+What a skill makes true is a conjunction of relations and `property == value`, each possibly with `not`. Anything else
+can only be `sensed`: established by measuring.
+
+Bad::
+
+    post gripper contain object or table contain object
+    post arm.pose == target           # a pose follows from other facts, nobody sets it
+
+Good::
+
+    post gripper contain object
+    post sensed found: gripper contain object or table contain object
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from skillc_compiler.library.conditions import Assert, Assign, Effect, Literal, Retract
+from skillc_compiler.library.vocabulary import RelationTerm, Vocabulary, local_name
+from skillc_compiler.lower.effects import NoEffect, effects
+from skillc_compiler.program import Program, Requirement
+from skillc_dsl.diagnostics import Diagnostic, Label
+
+NAMES = ("post-not-literal", "computed-property", "two-values", "contradicting-posts")
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield what is wrong with the posts of each skill, and with those an implementation adds."""
+    for skill in program.skills.values():
+        yield from _check(program.vocabulary, skill.requirements, ())
+    for implementation in program.implementations:
+        yield from _check(program.vocabulary, implementation.requirements, implementation.skill.requirements)
+
+
+def _check(vocabulary: Vocabulary, own: Sequence[Requirement], given: Sequence[Requirement]) -> Iterator[Diagnostic]:
+    known = [(effect, post) for post in given if post.kind == "post" for effect in effects(post.clause)]
+    for post in (requirement for requirement in own if requirement.kind == "post"):
+        for effect in effects(post.clause):
+            if isinstance(effect, NoEffect):
+                if not post.sensed:
+                    yield _not_literal(effect)
+                continue
+            if not post.sensed:
+                yield from _computed(vocabulary, effect, post)
+            for other, earlier in known:
+                if not isinstance(other, NoEffect):
+                    yield from _conflict(vocabulary, effect, post, other, earlier)
+            known.append((effect, post))
+
+
+def _not_literal(part: NoEffect) -> Diagnostic:
+    return Diagnostic(
+        "post-not-literal",
+        part.span,
+        f"this does not say what is true afterwards: {part.reason}",
+        help="write relations and `property == value` joined by `and`, or mark the post `sensed`",
+    )
+
+
+def _computed(vocabulary: Vocabulary, effect: Effect, post: Requirement) -> Iterator[Diagnostic]:
+    if isinstance(effect, Assign) and effect.property in vocabulary.properties:
+        term = vocabulary.properties[effect.property]
+        if term.computed_by is not None:
+            yield Diagnostic(
+                "computed-property",
+                post.clause.span,
+                f"`{local_name(term.iri)}` follows from other facts and cannot be set",
+                help="mark the post `sensed`, or state the facts it follows from",
+            )
+
+
+def _conflict(
+    vocabulary: Vocabulary, effect: Effect, post: Requirement, other: Effect, earlier: Requirement
+) -> Iterator[Diagnostic]:
+    labels = (Label(earlier.clause.span, "the other one"),)
+    match effect, other:
+        case Assert(), Assert() if _two_values(vocabulary.relations.get(effect.relation), effect, other):
+            message = f"`{local_name(effect.relation)}` can have one value only, and another post gives it a second"
+            yield Diagnostic("two-values", post.clause.span, message, "keep one of the two", labels=labels)
+        case Assign(value=Literal() as one), Assign(value=Literal() as two):
+            if (effect.subject, effect.property) == (other.subject, other.property) and one != two:
+                message = f"`{local_name(effect.property)}` is given two values"
+                yield Diagnostic("two-values", post.clause.span, message, "keep one of the two", labels=labels)
+        case (Assert() as true, Retract() as false) | (Retract() as false, Assert() as true):
+            if (true.subject, true.relation, true.object) == (false.subject, false.relation, false.object):
+                message = "another post says the opposite"
+                yield Diagnostic("contradicting-posts", post.clause.span, message, "keep one of the two", labels=labels)
+
+
+def _two_values(relation: RelationTerm | None, one: Assert, other: Assert) -> bool:
+    if relation is None or one.relation != other.relation:
+        return False
+    same_subject, same_object = one.subject == other.subject, one.object == other.object
+    return (relation.functional and same_subject and not same_object) or (
+        relation.inverse_functional and same_object and not same_subject
+    )

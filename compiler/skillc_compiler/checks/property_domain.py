@@ -1,0 +1,48 @@
+"""A property read of an individual whose class does not have it.
+
+Bad::
+
+    pre gripper.isClean == true     # surfaces are clean or not, grippers are not
+
+Good::
+
+    pre surface.isClean == true
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.causes import declared
+from skillc_compiler.library.conditions import HasProperty, PropertyOf
+from skillc_compiler.library.vocabulary import local_name
+from skillc_compiler.program import Program, Valued
+from skillc_compiler.types import Thing, describe, fits
+from skillc_compiler.walk import clauses, values
+from skillc_dsl.diagnostics import Diagnostic
+
+NAMES = ("property-domain",)
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a problem for each property of something that cannot have it."""
+    for value in values(program):
+        if isinstance(value.meaning, PropertyOf):
+            yield from _fits(program, value.meaning.property, value.parts[0])
+    for clause in clauses(program):
+        if isinstance(clause.meaning, HasProperty):
+            yield from _fits(program, clause.meaning.property, clause.values[0])
+
+
+def _fits(program: Program, iri: str, of: Valued) -> Iterator[Diagnostic]:
+    term = program.vocabulary.properties.get(iri)
+    if term is None or any(fits(program.vocabulary, of.type, Thing(domain)) for domain in term.domains):
+        return
+    domains = " or ".join(local_name(domain) for domain in term.domains)
+    yield Diagnostic(
+        "property-domain",
+        of.span,
+        f"`{local_name(iri)}` is a property of {domains}, and this is {describe(of.type)}",
+        help="read it of another individual, or narrow the class of the parameter",
+        labels=declared(term),
+    )

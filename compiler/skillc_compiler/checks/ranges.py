@@ -1,0 +1,91 @@
+"""A number outside the range that is declared for it, or a range that holds no number.
+
+Bad::
+
+    opt force: Force = 120 N  range 5 N .. 80 N
+
+Good::
+
+    opt force: Force = 20 N  range 5 N .. 80 N
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.library.conditions import Expression
+from skillc_compiler.lower.folding import number
+from skillc_compiler.program import Parameter, Program, Valued
+from skillc_compiler.types import Measure, Type
+from skillc_compiler.walk import calls
+from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.source import Span
+from skillc_dsl.units import UNITS
+
+NAMES = ("out-of-range", "empty-range")
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a problem for each default, argument and range."""
+    for skill in program.skills.values():
+        for parameter in skill.parameters:
+            yield from _empty(parameter)
+            yield from _outside(parameter, parameter.default)
+    for implementation in program.implementations:
+        refined = {new.of.name: new for new in implementation.refinements if new.of}
+        for parameter in implementation.parameters:
+            if parameter.name in refined:
+                new = refined[parameter.name]
+                yield from _empty(parameter)
+                yield from _outside(parameter, parameter.default, None if new.default else new.written.span)
+    for call in calls(program):
+        for argument in call.arguments:
+            taken = call.skill.parameter(argument.name.text) if call.skill else None
+            if taken:
+                yield from _outside(taken, argument.value)
+
+
+def _empty(parameter: Parameter) -> Iterator[Diagnostic]:
+    low, high = _bounds(parameter)
+    if low is not None and high is not None and low > high and parameter.low and parameter.high:
+        yield Diagnostic(
+            "empty-range",
+            parameter.low.span.to(parameter.high.span),
+            f"no value is in this range: {_shown(low, parameter.type)} is more than {_shown(high, parameter.type)}",
+            help="write the lower bound first",
+        )
+
+
+def _outside(parameter: Parameter, value: Valued | None, place: Span | None = None) -> Iterator[Diagnostic]:
+    """Report a constant outside the range; `place` is where to report it if not at the value."""
+    low, high = _bounds(parameter)
+    known = (
+        number(value.meaning) if value and isinstance(value.type, Measure) and value.type == parameter.type else None
+    )
+    if value is None or known is None or low is None or high is None or low > high or low <= known <= high:
+        return
+    bounds = f"{_shown(low, parameter.type)} .. {_shown(high, parameter.type)}"
+    yield Diagnostic(
+        "out-of-range",
+        place or value.span,
+        f"`{parameter.name}` is {_shown(known, parameter.type)} here, outside its range {bounds}",
+        help=f"choose a value in {bounds}" if place is None else f"give a default in {bounds}",
+        labels=(Label(parameter.low.span, "the range"),) if parameter.low else (),
+    )
+
+
+def _bounds(parameter: Parameter) -> tuple[float | None, float | None]:
+    return _number(parameter.low), _number(parameter.high)
+
+
+def _number(value: Valued | None) -> float | None:
+    meaning: Expression | None = value.meaning if value else None
+    return number(meaning)
+
+
+def _shown(si: float, kind: Type) -> str:
+    """Return a number with its SI unit."""
+    fitting = [
+        n for n, u in UNITS.items() if isinstance(kind, Measure) and u.dimension == kind.dimension and u.in_si == 1
+    ]
+    return " ".join([f"{si:g}", *fitting[:1]])

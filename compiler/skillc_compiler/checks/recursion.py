@@ -1,0 +1,69 @@
+"""A skill that calls itself, directly or through others, and so never begins.
+
+Bad::
+
+    impl again of Pick {
+        do Pick(arm, object)
+    }
+
+Good::
+
+    impl again of Pick {
+        do retry 2 { Pick[simple](arm, object) }
+    }
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from skillc_compiler.program import Call, Implementation, Program, Step
+from skillc_compiler.walk import within
+from skillc_dsl.diagnostics import Diagnostic
+
+NAMES = ("recursion",)
+Edges = Mapping[str, Sequence[tuple[str, Call]]]
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a problem for each circle of implementations that call one another, at the call that closes it."""
+    edges = {i.key: tuple(_edges(program, i)) for i in program.implementations}
+    finished: set[str] = set()
+    reported: set[int] = set()
+    for start in edges:
+        for chain, call in _circles(edges, start, (), finished):
+            if id(call) not in reported:
+                reported.add(id(call))
+                yield _problem(chain, call)
+
+
+def _edges(program: Program, implementation: Implementation) -> Iterator[tuple[str, Call]]:
+    if not isinstance(implementation.body, Step):
+        return
+    for step in within(implementation.body):
+        if step.call and step.call.skill:
+            for called in program.implementations_of(step.call.skill.name):
+                if step.call.implementation in (None, called.name):
+                    yield called.key, step.call
+
+
+def _circles(
+    edges: Edges, here: str, chain: tuple[str, ...], finished: set[str]
+) -> Iterator[tuple[tuple[str, ...], Call]]:
+    for called, call in edges[here]:
+        if called in (*chain, here):
+            yield (*chain, here)[(*chain, here).index(called) :], call
+        elif called not in finished:
+            yield from _circles(edges, called, (*chain, here), finished)
+    finished.add(here)
+
+
+def _problem(chain: Sequence[str], call: Call) -> Diagnostic:
+    skills = [key.partition(".")[0] for key in chain]
+    way = " calls ".join(f"`{name}`" for name in (*skills, skills[0]))
+    return Diagnostic(
+        "recursion",
+        call.written.skill.span,
+        f"this never ends: {way}",
+        help="call another skill, or fix an implementation that does not come back here: `Skill[name](..)`",
+    )

@@ -1,0 +1,58 @@
+"""A refinement that does not narrow what the description says.
+
+An implementation may ask for a subclass or a smaller range and give another default, but not ask for something else.
+
+Bad::
+
+    impl any_tool of Grasp {
+        refine gripper: EndEffector          # Grasp promises to work with grippers only
+
+Good::
+
+    impl by_contact of Grasp {
+        refine gripper: ParallelGripper
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.lower.folding import number
+from skillc_compiler.program import Parameter, Program, Refinement, Valued
+from skillc_compiler.types import describe, fits
+from skillc_dsl.diagnostics import Diagnostic, Label
+
+NAMES = ("not-narrower",)
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a problem for each refinement that widens or replaces."""
+    for implementation in program.implementations:
+        for new in implementation.refinements:
+            if new.of is None:
+                continue
+            if not fits(program.vocabulary, new.type, new.of.type):
+                yield _problem(new, new.of, f"{describe(new.type)} is not always {describe(new.of.type)}")
+            elif new.type == new.of.type and _wider(new, new.of):
+                yield _problem(new, new.of, "the range goes beyond that of the description")
+
+
+def _problem(new: Refinement, of: Parameter, reason: str) -> Diagnostic:
+    return Diagnostic(
+        "not-narrower",
+        new.written.type.span if "range" not in reason or new.written.range is None else new.written.range.span,
+        f"a refinement of `{of.name}` may only narrow it, but {reason}",
+        help="take a subclass or a smaller range, or change the description",
+        labels=(Label(of.span, "the description"),),
+    )
+
+
+def _wider(new: Refinement, of: Parameter) -> bool:
+    low, high, old_low, old_high = (_number(v) for v in (new.low, new.high, of.low, of.high))
+    below = low is not None and old_low is not None and low < old_low
+    above = high is not None and old_high is not None and high > old_high
+    return below or above
+
+
+def _number(value: Valued | None) -> float | None:
+    return number(value.meaning) if value else None

@@ -1,0 +1,54 @@
+"""A relation used between individuals that it does not relate.
+
+Every relation has a domain and a range; an overloaded one has several pairs. The classes of the two sides must fit one.
+
+Bad::
+
+    pre object contain gripper      # contain goes from a holder to an object
+
+Good::
+
+    pre gripper contain object
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.causes import declared
+from skillc_compiler.library.conditions import Holds
+from skillc_compiler.library.vocabulary import RelationTerm, local_name
+from skillc_compiler.program import Program, Valued
+from skillc_compiler.types import Thing, describe, fits
+from skillc_compiler.walk import clauses
+from skillc_dsl.diagnostics import Diagnostic
+
+NAMES = ("relation-domain", "relation-range")
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a problem for each side of a relation whose class does not fit."""
+    for clause in clauses(program):
+        if isinstance(clause.meaning, Holds) and clause.meaning.relation in program.vocabulary.relations:
+            relation = program.vocabulary.relations[clause.meaning.relation]
+            subject, object_ = clause.values
+            yield from _sides(program, relation, subject, object_)
+
+
+def _sides(program: Program, relation: RelationTerm, subject: Valued, object_: Valued) -> Iterator[Diagnostic]:
+    fitting = [x for x in relation.signatures if fits(program.vocabulary, subject.type, Thing(x.domain))]
+    if not fitting and relation.signatures:
+        yield _problem("relation-domain", relation, subject, "on its left")
+    elif relation.signatures and not any(fits(program.vocabulary, object_.type, Thing(x.range)) for x in fitting):
+        yield _problem("relation-range", relation, object_, "on its right")
+
+
+def _problem(name: str, relation: RelationTerm, side: Valued, where: str) -> Diagnostic:
+    ways = " or ".join(f"{local_name(x.domain)} to {local_name(x.range)}" for x in relation.signatures)
+    return Diagnostic(
+        name,
+        side.span,
+        f"`{local_name(relation.iri)}` goes from {ways}, but {where} stands {describe(side.type)}",
+        help="turn the sides round, narrow the class of the parameter, or take another relation",
+        labels=declared(relation),
+    )

@@ -1,0 +1,105 @@
+"""Something declared and never used: a vocabulary, prefix, import, let or parameter.
+
+Suspicious::
+
+    let above = offset(corner, 5 cm * normal)
+    do MoveLinear(arm, target: corner)
+
+Good::
+
+    do MoveLinear(arm, target: corner)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from skillc_compiler.library.conditions import Given, Variable
+from skillc_compiler.library.vocabulary import Vocabulary, local_name
+from skillc_compiler.program import Clause, Implementation, Program, ReadFile, Skill, Step, Valued
+from skillc_compiler.walk import clauses_in, implementation_values, skill_values, step_values, values_in, within
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Span
+
+NAMES = ("unused-use", "unused-prefix", "unused-import", "unused-let", "unused-parameter")
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a warning for each thing that could be taken away without changing anything."""
+    for unit in program.files:
+        yield from _header(program, unit)
+    for implementation in program.implementations:
+        read = _read_in(implementation)
+        for let in implementation.lets:
+            if let.name.text not in read:
+                yield _unused("unused-let", let.name.span, f"the value `{let.name.text}` is never used")
+    for skill in program.skills.values():
+        yield from _parameters(program, skill)
+
+
+def _unused(name: str, span: Span, message: str) -> Diagnostic:
+    return Diagnostic(name, span, message, help="take it away", severity="warning")
+
+
+def _header(program: Program, unit: ReadFile) -> Iterator[Diagnostic]:
+    used = program.used[unit.file.path]
+    prefixes = {text.partition(":")[0] for text in used if ":" in text}
+    found = {line.path.span: path for line, path in unit.imports}
+    for line in unit.file.header:
+        match line:
+            case s.Use(vocabularies=vocabularies):
+                for name in vocabularies:
+                    if name.text in program.vocabulary.prefixes and not used & _terms(program.vocabulary, name.text):
+                        yield _unused(
+                            "unused-use", name.span, f"nothing of `{name.text}` is used by its bare name here"
+                        )
+            case s.Prefix(name=name):
+                if name.text not in prefixes:
+                    yield _unused("unused-prefix", name.span, f"the prefix `{name.text}` is never used")
+            case s.Import(path=path):
+                if path.span in found and not _import_used(program, unit, found[path.span]):
+                    yield _unused("unused-import", path.span, f'nothing of "{path.value}" is used here')
+
+
+def _terms(vocabulary: Vocabulary, prefix: str) -> set[str]:
+    base = vocabulary.prefixes[prefix]
+    terms = (*vocabulary.classes, *vocabulary.relations, *vocabulary.properties, *vocabulary.aliases)
+    return {local_name(iri) for iri in terms if iri.startswith(base)}
+
+
+def _import_used(program: Program, unit: ReadFile, path: str) -> bool:
+    """Whether a file names something of another, or has a goal, for which a planner may use all of it."""
+    if any(isinstance(d, s.TaskDeclaration) and d.goal is not None for d in unit.file.declarations):
+        return True
+    imported = next(other for other in program.files if other.file.path == path)
+    return any(d.name.text in program.used[unit.file.path] for d in imported.file.declarations)
+
+
+def _parameters(program: Program, skill: Skill) -> Iterator[Diagnostic]:
+    implementations = program.implementations_of(skill.name)
+    if not implementations or any(not isinstance(i.body, Step) for i in implementations):
+        return
+    read = {device.parameter.text for device in skill.devices}
+    read |= _names(skill_values(skill), (r.clause for r in skill.requirements))
+    for implementation in implementations:
+        read |= _read_in(implementation)
+    for parameter in skill.parameters:
+        if parameter.name not in read and parameter.direction != "out":
+            yield _unused("unused-parameter", parameter.span, f"the parameter `{parameter.name}` is never used")
+
+
+def _read_in(implementation: Implementation) -> set[str]:
+    """Return the names that an implementation reads itself."""
+    read = _names(implementation_values(implementation), (r.clause for r in implementation.requirements))
+    if isinstance(implementation.body, Step):
+        for step in within(implementation.body):
+            read |= _names(step_values(step), step.clauses)
+    return read
+
+
+def _names(values: Iterable[Valued], clauses: Iterable[Clause]) -> set[str]:
+    conditions = [part for clause in clauses for part in clauses_in(clause)]
+    read = [part for value in (*values, *(v for c in conditions for v in c.values)) for part in values_in(value)]
+    given = {c.meaning.parameter for c in conditions if isinstance(c.meaning, Given)}
+    return given | {value.meaning.name for value in read if isinstance(value.meaning, Variable)}
