@@ -1,7 +1,7 @@
 """trees/: behaviour trees in the XML of BehaviorTree.CPP, version 4.
 
-A file per skill that has a compound implementation, and per task written by hand. Each can be loaded by itself: it holds
-the trees of all skills it calls and declares every node it uses.
+A file per skill that has a compound implementation, and per task written by hand. Each can be loaded by itself: it
+holds the trees of all skills it calls and declares every node it uses.
 """
 
 from __future__ import annotations

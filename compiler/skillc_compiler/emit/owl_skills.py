@@ -63,7 +63,8 @@ def implementation(each: Implementation, skill: Skill, library: SkillLibrary) ->
     yield from _named(iri, f"{skill.name}[{each.name}]", each.doc, each.source)
     yield iri, f"{SKILLC}implements", Iri(base)
     yield iri, f"{SKILLC}rank", skill.implementations.index(each.name) + 1
-    yield iri, f"{SKILLC}preference", float(each.prefer)
+    if each.prefer:
+        yield iri, f"{SKILLC}preference", float(each.prefer)
     if isinstance(each.body, Primitive):
         yield iri, f"{SKILLC}python", each.body.python
     for kind, own, described in (("pre", each.pre, skill.pre), ("hold", each.hold, skill.hold)):

@@ -52,8 +52,12 @@ def turtle(prefixes: Mapping[str, str], statements: Statements) -> str:
 
 def _subject(subject: str, predicates: Mapping[str, set[str]], bases: list[tuple[str, str]]) -> str:
     ordered = sorted(predicates, key=lambda each: (each != RDF_TYPE, each))
-    lines = [f"{_predicate(each, bases)} {', '.join(sorted(predicates[each]))}" for each in ordered]
+    lines = [f"{_predicate(each, bases)} {_objects(predicates[each])}" for each in ordered]
     return f"{_iri(subject, bases)} " + " ;\n    ".join(lines) + " .\n"
+
+
+def _objects(objects: set[str]) -> str:
+    return ", ".join(objects) if len(objects) == 1 else ",\n        ".join(sorted(objects))
 
 
 def _predicate(iri: str, bases: list[tuple[str, str]]) -> str:

@@ -1,0 +1,121 @@
+"""The OWL output: readable, consistent, and of use to a reasoner."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import msgspec
+import owlrl
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from rdflib import OWL, RDF, RDFS, Graph, Literal, Namespace, URIRef
+
+from emit.samples import BASE, WIPE, implementation, library, wiping
+from skillc_compiler.emit import owl
+from skillc_compiler.emit.turtle import Iri, turtle
+from skillc_compiler.library.skills import SkillLibrary
+
+SAMPLE = Namespace("https://w3id.org/skillc/library/sample#")
+SKILLC = Namespace("https://w3id.org/skillc/core#")
+SKIROS = Namespace("http://rvmi.aau.dk/ontologies/skiros.owl#")
+CORE = Namespace(BASE)
+ERRORS = URIRef("http://www.daml.org/2002/03/agents/agent-ont#error")
+
+needs_java = pytest.mark.skipif(shutil.which("java") is None, reason="the reasoner runs in Java")
+
+
+def graph(made: SkillLibrary) -> Graph:
+    return Graph().parse(data=owl.emit(made)["skills.ttl"], format="turtle")
+
+
+def two_ways() -> SkillLibrary:
+    skill = msgspec.structs.replace(WIPE, implementations=("careful", "plain"))
+    careful = implementation(skill, "careful", arm="CompliantArm")
+    return library(skill, implementations=(careful, implementation(skill, "plain")))
+
+
+def invocation(arm_class: URIRef) -> Graph:
+    """Return the library with a call of Wipe whose arm is of the class, and everything that follows."""
+    made = graph(two_ways())
+    call, wipe = SAMPLE["call"], SAMPLE["some-wipe"]
+    made.add((call, RDF.type, SKILLC.Invocation))
+    made.add((call, SKILLC.invokes, wipe))
+    made.add((wipe, RDF.type, SAMPLE["Wipe"]))
+    for parameter in WIPE.parameters:
+        thing = SAMPLE[f"the-{parameter.name}"]
+        made.add((call, SAMPLE[f"Wipe.argument.{parameter.name}"], thing))
+        made.add((thing, RDF.type, URIRef(parameter.type.iri)))  # type: ignore[union-attr]
+    made.add((SAMPLE["the-arm"], RDF.type, arm_class))
+    owlrl.DeductiveClosure(owlrl.OWLRL_Semantics).expand(made)
+    return made
+
+
+def test_a_description_has_its_parameters_and_conditions() -> None:
+    made = graph(wiping())
+    pick = SAMPLE["Pick"]
+    assert (pick, RDF.type, OWL.Class) in made
+    assert {str(made.value(each, RDFS.label)) for each in made.objects(pick, SKIROS.hasParam)} == {
+        "arm", "object", "robot", "gripper", "from", "limit",
+    }  # fmt: skip
+    empty = SAMPLE["Pick.pre.empty"]
+    assert (pick, SKIROS.hasPreCondition, empty) in made
+    assert made.value(empty, SKILLC.desiredState) == Literal(False)
+    assert made.value(empty, SKILLC.subject) == SAMPLE["Pick.parameter.gripper"]
+    assert made.value(empty, SKILLC.conditionRelation) == CORE["contain"]
+    ready = SAMPLE["Pick.hold.ready"]
+    assert (made.value(ready, SKILLC.operator), made.value(ready, SKILLC.comparedValue)) == (
+        Literal("!="),
+        Literal("Fault"),
+    )
+
+
+def test_an_invocation_is_an_instance_of_the_implementations_that_fit_it() -> None:
+    compliant, stiff = invocation(CORE["CompliantArm"]), invocation(CORE["Arm"])
+    careful, plain = SAMPLE["Wipe.careful"], SAMPLE["Wipe.plain"]
+    assert (SAMPLE["call"], RDF.type, careful) in compliant
+    assert (SAMPLE["call"], RDF.type, plain) in compliant
+    assert (SAMPLE["call"], RDF.type, careful) not in stiff
+    assert (SAMPLE["call"], RDF.type, plain) in stiff
+    assert not list(compliant.subject_objects(ERRORS))
+
+
+@needs_java
+def test_a_reasoner_finds_it_consistent_and_orders_implementations(tmp_path: Path) -> None:
+    owlready2 = pytest.importorskip("owlready2")
+    file = tmp_path / "skills.nt"
+    graph(two_ways()).serialize(file, format="nt", encoding="utf-8")
+    world = owlready2.World()
+    with world.get_ontology(file.as_uri()).load():
+        owlready2.sync_reasoner(world, debug=0)
+    assert list(world.inconsistent_classes()) == []
+    careful, plain = world[str(SAMPLE["Wipe.careful"])], world[str(SAMPLE["Wipe.plain"])]
+    assert plain in careful.ancestors()
+    assert careful not in plain.ancestors()
+
+
+def test_blank_nodes_occur_only_in_class_expressions() -> None:
+    made = graph(wiping())
+    blank = {each for each in made.subjects() if not isinstance(each, URIRef)}
+    assert blank
+    for each in blank:
+        kind = made.value(each, RDF.type)
+        assert kind in (OWL.Class, OWL.Restriction, RDFS.Datatype) or made.value(each, RDF.first) is not None
+
+
+locals_ = st.from_regex(r"[A-Za-zä_.0-9-]{1,8}", fullmatch=True)
+values = st.text() | st.booleans() | st.integers() | st.floats(allow_nan=False, allow_infinity=False)
+
+
+@given(st.lists(st.tuples(locals_, values), max_size=6))
+def test_what_is_written_is_read_back(pairs: list[tuple[str, str | bool | int | float]]) -> None:
+    base = "http://example.org/x#"
+    text = turtle({"x": base}, [(base + name, base + "value", value) for name, value in pairs])
+    read = {(str(subject), type(value.value), value.value) for subject, _, value in Graph().parse(data=text)}
+    assert read == {(base + name, type(value), value) for name, value in pairs}
+
+
+def test_the_order_of_statements_does_not_matter() -> None:
+    made = [(f"http://x/{a}", f"http://y/{b}", Iri(f"http://z/{c}")) for a in "ab" for b in "ab" for c in "ab"]
+    assert turtle({}, made) == turtle({}, reversed(made)) == turtle({}, [*made, *made])
