@@ -10,6 +10,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from skillc_compiler.library.pddl.formulas import FALSE
 from skillc_compiler.library.pddl.prepare import prepared
 from skillc_compiler.library.pddl.problem import Problem
 from skillc_compiler.library.pddl.text import domain_text, problem_text
@@ -65,6 +66,8 @@ class FastDownward:
 
     def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
         """Solve a problem; `best found` when the time was too short for a proof."""
+        if problem.goal == FALSE:
+            return Unsolvable("no skill can change what the goal asks for")
         with TemporaryDirectory(prefix="skillc-plan-") as name:
             return self._plan(prepared(problem), Path(name), time.monotonic() + deadline_s, deadline_s)
 

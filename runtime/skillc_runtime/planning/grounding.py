@@ -6,7 +6,7 @@ Which atoms can ever be true is found by ignoring what actions delete.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
@@ -84,6 +84,10 @@ class Grounding:
                     grown |= self._reach(ground)
         return tuple(found[words] for words in sorted(found))
 
+    def explore(self) -> None:
+        """Find out what is reachable."""
+        self.reachable.update(each.atom for action in self.actions for each in action.effects if each.positive)
+
     def goal(self) -> Formula:
         """Return the goal with its static atoms decided; FALSE when it can never be."""
         return self.reduced(self._problem.goal, {})
@@ -111,10 +115,15 @@ class Grounding:
             case _:
                 assert_never(formula)
 
-    def bindings(self, action: Action, conditions: tuple[Formula, ...], start: Values) -> Iterator[dict[str, str]]:
-        """Yield the ways to bind an action's parameters, beginning with `start`, that make positive atoms reachable."""
-        atoms = [each for condition in conditions for each in conjuncts(condition) if isinstance(each, Atom)]
-        yield from self._bound(action, atoms, dict(start))
+    def fitting(self, action: Action, conditions: Sequence[Formula], start: Values) -> Iterator[dict[str, str]]:
+        """Yield the ways to bind an action's parameters, beginning with `start`, for which conditions are reachable."""
+        whole = conjunction(conditions)
+        bindings = self._bindings(action, conjuncts(whole), start)
+        yield from (values for values in bindings if self.possible(self.reduced(whole, values)))
+
+    def _bindings(self, action: Action, conditions: Iterable[Formula], start: Values) -> Iterator[dict[str, str]]:
+        """Yield the ways to bind an action's parameters that make the positive atoms among conditions reachable."""
+        yield from self._bound(action, [each for each in conditions if isinstance(each, Atom)], dict(start))
 
     def _bound(self, action: Action, atoms: list[Atom], values: dict[str, str]) -> Iterator[dict[str, str]]:
         """Bind by the atom with the most bound terms first, then what is left by type."""
@@ -141,7 +150,7 @@ class Grounding:
                 if name not in self._sets[types[term]]:
                     return None
                 matched[term] = name
-            elif matched.get(term, term) != name and not (term.startswith("?") and term not in types):
+            elif matched.get(term, term) != name:
                 return None
         return matched
 
@@ -156,7 +165,7 @@ class Grounding:
 
     def _instances(self, action: Action) -> Iterator[GroundAction]:
         condition = conjunction((action.precondition, action.hold))
-        for values in self.bindings(action, (condition,), {}):
+        for values in self._bindings(action, conjuncts(condition), {}):
             precondition = self.reduced(condition, values)
             if self.possible(precondition):
                 names = tuple(values[each.name] for each in action.parameters)

@@ -1,0 +1,118 @@
+"""Why there is no plan: what of the goal nothing can make true, and what the skills that could are missing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.library.conditions import Assign, Condition
+from skillc_compiler.library.pddl.domain import Action
+from skillc_compiler.library.pddl.formulas import FALSE, Atom, Formula, conjunction, conjuncts
+from skillc_compiler.library.pddl.reading import terms_read
+from skillc_compiler.library.skills import Skill
+from skillc_runtime.planning.grounding import Grounding
+from skillc_runtime.planning.problem import Posed
+from skillc_runtime.planning.words import Words
+from skillc_runtime.world.explain import explain
+from skillc_runtime.world.state import WorldState
+
+DEPTH = 4
+LISTED = 3
+
+
+def why_unsolvable(posed: Posed, goal: Condition, state: WorldState) -> str:
+    """Say why a problem without a plan has none, as far as reachability without deletions can tell."""
+    diagnosis = _Diagnosis(posed, state)
+    notes = [*diagnosis.reasons(goal), *_left_out(posed, goal), *_undecided(posed)]
+    return "; ".join(dict.fromkeys(notes))
+
+
+class _Diagnosis:
+    def __init__(self, posed: Posed, state: WorldState) -> None:
+        self._domain, self._objects = posed.problem.domain, posed.problem.objects
+        self._state = state
+        self._words = Words(posed.problem, state.vocabulary)
+        self._grounding = Grounding(posed.problem)
+        self._grounding.explore()
+
+    def reasons(self, condition: Condition) -> Iterator[str]:
+        """Yield what is wrong with each part of the goal that cannot be reached."""
+        goal = self._grounding.goal()
+        if goal == FALSE:
+            yield f"no skill can change this: {explain(condition, self._state, {}, self._state.vocabulary)}"
+            return
+        lost = [part for part in conjuncts(goal) if not self._grounding.possible(part)]
+        yield from (self._unreachable(part, DEPTH) for part in lost)
+        if not lost:
+            yield "each part of the goal can be reached, but not all of them together"
+
+    def _unreachable(self, part: Formula, depth: int) -> str:
+        shown = self._words.formula(part)
+        actions = self._domain.actions if isinstance(part, Atom) and depth else ()
+        reasons = [reason for action in actions for reason in self._failures(action, part, depth)]
+        if not reasons:
+            return f"nothing makes `{shown}` true"
+        return f"`{shown}` cannot be reached: " + "; ".join(dict.fromkeys(reasons))
+
+    def _failures(self, action: Action, wanted: Formula, depth: int) -> Iterator[str]:
+        """Yield why an action cannot make an atom true, for each of its effects that would."""
+        for change in action.effects:
+            start = _unified(change.atom, wanted, action) if change.positive else None
+            if start is not None:
+                yield f"{action.skill} {self._missing(action, start, depth)}"
+
+    def _missing(self, action: Action, start: dict[str, str], depth: int) -> str:
+        """Say what an action lacks: a thing of a class, or the first condition that fails beside those before it."""
+        for parameter, label in zip(action.parameters, action.binds, strict=True):
+            if not self._domain.of_type(self._objects, parameter.type):
+                return f"needs a {self._words.type_(parameter.type)} as `{label}`, and there is none"
+        conditions = conjuncts(conjunction((action.precondition, action.hold)))
+        names = {each.name: f"`{label}`" for each, label in zip(action.parameters, action.binds, strict=True)}
+        for count, condition in enumerate(conditions):
+            if next(self._grounding.fitting(action, conditions[: count + 1], start), None) is None:
+                shown = self._words.formula(condition, {**names, **self._shown(start)})
+                left = self._grounding.fitting(action, conditions[:count], start)
+                return f"needs {shown}, {self._because(condition, left, depth)}"
+        raise AssertionError(f"{action.name} can make this true")
+
+    def _shown(self, values: dict[str, str]) -> dict[str, str]:
+        return {variable: self._words.object_(name) for variable, name in values.items()}
+
+    def _because(self, condition: Formula, left: Iterator[dict[str, str]], depth: int) -> str:
+        """Say why a condition fails, if the conditions before it left only one choice of the objects it is about."""
+        if not isinstance(condition, Atom) or not self._domain.predicate[condition.predicate].changes:
+            return "which nothing fulfils"
+        wanted: set[Atom] = set()
+        for values in left:
+            wanted.add(Atom(condition.predicate, tuple(values.get(term, term) for term in condition.terms)))
+            if len(wanted) > 1:
+                return "which nothing fulfils"
+        return "and " + "".join(self._unreachable(atom, depth - 1) for atom in wanted)
+
+
+def _unified(atom: Atom, wanted: Formula, action: Action) -> dict[str, str] | None:
+    """Return the objects of an action's variables that make an effect the wanted atom, None when none do."""
+    if not isinstance(wanted, Atom) or atom.predicate != wanted.predicate:
+        return None
+    parameters = {each.name for each in action.parameters}
+    values: dict[str, str] = {}
+    for term, name in zip(atom.terms, wanted.terms, strict=True):
+        if values.setdefault(term, name) != name or (term not in parameters and term != name):
+            return None
+    return {term: name for term, name in values.items() if term in parameters}
+
+
+def _left_out(posed: Posed, goal: Condition) -> Iterator[str]:
+    """Yield the skills that change what the goal reads but cannot be planned with, and why."""
+    read = terms_read(goal)
+    for each in posed.problem.domain.excluded:
+        if _changes(posed.library.skills[each.skill]) & read:
+            yield f"{each.skill} is left out of planning: {each.reason}"
+
+
+def _changes(skill: Skill) -> set[str]:
+    effects = [effect for post in skill.post for effect in post.effects]
+    return {each.property if isinstance(each, Assign) else each.relation for each in effects}
+
+
+def _undecided(posed: Posed) -> Iterator[str]:
+    yield from (f"not decided: {each}" for each in posed.undecided[:LISTED])
