@@ -11,6 +11,7 @@ from lark import Lark, Token
 from lark.parsers.lalr_analysis import Shift
 from lark.parsers.lalr_parser_state import ParseConf
 
+from skillc_dsl.tables import cache_folder, parser_of
 from skillc_dsl.units import UNITS
 
 END = "$END"
@@ -25,8 +26,8 @@ def grammar_text() -> str:
 
 @functools.cache
 def machine() -> Lark:
-    """Return the parser, made from the grammar on first use."""
-    return Lark(grammar_text(), parser="lalr", lexer="basic", keep_all_tokens=True, maybe_placeholders=False)
+    """Return the parser."""
+    return parser_of(grammar_text(), cache_folder())
 
 
 @functools.cache

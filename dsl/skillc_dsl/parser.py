@@ -20,5 +20,7 @@ def parse(source: Source) -> Outcome[s.File]:
     recovery = Recovery(closed.value, source.path)
     builder = Declarations(source)
     file = builder.file(recovery.run())
-    problems = (*lexed.diagnostics, *mended.diagnostics, *closed.diagnostics, *recovery.problems, *builder.problems)
+    unread = {problem.span.line for problem in lexed.diagnostics}
+    misfits = (problem for problem in recovery.problems if problem.span.line not in unread)
+    problems = (*lexed.diagnostics, *mended.diagnostics, *closed.diagnostics, *misfits, *builder.problems)
     return Outcome(file, tuple(sorted(problems, key=lambda problem: problem.span)))

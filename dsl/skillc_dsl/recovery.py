@@ -9,7 +9,7 @@ from lark.exceptions import UnexpectedToken
 from lark.parsers.lalr_parser_state import ParserState
 
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.expectations import described, home, names, shown
+from skillc_dsl.expectations import described, home, shown
 from skillc_dsl.grammar import DECLARATIONS, END, first_on_line, fits, fitting, machine
 from skillc_dsl.lexing import after, span_of
 from skillc_dsl.repairs import Fault, repair
@@ -83,7 +83,7 @@ class Recovery:
 
     def _cut(self, position: int) -> bool:
         """Drop the incomplete member if the token at `position` can follow; a name proves it only with the next one."""
-        is_name = self.tokens[position].type in names() and not first_on_line(self.tokens, position + 1)
+        is_name = self.tokens[position].type in ("NAME", "QNAME") and not first_on_line(self.tokens, position + 1)
         count = 2 if is_name else 1
         following = [token.type for token in self.tokens[position : position + count]]
         level = self._level("RBRACE")
@@ -104,7 +104,7 @@ class Recovery:
 
     def _last(self) -> Token:
         """Return the last token of what was understood."""
-        last = self._state.value_stack[-1]
+        last: Token | Tree[Token] = self._state.value_stack[-1]
         while isinstance(last, Tree):
             last = last.children[-1]
         return last

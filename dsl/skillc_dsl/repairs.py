@@ -18,7 +18,7 @@ _INSERTED = ("RPAR", "RSQB", "COMMA", "EQUAL", "OF", "DOTS", "LBRACE", "COLON", 
 _SPACED = ("EQUAL", "DOTS", "LBRACE", "ARROW")
 _WORDS = ("OF", "PYTHON")
 _SWAPPED = {"EQUAL": "EQUALS", "EQUALS": "EQUAL"}
-_KEPT = DECLARATIONS | {"NAME", "QNAME", "LABEL", "LBRACE", "RBRACE", END}
+_KEPT = DECLARATIONS | {"NAME", "QNAME", "LABEL", "LBRACE", "RBRACE", "LESS", END}
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,13 +116,18 @@ def _keyword(fault: Fault) -> Iterator[Repair]:
 def _missing(fault: Fault) -> Iterator[Repair]:
     """A bracket, a comma, or a small word left out before the token at fault."""
     name_fits = fits(fault.states, "NAME")
+    complete = fits(fault.states, "RBRACE") or fits(fault.states, END)
+    new_line = first_on_line(fault.tokens, fault.index)
+    if complete and new_line:
+        return
+    span = span_of(fault.tokens[fault.index - 1], fault.path) if new_line and fault.index else fault.span
     for terminal in _INSERTED:
         if fault.mended_by(terminal, skip=0) and not (name_fits and terminal in _WORDS):
             text, gap = words()[terminal], fault.gap
             before = fault.tokens[fault.index - 1] if fault.index else ""
             padded = f" {text}" if text.isalpha() or terminal in _SPACED else text
             fix = Fix(gap, padded, f"insert `{text}`")
-            problem = Diagnostic("syntax", fault.span, f"`{text}` is missing after `{before}`", fix=fix)
+            problem = Diagnostic("syntax", span, f"`{text}` is missing after `{before}`", fix=fix)
             place = (None, gap.line, gap.column, gap.line, gap.column, None)
             yield Repair(problem, (Token(terminal, text, *place), fault.token))
 

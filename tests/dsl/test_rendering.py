@@ -1,0 +1,72 @@
+"""Diagnostics as people and machines read them."""
+
+import json as standard_json
+import re
+
+from skillc_dsl.diagnostics import Diagnostic, Fix, Label
+from skillc_dsl.rendering import concise, full, json
+from skillc_dsl.source import Source, Span
+
+SOURCE = Source("a.skill", "skill Pick {\n\tin arm:Arm\n}\n")
+PROBLEM = Diagnostic(
+    "missing-space-after-colon",
+    Span("a.skill", 2, 5, 2, 9),
+    "a space is missing",
+    "type one",
+    labels=(Label(Span("a.skill", 1, 7, 1, 11), "in this skill"), Label(Span("robot.ttl", 12, 1, 12, 4), "the class")),
+    fix=Fix(Span("a.skill", 2, 9, 2, 9), " ", "insert a space"),
+)
+
+EXPECTED = """\
+error[missing-space-after-colon]: a space is missing
+  --> a.skill:2:5
+   |
+ 2 | \tin arm:Arm
+   | \t   ^^^^
+  --> a.skill:1:7
+   |
+ 1 | skill Pick {
+   |       ^^^^ in this skill
+  --> robot.ttl:12:1: the class
+   help: type one
+   fix: insert a space
+"""
+
+
+def test_full() -> None:
+    assert full.render([PROBLEM], {"a.skill": SOURCE}) == EXPECTED
+
+
+def test_colour_adds_nothing_but_colour() -> None:
+    coloured = full.render([PROBLEM], {"a.skill": SOURCE}, colour=True)
+    assert "\x1b[1;31m" in coloured
+    assert re.sub(r"\x1b\[[\d;]*m", "", coloured) == EXPECTED
+
+
+def test_a_span_of_several_lines_is_marked_on_its_first() -> None:
+    long = Diagnostic("long", Span("a.skill", 1, 7, 3, 2), "all of it", severity="warning")
+    assert full.render([long], {"a.skill": SOURCE}).splitlines()[3:] == ["1 | skill Pick {", "  |       ^^^^^^"]
+
+
+def test_concise() -> None:
+    assert concise.render([PROBLEM], {}) == "a.skill:2:5: error[missing-space-after-colon]: a space is missing\n"
+
+
+def test_json() -> None:
+    assert standard_json.loads(json.render([PROBLEM], {})) == [
+        {
+            "name": "missing-space-after-colon",
+            "severity": "error",
+            "path": "a.skill",
+            "line": 2,
+            "column": 5,
+            "end_line": 2,
+            "end_column": 9,
+            "message": "a space is missing",
+            "help": "type one",
+        }
+    ]
+
+
+def test_nothing_to_say() -> None:
+    assert (full.render([], {}), concise.render([], {}), json.render([], {})) == ("", "", "[]\n")

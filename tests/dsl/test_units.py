@@ -1,0 +1,52 @@
+"""Units, dimensions, and what they are called."""
+
+import math
+
+import pytest
+
+from skillc_dsl.units import DIMENSIONS, LENGTH, MASS, NUMBER, TIME, UNITS, Dimension, dimension_of, near_units, to_si
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "si", "dimension"),
+    [
+        (5, "cm", 0.05, "Length"),
+        (20, "ms", 0.02, "Time"),
+        (2, "min", 120, "Time"),
+        (90, "deg", math.pi / 2, "Angle"),
+        (180, "deg/s", math.pi, "AngularSpeed"),
+        (400, "N/m", 400, "Stiffness"),
+        (30, "Nm/rad", 30, "RotationalStiffness"),
+        (3, "Nm", 3, "Torque"),
+        (250, "g", 0.25, "Mass"),
+        (1.5, "Hz", 1.5, "Frequency"),
+        (100, "cm2", 0.01, "Area"),
+        (50, "mm/s", 0.05, "Speed"),
+        (9.81, "m/s2", 9.81, "Acceleration"),
+        (8, "N", 8, "Force"),
+    ],
+)
+def test_values_in_si(value: float, unit: str, si: float, dimension: str) -> None:
+    assert to_si(value, unit) == pytest.approx(si)
+    assert dimension_of(unit).name == dimension
+
+
+def test_every_unit_has_a_dimension_with_a_name() -> None:
+    assert {unit.dimension.name for unit in UNITS.values()} == set(DIMENSIONS) - {"Number"}
+
+
+def test_products_and_quotients() -> None:
+    force = DIMENSIONS["Force"]
+    assert force == MASS * LENGTH / (TIME * TIME)
+    assert force / DIMENSIONS["Stiffness"] == LENGTH
+    assert (force / force).name == "Number"
+    assert Dimension() == NUMBER
+    assert (LENGTH * LENGTH * LENGTH / TIME).name == "m^3 s^-1"
+
+
+def test_a_foreign_unit() -> None:
+    with pytest.raises(KeyError):
+        to_si(1, "furlong")
+    assert near_units("newton")[0] == "N"
+    assert near_units("N/mm")[0] == "N/m"
+    assert near_units("furlong") == ()
