@@ -6,7 +6,7 @@ import platform
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 
-from skillc_runtime.planning.fast_downward import FastDownward
+from skillc_runtime.planning.fast_downward import installed
 from skillc_runtime.simulation.camera import RenderingUnavailable, check_rendering
 
 REQUIRED = ("lark", "msgspec", "pyoxigraph", "pddl", "numpy", "mujoco", "matplotlib", "rich", "click")
@@ -43,7 +43,7 @@ def _package(name: str) -> Finding:
 
 
 def _planner() -> Finding:
-    if FastDownward.available():
+    if installed():
         return Finding("Fast Downward", True, version("up-fast-downward"), "plans are proved optimal")
     return Finding("Fast Downward", False, "", "the built-in A* plans small scenes; pip install 'skillc[planner]'")
 

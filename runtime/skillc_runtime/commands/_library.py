@@ -23,7 +23,7 @@ SHIPPED = Path(str(files("skillc_skills")))
 
 @dataclass(frozen=True, slots=True)
 class LibraryFiles:
-    """The files of a library: `sources` under paths relative to `root`, `shelf` what may be imported besides."""
+    """A library: `sources` under paths relative to `root`, `shelf` what may be imported besides, by name."""
 
     name: str
     root: Path
@@ -32,9 +32,9 @@ class LibraryFiles:
 
     def shown(self, path: str) -> str:
         """Return a source's path as a user can open it from here."""
-        if path.startswith("std/"):
-            return str(SHIPPED / path)
-        return str(self.root / path)
+        file = SHIPPED / path if path.startswith("std/") else self.root / path
+        here = Path.cwd()
+        return str(file.relative_to(here) if file.is_relative_to(here) else file)
 
 
 def find(path: Path) -> LibraryFiles:
@@ -42,7 +42,7 @@ def find(path: Path) -> LibraryFiles:
 
     UsageError for a path that is neither, or that holds no `.skill` file.
     """
-    shelf = {f"std/{file.name}": _read(file, f"std/{file.name}") for file in sorted((SHIPPED / "std").glob("*.skill"))}
+    shelf = {file.name: _read(file, f"std/{file.name}") for file in sorted((SHIPPED / "std").glob("*.skill"))}
     if path.is_dir():
         found = sorted(path.rglob("*.skill"))
         if not found:
@@ -64,7 +64,7 @@ def compile_library(library: LibraryFiles) -> Outcome[SkillLibrary]:
 @cache
 def vocabulary() -> Vocabulary:
     """Load the shipped ontology."""
-    outcome = load(catalogue.vocabulary_files())
+    outcome = load([Source(path, text) for path, text in catalogue.vocabulary_files()])
     if outcome.diagnostics:
         raise RuntimeError(f"the shipped ontology is broken: {outcome.diagnostics[0].message}")
     return outcome.value

@@ -1,4 +1,4 @@
-"""Compile a library: library.json, OWL, PDDL, behaviour trees, documentation.
+"""Compile a library to JSON, OWL, PDDL, trees and pages.
 
 The same input gives the same bytes. Exit code 1 when the library has errors; nothing is written then.
 """
@@ -16,16 +16,17 @@ import click
 @click.option("-o", "--output", required=True, type=click.Path(path_type=Path), help="The folder to write to.")
 def command(path: Path, output: Path) -> None:
     """Compile the library at PATH into the folder OUTPUT."""
-    from skillc_compiler.emit.write import EmitError, emit_all, write
-
+    from skillc_compiler.emit.artifacts import artifacts
+    from skillc_compiler.emit.write import EmitError, write
     from skillc_runtime.commands import _diagnostics, _library
 
     library = _library.find(path)
     outcome = _library.compile_library(library)
-    if outcome.diagnostics and _diagnostics.show(outcome.diagnostics, _library.texts(library), "full"):
+    _diagnostics.tell(outcome.diagnostics, _library.texts(library))
+    if not outcome.ok:
         sys.exit(1)
     try:
-        written = write(emit_all(outcome.value), output)
+        written = write(artifacts(outcome.value), output)
     except EmitError as error:
         click.echo(f"error: {error}", err=True)
         sys.exit(1)

@@ -1,4 +1,4 @@
-"""Tell what is installed: versions, planners, rendering.
+"""Tell what is installed and what is missing.
 
 Exit code 1 when something that every command needs is missing.
 """

@@ -1,0 +1,69 @@
+"""Live progress of a run on stderr: one changing line on a terminal, a line a step elsewhere."""
+
+from __future__ import annotations
+
+import sys
+import time
+from types import TracebackType
+
+from rich.console import Console
+from rich.status import Status as Spinner
+
+from skillc_runtime.trace.events import Event, NodeEnded, NodeStarted, PlanMade
+
+STEP_DEPTH = 2
+"""Calls this deep are told of where the output is no terminal: the steps of a plan and what they call."""
+
+
+class Live:
+    """A listener that shows which skills run; `real_time` makes simulated time pass no faster than the clock."""
+
+    def __init__(self, title: str, quiet: bool, real_time: bool = False) -> None:
+        self._console = Console(stderr=True, highlight=False)
+        self._title, self._quiet, self._real_time = title, quiet, real_time
+        self._calls: dict[int, str] = {}
+        self._spinner: Spinner | None = None
+        self._began = time.monotonic()
+
+    def __enter__(self) -> Live:
+        if not self._quiet and sys.stderr.isatty():
+            self._spinner = self._console.status(f"{self._title}: preparing")
+            self._spinner.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._spinner is not None:
+            self._spinner.stop()
+
+    def say(self, message: str) -> None:
+        """Say what happens before the first tick."""
+        if self._spinner is not None:
+            self._spinner.update(f"{self._title}: {message}")
+        elif not self._quiet:
+            self._console.print(f"{self._title}: {message}", soft_wrap=True)
+
+    def __call__(self, event: Event) -> None:
+        match event:
+            case NodeStarted(kind="call", node=node, name=name):
+                self._calls[node] = name
+                self._show(event.time)
+            case NodeEnded(node=node) if node in self._calls:
+                del self._calls[node]
+            case PlanMade(steps=steps, optimal=optimal):
+                self.say(f"{' -> '.join(step.skill for step in steps)} ({optimal})")
+            case _:
+                pass
+
+    def pace(self, now: float) -> None:
+        """Wait until the clock has caught up with simulated time, where that is wanted."""
+        if self._real_time:
+            time.sleep(max(0.0, self._began + now - time.monotonic()))
+
+    def _show(self, now: float) -> None:
+        stack = " > ".join(self._calls.values())
+        if self._spinner is not None:
+            self._spinner.update(f"{self._title}  {now:6.1f} s  {stack}")
+        elif not self._quiet and len(self._calls) <= STEP_DEPTH:
+            self._console.print(f"{self._title}  {now:6.1f} s  {stack}", soft_wrap=True)

@@ -1,0 +1,99 @@
+"""From the words of a command line to a library and an assignment, or to an explanation and exit code 1."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import click
+
+from skillc_compiler.goals import parse_call, parse_goal
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_dsl.diagnostics import Outcome
+from skillc_dsl.source import Source
+from skillc_ontology import catalogue
+from skillc_runtime.commands import _diagnostics, _library
+from skillc_runtime.task import Assignment
+from skillc_runtime.world.documents import SceneError
+from skillc_runtime.world.scene import load_scene
+from skillc_runtime.world.state import WorldState
+
+
+@dataclass(frozen=True, slots=True)
+class Mission:
+    """A compiled library and what is to be done with it."""
+
+    library: SkillLibrary
+    assignment: Assignment
+
+
+def of_task(reference: str) -> Mission:
+    """Find, compile and load the task `LIBRARY:NAME`, or the shipped task of that name."""
+    files, name = _library.find_task(reference)
+    library = compiled(files)
+    task = _library.task_named(library, name)
+    if task.scene is None:
+        raise click.UsageError(f"the task `{name}` has no scene; run it with --scene FILE and --goal or --skill")
+    state = loaded(_task_scene(files, task.source.path, task.scene), library)
+    return Mission(library, Assignment(name, state, task.goal, task.body))
+
+
+def of_scene(scene: Path, goal: str | None, skill: str | None, library_path: Path | None) -> Mission:
+    """Take a goal, or a call of a skill, in a scene; the library is the shipped one unless a path is given."""
+    if (goal is None) == (skill is None):
+        raise click.UsageError("with --scene say either --goal TEXT or --skill CALL")
+    library = compiled(_library.find(library_path or _library.SHIPPED / "wiping"))
+    state = loaded(scene_path(scene), library)
+    individuals = {iri: sorted(state.types(iri)) for iri in state.individuals}
+    prefixes = state.vocabulary.prefixes
+    if goal is not None:
+        asked = parse_goal(goal, library.vocabulary, individuals, prefixes)
+        return Mission(library, Assignment("goal", state, goal=_understood(asked, goal)))
+    assert skill is not None
+    call = _understood(parse_call(skill, library, individuals, prefixes), skill)
+    return Mission(library, Assignment(call.skill, state, body=call))
+
+
+def compiled(files: _library.LibraryFiles) -> SkillLibrary:
+    """Compile a library; exit with its diagnostics if it has errors."""
+    outcome = _library.compile_library(files)
+    if not outcome.ok:
+        _diagnostics.tell(outcome.diagnostics, _library.texts(files))
+        sys.exit(1)
+    return outcome.value
+
+
+def loaded(scene: Path, library: SkillLibrary) -> WorldState:
+    """Load a scene; exit with what is wrong with it."""
+    try:
+        return load_scene(scene, library.vocabulary)
+    except SceneError as error:
+        _diagnostics.tell(_diagnostics.of_problems(error.problems), _diagnostics.scene_text(scene))
+    except OSError as error:
+        click.echo(f"error: the scene {scene} cannot be read: {error.strerror}", err=True)
+    sys.exit(1)
+
+
+def scene_path(scene: Path) -> Path:
+    """Return a scene file: the path itself, or a shipped scene of that name."""
+    if scene.is_file():
+        return scene
+    try:
+        return catalogue.scene(str(scene))
+    except FileNotFoundError as error:
+        raise click.UsageError(f"there is no file {scene}, and {error}") from error
+
+
+def _understood(outcome: Outcome[Any], text: str) -> Any:
+    """Return what was understood; exit with the diagnostics if it was not."""
+    if outcome.value is None:
+        _diagnostics.tell(outcome.diagnostics, {"goal": Source("goal", text), "call": Source("call", text)})
+        sys.exit(1)
+    return outcome.value
+
+
+def _task_scene(files: _library.LibraryFiles, task_file: str, scene: str) -> Path:
+    beside = (files.root / task_file).parent / scene
+    return beside if beside.is_file() else scene_path(Path(scene))

@@ -1,0 +1,133 @@
+"""Running a mission for the commands: progress, interruption, recording, report."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from types import FrameType
+
+import click
+
+from skillc_runtime.commands._live import Live
+from skillc_runtime.commands._mission import Mission
+from skillc_runtime.report.result import TaskResult
+from skillc_runtime.report.summary import Choices, summarise
+from skillc_runtime.report.wiping import find_wiping
+from skillc_runtime.report.write import write_report
+from skillc_runtime.simulation.camera import RenderingUnavailable
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.simulation.film import Film
+from skillc_runtime.simulation.sheet import SheetError
+from skillc_runtime.task import Execution, Prepared, execute, prepare
+from skillc_runtime.trace.events import Listener
+from skillc_runtime.trace.writer import TraceWriter
+from skillc_runtime.world.frames import FrameError
+from skillc_runtime.world.model import WorldModel
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """How to run: where reports go (None: nowhere), which seed, at which pace, whether to show progress."""
+
+    out: Path | None = None
+    seed: int = 0
+    real_time: bool = False
+    quiet: bool = False
+
+
+def run(mission: Mission, options: Options) -> TaskResult:
+    """Plan, run and report one mission."""
+    name = mission.assignment.name
+    with Live(name, options.quiet, options.real_time) as live:
+        live.say("planning")
+        prepared = prepare(mission.assignment, mission.library)
+        if not isinstance(prepared, Prepared):
+            return TaskResult(task=name, status="refused", seed=options.seed, failure=prepared.why)
+        live.say("building the simulation")
+        try:
+            cell = SimulatedCell(WorldModel(mission.assignment.state), options.seed)
+        except (SheetError, FrameError, KeyError, ValueError) as error:
+            return TaskResult(task=name, status="refused", seed=options.seed, failure=f"no simulation: {error}")
+        return _run(prepared, mission, cell, options, live)
+
+
+def _run(prepared: Prepared, mission: Mission, cell: SimulatedCell, options: Options, live: Live) -> TaskResult:
+    choices = Choices()
+    listeners: list[Listener] = [choices, live]
+    film = Film(cell) if options.out is not None else None
+
+    def watch() -> None:
+        live.pace(cell.now)
+        if film is not None:
+            film.sample()
+
+    with _trace(options.out) as trace, _interruption() as interruption:
+        if trace is not None:
+            listeners.append(trace)
+        execution = execute(prepared, mission.library, cell, listeners, watch, lambda: interruption.wanted)
+    result = summarise(execution, choices, mission.library)
+    if options.out is not None:
+        live.say("writing the report")
+        _report(options.out, result, execution, choices, film)
+    return result
+
+
+def _report(directory: Path, result: TaskResult, execution: Execution, choices: Choices, film: Film | None) -> None:
+    wiping = find_wiping(execution.tree, choices, execution.cell)
+    with _writing(directory):
+        filmed = None
+        if film is not None:
+            try:
+                filmed = film.write(directory / "film.mp4").name
+            except RenderingUnavailable as error:
+                click.echo(f"no film: {error}", err=True)
+        write_report(directory, result, execution, wiping, filmed)
+
+
+class _Interruption:
+    """Whether somebody pressed Ctrl-C; a second time ends the program at once."""
+
+    def __init__(self) -> None:
+        self.wanted = False
+
+    def __call__(self, _signal: int, _frame: FrameType | None) -> None:
+        if self.wanted:
+            raise KeyboardInterrupt
+        self.wanted = True
+
+
+@contextmanager
+def _interruption() -> Iterator[_Interruption]:
+    interruption = _Interruption()
+    before = signal.signal(signal.SIGINT, interruption)
+    try:
+        yield interruption
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+@contextmanager
+def _trace(directory: Path | None) -> Iterator[TraceWriter | None]:
+    if directory is None:
+        yield None
+        return
+    with _writing(directory):
+        directory.mkdir(parents=True, exist_ok=True)
+        trace = TraceWriter(directory / "events.jsonl")
+    with trace:
+        yield trace
+    if trace.problem is not None:
+        click.echo(f"warning: {trace.problem}", err=True)
+
+
+@contextmanager
+def _writing(directory: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        click.echo(f"error: cannot write to {directory}: {error.strerror or error}", err=True)
+        sys.exit(1)

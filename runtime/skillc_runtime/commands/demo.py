@@ -1,0 +1,34 @@
+"""Wipe a board and a table with one skill and two robots.
+
+Exit code 3 when a task does not succeed.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import click
+
+TASKS = {"ur5e": "clean_whiteboard", "iiwa": "clean_table"}
+
+
+@click.command()
+@click.option("--robot", type=click.Choice([*TASKS, "all"]), default="all", show_default=True, help="Which robot.")
+@click.option("--out", type=click.Path(path_type=Path), help="A folder for reports, events and films.")
+@click.option("--seed", default=0, show_default=True, help="How reality differs from the world model.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON document: a list with one object a task.")
+def command(robot: str, out: Path | None, seed: int, as_json: bool) -> None:
+    """Run the two shipped wiping tasks in simulation."""
+    from skillc_runtime.commands import _mission, _results, _running
+
+    results = []
+    for task in TASKS.values() if robot == "all" else [TASKS[robot]]:
+        directory = out / task if out is not None else None
+        options = _running.Options(out=directory, seed=seed, quiet=as_json)
+        results.append(_running.run(_mission.of_task(task), options))
+        if not as_json:
+            _results.show(results[-1:], directory)
+    if as_json:
+        click.echo(_results.list_as_json(results))
+    sys.exit(0 if all(result.status == "success" for result in results) else 3)

@@ -1,0 +1,43 @@
+"""Plan for a task or a goal; nothing moves.
+
+Says whether the plan is proved optimal.
+
+Exit code 3 when there is no plan.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import click
+
+
+@click.command()
+@click.argument("task", required=False)
+@click.option("--scene", type=click.Path(path_type=Path), help="The scene to plan in, instead of a task's.")
+@click.option("--goal", help="The goal, as in a .skill file or as PDDL.")
+@click.option("--library", type=click.Path(path_type=Path), help="The skills to plan with, if not the shipped ones.")
+@click.option("--deadline", default=30.0, show_default=True, help="Seconds the planner may take.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
+def command(
+    task: str | None, scene: Path | None, goal: str | None, library: Path | None, deadline: float, as_json: bool
+) -> None:
+    """Plan for TASK (`LIBRARY:NAME`, or a shipped task), or for a goal in a scene."""
+    from skillc_runtime.commands import _mission, _plans
+    from skillc_runtime.planning.plan import Solved, Unsolvable
+    from skillc_runtime.planning.problem import GoalError
+    from skillc_runtime.planning.solve import solve
+
+    if (task is None) == (scene is None):
+        raise click.UsageError("say either a TASK or --scene FILE with --goal TEXT")
+    mission = _mission.of_task(task) if task else _mission.of_scene(scene or Path(), goal, None, library)
+    assignment = mission.assignment
+    if assignment.goal is None:
+        raise click.UsageError(f"the task `{assignment.name}` has no goal to plan for: it says itself what to do")
+    try:
+        answer = solve(mission.library, assignment.state, assignment.goal, deadline_s=deadline)
+    except GoalError as error:
+        answer = Unsolvable(str(error))
+    click.echo(_plans.as_json(answer, mission) if as_json else _plans.as_text(answer, mission))
+    sys.exit(0 if isinstance(answer, Solved) else 3)

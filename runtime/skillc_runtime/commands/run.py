@@ -1,0 +1,48 @@
+"""Run a task in simulation and report.
+
+Plans if there is a goal, chooses implementations by what the world model knows, executes.
+
+Exit code 3 when the task does not succeed.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import click
+
+
+@click.command()
+@click.argument("task", required=False)
+@click.option("--scene", type=click.Path(path_type=Path), help="The scene to run in, instead of a task's.")
+@click.option("--goal", help="The goal to plan for, as in a .skill file or as PDDL.")
+@click.option("--skill", help="A call to run instead of a goal, as `Wipe(surface: lab:Table-1)`.")
+@click.option("--library", type=click.Path(path_type=Path), help="The skills to use, if not the shipped ones.")
+@click.option("--out", type=click.Path(path_type=Path), help="A folder for report.html, events.jsonl and the film.")
+@click.option("--seed", default=0, show_default=True, help="How reality differs from the world model.")
+@click.option("--real-time", is_flag=True, help="Let simulated time pass no faster than the clock.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
+def command(
+    task: str | None,
+    scene: Path | None,
+    goal: str | None,
+    skill: str | None,
+    library: Path | None,
+    out: Path | None,
+    seed: int,
+    real_time: bool,
+    as_json: bool,
+) -> None:
+    """Run TASK (`LIBRARY:NAME`, or a shipped task), or a goal or a call in a scene."""
+    from skillc_runtime.commands import _mission, _results, _running
+
+    if (task is None) == (scene is None):
+        raise click.UsageError("say either a TASK or --scene FILE with --goal TEXT or --skill CALL")
+    mission = _mission.of_task(task) if task else _mission.of_scene(scene or Path(), goal, skill, library)
+    result = _running.run(mission, _running.Options(out=out, seed=seed, real_time=real_time, quiet=as_json))
+    if as_json:
+        click.echo(_results.as_json(result))
+    else:
+        _results.show([result], out)
+    sys.exit(0 if result.status == "success" else 3)

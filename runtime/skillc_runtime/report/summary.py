@@ -1,0 +1,102 @@
+"""The result of a task, from what was prepared and what became of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal
+
+import numpy as np
+
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.report.result import StepResult, TaskResult
+from skillc_runtime.report.wiping import find_wiping, judge
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.task import Execution
+from skillc_runtime.trace.events import Event, ImplementationChosen
+from skillc_runtime.trace.failure import Failure
+from skillc_runtime.trace.outcome import Outcome
+
+COMPLIANT_CONTROLLER = "http://rvmi.aau.dk/ontologies/skiros.owl#CompliantController"
+
+
+ENDED: Mapping[Status, Literal["success", "failure", "halted"]] = {
+    Status.SUCCESS: "success",
+    Status.FAILURE: "failure",
+    Status.HALTED: "halted",
+}
+
+
+class Choices(dict[int, ImplementationChosen]):
+    """A listener that keeps the last choice made at each node."""
+
+    def __call__(self, event: Event) -> None:
+        if isinstance(event, ImplementationChosen):
+            self[event.node] = event
+
+
+def summarise(execution: Execution, choices: Mapping[int, ImplementationChosen], library: SkillLibrary) -> TaskResult:
+    """Return everything that reports, tables and JSON say of a task that ran."""
+    cell, solved = execution.cell, execution.prepared.solved
+    short = cell.world.snapshot().vocabulary.short
+    wiping = find_wiping(execution.tree, choices, cell)
+    robots = sorted({short(arm.robot or arm.individual) for arm in cell.facts.arms})
+    wall = execution.wall_time_s
+    return TaskResult(
+        task=execution.prepared.assignment.name,
+        status=ENDED[execution.status],
+        plan=_steps(execution.tree, choices, library),
+        plan_optimal=None if solved is None else solved.optimal == "proven",
+        planner="" if solved is None else solved.planner,
+        robot=", ".join(robots),
+        controller=", ".join(_controllers(cell)),
+        sim_time_s=cell.now,
+        wall_time_s=wall,
+        real_time_factor=cell.now / wall if wall else 0.0,
+        seed=cell.variation.seed,
+        variation=_variation(cell),
+        wiping=judge(wiping, cell) if wiping else None,
+        failure=_told(execution.failure),
+    )
+
+
+def _steps(tree: Outcome, choices: Mapping[int, ImplementationChosen], library: SkillLibrary) -> tuple[StepResult, ...]:
+    """Return the calls at the top of the tree."""
+    calls = [tree] if tree.kind == "call" else [child for child in tree.children if child.kind == "call"]
+    return tuple(_step(call, choices.get(call.id), library) for call in calls)
+
+
+def _step(call: Outcome, choice: ImplementationChosen | None, library: SkillLibrary) -> StepResult:
+    objects = {p.name for p in library.skills[call.name].parameters if p.direction in ("in", "infer")}
+    bindings = choice.bindings if choice else {}
+    return StepResult(
+        skill=call.name,
+        implementation=choice.implementation if choice else "",
+        arguments={name: value for name, value in bindings.items() if name in objects},
+        source=str(choice.source if choice else call.source),
+        rejected=call.rejected,
+    )
+
+
+def _controllers(cell: SimulatedCell) -> list[str]:
+    state = cell.world.snapshot()
+    found = (state.value(arm.individual, COMPLIANT_CONTROLLER) for arm in cell.facts.arms)
+    return sorted({str(controller) for controller in found if controller is not None})
+
+
+def _variation(cell: SimulatedCell) -> str:
+    """Say how reality differs from what the world model believed at the start."""
+    names = cell.facts.names
+    return "; ".join(
+        f"{names[one.surface]} {one.offset_m * 1e3:+.1f} mm along its normal, tilted "
+        f"{np.degrees(one.tilt_rad[0]):+.1f} and {np.degrees(one.tilt_rad[1]):+.1f} deg, friction {one.friction:.2f}"
+        for one in cell.variation.surfaces
+    )
+
+
+def _told(failure: Failure | None) -> str | None:
+    if failure is None:
+        return None
+    where = f"{failure.source}: " if failure.source else ""
+    skill = f"{failure.skill}: " if failure.skill else ""
+    return f"{where}{skill}{failure.message}"
