@@ -28,13 +28,10 @@ class IfNode(Node):
 
     def begin(self) -> Status:
         self._chosen = self._branch()
-        return self.end() if self._chosen is None else self._after(self._chosen, self._chosen.start())
+        return self.end() if self._chosen is None else self.after(self._chosen.start())
 
-    def tick(self) -> Status:
-        chosen = self._chosen
-        assert chosen is not None, "tick before start"
-        status = chosen.tick()
-        return RUNNING if status is RUNNING else self._after(chosen, status)
+    def lowest(self) -> Node:
+        return self if self._chosen is None else self._chosen.lowest()
 
     def still(self) -> bool:
         return (
@@ -44,7 +41,7 @@ class IfNode(Node):
     def _branch(self) -> Node | None:
         return self.then if evaluate(self.node.condition, self.context.state, self.frame) else self.orelse
 
-    def _after(self, chosen: Node, status: Status) -> Status:
-        if status is RUNNING:
-            return RUNNING
-        return self.end() if status is SUCCESS else self.fail(chosen.failure)
+    def after(self, status: Status) -> Status:
+        if status is RUNNING or self._chosen is None:
+            return status
+        return self.end() if status is SUCCESS else self.fail(self._chosen.failure)

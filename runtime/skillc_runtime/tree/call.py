@@ -20,6 +20,7 @@ from skillc_runtime.tree.enclosing import Enclosing, Frame
 from skillc_runtime.tree.errors import told
 from skillc_runtime.tree.node import RUNNING, SUCCESS, Node
 from skillc_runtime.tree.primitive_node import PrimitiveNode
+from skillc_runtime.tree.strand import Strand
 from skillc_runtime.world.expressions import value_of
 
 _STAGES = ("argument", "inference", "pre", "hold", "lock", "start", "run")
@@ -32,7 +33,7 @@ class CallNode(Node):
     """
 
     kind: ClassVar[str] = "call"
-    __slots__ = ("_arguments", "_build", "_enclosing", "_left", "activation", "node", "rejected", "skill")
+    __slots__ = ("_arguments", "_build", "_enclosing", "_left", "_strand", "activation", "node", "rejected", "skill")
 
     def __init__(self, context: Context, node: tree.Call, enclosing: Enclosing, build: Build) -> None:
         super().__init__(context, node.source, name=node.skill)
@@ -59,8 +60,30 @@ class CallNode(Node):
             if failure is not None:
                 activation.body.halt(failure.message)
                 return self._failed(activation, failure)
-        status = activation.body.tick()
-        return RUNNING if status is RUNNING else self._after(activation, status)
+        status = self._strand.pulse()
+        return RUNNING if status is RUNNING else self.after(self._strand.climb(status))
+
+    def lowest(self) -> Node:
+        """Pass ticks on to the body unless there are holds to watch."""
+        activation = self.activation
+        return self if activation is None or activation.implementation.hold else activation.body.lowest()
+
+    def after(self, status: Status) -> Status:
+        activation = self.activation
+        if status is RUNNING or activation is None:
+            return status
+        if status is not SUCCESS:
+            return self._failed(activation, self._with_skill(activation.body.failure))
+        try:
+            failure = activation.conclude()
+            if failure is None:
+                self._hand_out(activation)
+        except Exception as error:  # noqa: BLE001  a node is the boundary: it reports and fails
+            failure = Failure(kind="error", message=told(error), source=self.source, skill=self.skill.name)
+        if failure is not None:
+            return self._failed(activation, failure)
+        activation.close()
+        return self.end()
 
     def stop(self, reason: str) -> None:
         super().stop(reason)
@@ -105,10 +128,11 @@ class CallNode(Node):
     def _start(self, activation: Activation) -> Status | None:
         """Start the body; None when it did not get to start and the next implementation may be tried."""
         self.activation, self.children = activation, (activation.body,)
-        activation.body.parent = self.id
+        activation.body.up = self
+        self._strand = Strand(activation.body)
         self.name = f"{self.skill.name}[{activation.implementation.name}]"
         self._tell_choice(activation)
-        status = activation.body.start()
+        status = self._strand.start()
         if status is RUNNING:
             return RUNNING
         if isinstance(activation.body, PrimitiveNode) and activation.body.refused:
@@ -116,21 +140,7 @@ class CallNode(Node):
             failure = self._with_skill(activation.body.failure)
             self.rejected.append(self._refusal(activation.implementation, failure))
             return None
-        return self._after(activation, status)
-
-    def _after(self, activation: Activation, status: Status) -> Status:
-        if status is not SUCCESS:
-            return self._failed(activation, self._with_skill(activation.body.failure))
-        try:
-            failure = activation.conclude()
-            if failure is None:
-                self._hand_out(activation)
-        except Exception as error:  # noqa: BLE001  a node is the boundary: it reports and fails
-            failure = Failure(kind="error", message=told(error), source=self.source, skill=self.skill.name)
-        if failure is not None:
-            return self._failed(activation, failure)
-        activation.close()
-        return self.end()
+        return self.after(status)
 
     def _failed(self, activation: Activation, failure: Failure) -> Status:
         """Give everything back, then try the next implementation where the skill allows it."""

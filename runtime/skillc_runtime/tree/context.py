@@ -20,7 +20,7 @@ class Context:
     `time` is the cell's clock. `emit` is None when nobody listens, and then no event is built.
     """
 
-    __slots__ = ("_ids", "cell", "emit", "library", "locks", "now", "paused_s", "state", "time")
+    __slots__ = ("_ids", "_snapshot", "cell", "emit", "library", "locks", "now", "paused_s", "state", "time")
 
     def __init__(self, library: SkillLibrary, cell: Cell, emit: Listener | None, locks: Locks) -> None:
         self.library = library
@@ -28,23 +28,26 @@ class Context:
         self.emit = emit
         self.locks = locks
         self.paused_s = 0.0
+        self.time = self.now = 0.0
+        self.state: WorldState
         self._ids = 0
-        self.refresh_clock()
-        self.state: WorldState = cell.world.snapshot()
+        self._snapshot = cell.world.snapshot
+        self.begin_tick()
 
     def next_id(self) -> int:
         """Return a number no other node of the run has; the first is 1."""
         self._ids += 1
         return self._ids
 
-    def refresh_clock(self) -> None:
-        """Take the time for this tick."""
-        self.time = self.cell.now
-        self.now = self.time - self.paused_s
+    def begin_tick(self) -> None:
+        """Take the time and the newest snapshot."""
+        self.time = now = self.cell.now
+        self.now = now - self.paused_s
+        self.state = self._snapshot()
 
     def refresh(self) -> None:
-        """Take the newest snapshot."""
-        self.state = self.cell.world.snapshot()
+        """Take the newest snapshot, after somebody wrote."""
+        self.state = self._snapshot()
 
     def commit(self, changes: Sequence[Change], origin: str) -> None:
         """Write changes in one transaction and read on from the result; WorldError refuses them all."""

@@ -11,6 +11,7 @@ from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.enclosing import Enclosing
 from skillc_runtime.tree.leaves import seconds_of
 from skillc_runtime.tree.node import FAILURE, RUNNING, SUCCESS, Node
+from skillc_runtime.tree.strand import Strand
 
 _EPSILON_S = 1e-9
 
@@ -19,7 +20,7 @@ class TimeoutNode(Node):
     """Halts the child and fails when it still runs after the time."""
 
     kind: ClassVar[str] = "timeout"
-    __slots__ = ("_deadline", "child", "frame", "node")
+    __slots__ = ("_deadline", "_strand", "child", "frame", "node")
 
     def __init__(self, context: Context, node: tree.Timeout, child: Node, enclosing: Enclosing) -> None:
         super().__init__(context, node.source, (child,))
@@ -31,20 +32,21 @@ class TimeoutNode(Node):
         seconds = seconds_of(self.node.seconds, self.context, self.frame)
         self.name = f"timeout {seconds:g} s"
         self._deadline = self.context.now + seconds - _EPSILON_S
-        return self._after(self.child.start())
+        self._strand = Strand(self.child)
+        return self.after(self._strand.start())
 
     def tick(self) -> Status:
         if self.context.now >= self._deadline:
             message = f"{self.child.name} was not done after {self.name.removeprefix('timeout ')}"
             self.stop(message)
             return self.fail(Failure(kind="timeout", message=message, source=self.source))
-        status = self.child.tick()
-        return RUNNING if status is RUNNING else self._after(status)
+        status = self._strand.tick()
+        return RUNNING if status is RUNNING else self.after(status)
 
     def still(self) -> bool:
         return self.status is SUCCESS and self.child.still()
 
-    def _after(self, status: Status) -> Status:
+    def after(self, status: Status) -> Status:
         if status is RUNNING:
             return RUNNING
         return self.end() if status is SUCCESS else self.fail(self.child.failure)
@@ -61,16 +63,15 @@ class TryNode(Node):
         self.child = child
 
     def begin(self) -> Status:
-        return self._after(self.child.start())
+        return self.after(self.child.start())
 
-    def tick(self) -> Status:
-        status = self.child.tick()
-        return RUNNING if status is RUNNING else self._after(status)
+    def lowest(self) -> Node:
+        return self.child.lowest()
 
     def still(self) -> bool:
         return self.status is SUCCESS and (self.child.status is FAILURE or self.child.still())
 
-    def _after(self, status: Status) -> Status:
+    def after(self, status: Status) -> Status:
         if status is RUNNING:
             return RUNNING
         failure = self.child.failure
@@ -90,16 +91,15 @@ class InvertNode(Node):
         self.child = child
 
     def begin(self) -> Status:
-        return self._after(self.child.start())
+        return self.after(self.child.start())
 
-    def tick(self) -> Status:
-        status = self.child.tick()
-        return RUNNING if status is RUNNING else self._after(status)
+    def lowest(self) -> Node:
+        return self.child.lowest()
 
     def still(self) -> bool:
         return self.status is SUCCESS and self.child.fails_still()
 
-    def _after(self, status: Status) -> Status:
+    def after(self, status: Status) -> Status:
         if status is RUNNING:
             return RUNNING
         if status is SUCCESS:
@@ -124,13 +124,12 @@ class OnceNode(Node):
 
     def begin(self) -> Status:
         done = self.child.status is SUCCESS or self.child.status is FAILURE
-        return self._after(self.child.status if done else self.child.start())
+        return self.after(self.child.status if done else self.child.start())
 
-    def tick(self) -> Status:
-        status = self.child.tick()
-        return RUNNING if status is RUNNING else self._after(status)
+    def lowest(self) -> Node:
+        return self.child.lowest()
 
-    def _after(self, status: Status) -> Status:
+    def after(self, status: Status) -> Status:
         if status is RUNNING:
             return RUNNING
         return self.end() if status is SUCCESS else self.fail(self.child.failure)

@@ -11,47 +11,44 @@ from skillc_runtime.trace.failure import Failure
 from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.enclosing import Enclosing, Frame
 from skillc_runtime.tree.node import RUNNING, SUCCESS, Node
+from skillc_runtime.tree.strand import Strand
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.expressions import value_of
 from skillc_runtime.world.values import Value
 
 
 class LoopNode(Node):
-    """Runs its child round after round; a subclass says after each round whether there is another."""
+    """Runs its child round after round. `after` says whether another one follows: RUNNING for one in the next tick."""
 
-    __slots__ = ("child", "rounds")
+    __slots__ = ("_strand", "child", "rounds")
 
     def __init__(self, context: Context, source: Position, child: Node, name: str) -> None:
         super().__init__(context, source, (child,), name)
         self.child = child
         self.rounds = 0
+        self._strand = Strand(child)
 
     def begin(self) -> Status:
         self.rounds = 0
         return self.next_round()
 
     def tick(self) -> Status:
-        child = self.child
-        if child.status is not RUNNING:
-            try:
-                return self.next_round()
-            except Exception as error:  # noqa: BLE001  a node is the boundary: it reports, halts and fails
-                return self.broken(error)
-        status = child.tick()
-        return RUNNING if status is RUNNING else self.after(status)
+        if self.child.status is RUNNING:
+            status = self._strand.tick()
+            return RUNNING if status is RUNNING else self.after(status)
+        try:
+            return self.next_round()
+        except Exception as error:  # noqa: BLE001  a node is the boundary: it reports, halts and fails
+            return self.broken(error)
 
     def run_round(self) -> Status:
         """Start the child once more."""
         self.rounds += 1
-        status = self.child.start()
+        status = self._strand.start()
         return RUNNING if status is RUNNING else self.after(status)
 
     def next_round(self) -> Status:
         """Start a round, or end because there is none left."""
-        raise NotImplementedError
-
-    def after(self, status: Status) -> Status:
-        """Decide after a round: RUNNING for another one in the next tick."""
         raise NotImplementedError
 
 

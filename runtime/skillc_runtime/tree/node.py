@@ -15,15 +15,16 @@ RUNNING, SUCCESS, FAILURE, HALTED = Status.RUNNING, Status.SUCCESS, Status.FAILU
 
 
 class Node:
-    """A grounded node. Its parent calls `start` once, `tick` while that or the last tick returned RUNNING, or `halt`.
+    """A grounded node: started by the node `up` above it, ticked while it runs, until it ends by itself or is halted.
 
-    A subclass writes `begin` and `tick`; both return RUNNING or what `end` or `fail` returns. `tick` is the hot
-    path and calls the running child directly, so that a node costs one method call. Children start in the order
-    of `children`.
+    A subclass writes `begin` and one of two. A node with work in each tick, such as watching several children or
+    a condition, writes `tick`. A relay, which has one running child and decides when that ends, writes `lowest` and
+    `after`, and is passed over while the child runs. All return RUNNING or what `end` or `fail` returns.
+    Children start in the order of `children`.
     """
 
     kind: ClassVar[str]
-    __slots__ = ("children", "context", "ended", "failure", "id", "name", "parent", "source", "started", "status")
+    __slots__ = ("children", "context", "ended", "failure", "id", "name", "source", "started", "status", "up")
 
     def __init__(self, context: Context, source: Position, children: tuple[Node, ...] = (), name: str = "") -> None:
         self.context = context
@@ -31,13 +32,13 @@ class Node:
         self.children = children
         self.name = name or self.kind
         self.id = context.next_id()
-        self.parent = 0
+        self.up: Node | None = None
         self.status = Status.IDLE
         self.failure: Failure | None = None
         self.started: float | None = None
         self.ended: float | None = None
         for child in children:
-            child.parent = self.id
+            child.up = self
 
     def start(self) -> Status:
         """Begin anew, do the first tick's work and return the status; a node that raises fails."""
@@ -46,8 +47,9 @@ class Node:
         self.failure = None
         self.started, self.ended = context.time, None
         if context.emit is not None:
+            parent = 0 if self.up is None else self.up.id
             started = NodeStarted(
-                time=context.time, node=self.id, parent=self.parent, kind=self.kind, name=self.name, source=self.source
+                time=context.time, node=self.id, parent=parent, kind=self.kind, name=self.name, source=self.source
             )
             context.emit(started)
         try:
@@ -61,6 +63,14 @@ class Node:
 
     def tick(self) -> Status:
         """Go on for one tick."""
+        raise NotImplementedError
+
+    def lowest(self) -> Node:
+        """Return the node whose tick is next: this one, or for a relay the lowest of the child that runs."""
+        return self
+
+    def after(self, status: Status) -> Status:
+        """Decide how to go on after the child of a relay ended with this status."""
         raise NotImplementedError
 
     def halt(self, reason: str) -> None:

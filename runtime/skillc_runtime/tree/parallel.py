@@ -8,6 +8,7 @@ from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.trace.failure import Failure
 from skillc_runtime.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.tree.selector import all_failed
+from skillc_runtime.tree.strand import Strand
 
 
 class ParallelNode(Node):
@@ -17,22 +18,22 @@ class ParallelNode(Node):
     __slots__ = ("_running",)
 
     def begin(self) -> Status:
-        self._running: list[Node] = []
+        self._running: list[Strand] = []
         for child in self.children:
-            status = child.start()
-            if status is RUNNING:
-                self._running.append(child)
+            strand = Strand(child)
+            if strand.start() is RUNNING:
+                self._running.append(strand)
             elif self.decided_by(child):
                 return self._decide(child)
         return RUNNING if self.decided_late() is None else self._decide_late()
 
     def tick(self) -> Status:
         finished = False
-        for child in self._running:
-            status = child.tick()
-            if status is not RUNNING:
-                if self.decided_by(child):
-                    return self._decide(child)
+        for strand in self._running:
+            status = strand.pulse()
+            if status is not RUNNING and strand.climb(status) is not RUNNING:
+                if self.decided_by(strand.top):
+                    return self._decide(strand.top)
                 finished = True
         return self._after_finishing() if finished else RUNNING
 
@@ -49,7 +50,7 @@ class ParallelNode(Node):
         return self.status is SUCCESS and all(child.still() for child in done)
 
     def _after_finishing(self) -> Status:
-        self._running = [child for child in self._running if child.status is RUNNING]
+        self._running = [strand for strand in self._running if strand.top.status is RUNNING]
         return RUNNING if self.decided_late() is None else self._decide_late()
 
     def _decide(self, child: Node) -> Status:

@@ -24,7 +24,7 @@ class PrimitiveNode(Node):
     """
 
     kind: ClassVar[str] = "primitive"
-    __slots__ = ("_make", "_primitive", "_running", "_undo", "outputs", "refused", "restore")
+    __slots__ = ("_make", "_primitive", "_running", "_tick", "_undo", "outputs", "refused", "restore")
 
     def __init__(
         self, context: Context, source: Position, name: str, make: Callable[[], Primitive], undo: Undo | None
@@ -40,6 +40,7 @@ class PrimitiveNode(Node):
 
     def begin(self) -> Status:
         self._primitive = primitive = self._make()
+        self._tick = primitive.tick
         self._running = True
         if self._undo is not None:
             self._undo.push(self.release)
@@ -54,9 +55,8 @@ class PrimitiveNode(Node):
         return self.tick()
 
     def tick(self) -> Status:
-        assert self._primitive is not None, "tick before start"
         try:
-            status = self._primitive.tick()
+            status = self._tick()
             if status is RUNNING:
                 return RUNNING
             return self._finished(status)

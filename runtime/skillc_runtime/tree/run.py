@@ -20,9 +20,13 @@ from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.enclosing import Enclosing
 from skillc_runtime.tree.errors import told
 from skillc_runtime.tree.locks import Locks
+from skillc_runtime.tree.node import RUNNING
 from skillc_runtime.tree.outcome import outcome
+from skillc_runtime.tree.strand import Strand
 from skillc_runtime.tree.undo import Undo
 from skillc_runtime.world.model import ChangeEvent
+
+_ALIVE = (RUNNING, Status.IDLE)
 
 
 def plan_body(steps: Iterable[tuple[str, Mapping[str, str]]], library: SkillLibrary) -> tree.Sequence:
@@ -62,6 +66,7 @@ class Run:
         self._undo = Undo()
         self._unlisten = cell.world.listen(self._tell_world) if listeners else None
         self._root = build(body, self._context, Enclosing(self._undo))
+        self._strand = Strand(self._root)
         self._paused_at: float | None = None
         self.status = Status.IDLE
         self.failure: Failure | None = None
@@ -83,27 +88,27 @@ class Run:
 
     def tick(self) -> Status:
         """Take the time and a snapshot of the world, go on for one tick, return the status; idle while paused."""
-        if self.status not in (Status.IDLE, Status.RUNNING) or self.paused:
+        if self._paused_at is not None or self.status not in _ALIVE:
             return self.status
-        root = self._root
-        self._context.refresh_clock()
-        self._context.refresh()
         try:
-            status = root.tick() if self.status is Status.RUNNING else self._start()
+            self._context.begin_tick()
+            status = self._strand.pulse() if self.status is RUNNING else self._start()
+            if status is RUNNING or self._strand.climb(status) is RUNNING:
+                return RUNNING
         except Exception as error:  # noqa: BLE001  the task's boundary: it reports, halts and ends
             return self._abort(error)
-        return status if status is Status.RUNNING else self._ended(status, root.failure)
+        return self._ended(self._root.status, self._root.failure)
 
     def halt(self, reason: str) -> None:
         """Stop everything that runs, undo what must be undone, and end; a run that has ended stays as it is."""
-        if self.status in (Status.IDLE, Status.RUNNING):
-            self._context.refresh_clock()
+        if self.status in _ALIVE:
+            self._context.begin_tick()
             self._root.halt(reason)
             self._ended(Status.HALTED, Failure(kind="halted", message=reason, source=self._root.source))
 
     def pause(self) -> None:
         """Let everything that runs hold still; the run's time stands still too."""
-        if self.status is not Status.RUNNING or self.paused:
+        if self.status is not RUNNING or self.paused:
             return
         self._paused_at = self._context.cell.now
         self._told_of(Paused)
@@ -114,7 +119,7 @@ class Run:
 
     def resume(self) -> None:
         """Go on after `pause`."""
-        if self._paused_at is None or self.status is not Status.RUNNING:
+        if self._paused_at is None or self.status is not RUNNING:
             return
         self._context.paused_s += self._context.cell.now - self._paused_at
         self._paused_at = None
@@ -125,8 +130,8 @@ class Run:
             self._abort(error)
 
     def _start(self) -> Status:
-        self.status = Status.RUNNING
-        return self._root.start()
+        self.status = RUNNING
+        return self._strand.start()
 
     def _abort(self, error: Exception) -> Status:
         message = told(error)
@@ -142,7 +147,7 @@ class Run:
         return status
 
     def _told_of(self, event: type[Paused | Resumed]) -> None:
-        self._context.refresh_clock()
+        self._context.begin_tick()
         if self._context.emit is not None:
             self._context.emit(event(time=self._context.time))
 

@@ -26,11 +26,10 @@ class WithNode(Node):
 
     def begin(self) -> Status:
         self._current = self.call
-        return self._after(self.call.start())
+        return self.after(self.call.start())
 
-    def tick(self) -> Status:
-        status = self._current.tick()
-        return RUNNING if status is RUNNING else self._after(status)
+    def lowest(self) -> Node:
+        return self._current.lowest()
 
     def stop(self, reason: str) -> None:
         super().stop(reason)
@@ -39,7 +38,7 @@ class WithNode(Node):
     def still(self) -> bool:
         return self.status is SUCCESS and self.body.still()
 
-    def _after(self, status: Status) -> Status:
+    def after(self, status: Status) -> Status:
         if status is SUCCESS and self._current is self.call:
             self._current = self.body
             status = self.body.start()

@@ -7,6 +7,7 @@ from typing import ClassVar
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.trace.failure import Failure
 from skillc_runtime.tree.node import FAILURE, RUNNING, SUCCESS, Node
+from skillc_runtime.tree.strand import Strand
 
 
 def all_failed(node: Node) -> Failure:
@@ -24,16 +25,15 @@ class SelectorNode(Node):
 
     def begin(self) -> Status:
         self._index = -1
-        return self._go_on(FAILURE)
+        return self.after(FAILURE)
 
-    def tick(self) -> Status:
-        status = self._current.tick()
-        return RUNNING if status is RUNNING else self._go_on(status)
+    def lowest(self) -> Node:
+        return self._current.lowest()
 
     def still(self) -> bool:
         return self.status is SUCCESS and self._current.still()
 
-    def _go_on(self, status: Status) -> Status:
+    def after(self, status: Status) -> Status:
         while status is FAILURE:
             self._index += 1
             if self._index == len(self.children):
@@ -47,15 +47,16 @@ class ReactiveSelectorNode(Node):
     """Tries the children from the first each tick, those that failed before too; a later one that ran is halted."""
 
     kind: ClassVar[str] = "reactive sel"
-    __slots__ = ("_active",)
+    __slots__ = ("_active", "_strands")
 
     def begin(self) -> Status:
+        self._strands = [Strand(child) for child in self.children]
         self._active = 0
         return self.tick()
 
     def tick(self) -> Status:
-        for index, child in enumerate(self.children):
-            status = child.tick() if child.status is RUNNING else child.start()
+        for index, strand in enumerate(self._strands):
+            status = strand.tick() if strand.top.status is RUNNING else strand.start()
             if status is not FAILURE:
                 return self._stay_at(index, status)
         return self.fail(all_failed(self))

@@ -6,6 +6,7 @@ from typing import ClassVar
 
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.tree.node import RUNNING, SUCCESS, Node
+from skillc_runtime.tree.strand import Strand
 
 
 class SequenceNode(Node):
@@ -16,16 +17,15 @@ class SequenceNode(Node):
 
     def begin(self) -> Status:
         self._index = -1
-        return self._go_on(SUCCESS)
+        return self.after(SUCCESS)
 
-    def tick(self) -> Status:
-        status = self._current.tick()
-        return RUNNING if status is RUNNING else self._go_on(status)
+    def lowest(self) -> Node:
+        return self._current.lowest()
 
     def still(self) -> bool:
         return self.status is SUCCESS and all(child.still() for child in self.children)
 
-    def _go_on(self, status: Status) -> Status:
+    def after(self, status: Status) -> Status:
         while status is SUCCESS:
             self._index += 1
             if self._index == len(self.children):
@@ -39,9 +39,10 @@ class ReactiveSequenceNode(Node):
     """Looks at every child each tick, from the first; a finished one starts anew only if its result no longer holds."""
 
     kind: ClassVar[str] = "reactive seq"
-    __slots__ = ("_active", "_done")
+    __slots__ = ("_active", "_done", "_strands")
 
     def begin(self) -> Status:
+        self._strands = [Strand(child) for child in self.children]
         self._done = [False] * len(self.children)
         self._active = 0
         return self.tick()
@@ -56,14 +57,14 @@ class ReactiveSequenceNode(Node):
         return self.status is SUCCESS and all(child.still() for child in self.children)
 
     def _tick_from_first(self) -> Status:
-        for index, child in enumerate(self.children):
-            if child.status is RUNNING:
-                status = child.tick()
-            elif self._done[index] and child.still():
+        for index, strand in enumerate(self._strands):
+            if strand.top.status is RUNNING:
+                status = strand.tick()
+            elif self._done[index] and strand.top.still():
                 continue
             else:
                 self._done[index] = False
-                status = child.start()
+                status = strand.start()
             if status is not SUCCESS:
                 return self._stay_at(index, status)
             self._done[index] = True

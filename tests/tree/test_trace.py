@@ -1,0 +1,160 @@
+"""Events, their file, and the tree with its outcomes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.trace import events
+from skillc_runtime.trace.events import Event, ImplementationChosen, NodeEnded, NodeStarted, Note, WorldChanged
+from skillc_runtime.trace.outcome import Outcome
+from skillc_runtime.trace.writer import TraceWriter, read_trace
+from skillc_runtime.tree.run import Run, plan_body
+from skillc_runtime.world.changes import SetProperty
+from tree.stage import DEVICES, FLAGS, ON, Library, Script, Stage, act, call, sel, seq, world
+
+
+def heard(body: object, cell: Stage) -> tuple[Run, list[Event]]:
+    """Run a body to its end and return what was told."""
+    told: list[Event] = []
+    run = Run(body, Library().build(), cell, (told.append,))  # type: ignore[arg-type]
+    while run.tick() is Status.RUNNING:
+        cell.now += 0.1
+    return run, told
+
+
+def test_each_start_has_its_end_with_time_place_and_parent() -> None:
+    cell = Stage(world(), {"a": [Script(ticks=3)], "b": [Script("fail")]})
+    body = seq(act("a"), act("b"))
+    _, told = heard(body, cell)
+    starts = {event.node: event for event in told if isinstance(event, NodeStarted)}
+    ends = {event.node: event for event in told if isinstance(event, NodeEnded)}
+    assert starts.keys() == ends.keys() and len(starts) == 5
+    root = next(event for event in starts.values() if event.parent == 0)
+    assert root.source == body.source and root.kind == "seq"
+    assert all(event.parent in starts for event in starts.values() if event is not root)
+    first = next(event for event in starts.values() if event.source == body.children[0].source)
+    assert (first.time, ends[first.node].time) == (0.0, pytest.approx(0.2))
+    assert [event.status for event in ends.values()] == ["success", "success", "failure", "failure", "failure"]
+    failure = ends[root.node].failure
+    assert failure is not None and (failure.kind, failure.message, failure.skill) == ("body", "b failed", "Act")
+
+
+def test_the_choice_is_told_with_those_rejected() -> None:
+    cell = Stage(world(), {"a": [Script("refuse"), Script()]})
+    _, told = heard(call("Either", name="a"), cell)
+    choices = [event for event in told if isinstance(event, ImplementationChosen)]
+    assert [choice.implementation for choice in choices] == ["way0", "way1"]
+    assert choices[1].bindings == {"name": '"a"'}
+    assert [(one.implementation, one.stage, one.reason) for one in choices[1].rejected] == [
+        ("way0", "start", "a refuses")
+    ]
+
+
+def test_changes_of_the_world_are_told_while_the_run_lasts() -> None:
+    cell = Stage(world())
+    _, told = heard(call("Set", name="a", flag=FLAGS[0], value=False), cell)
+    cell.world.commit([SetProperty(FLAGS[0], ON, True)])
+    changes = [event for event in told if isinstance(event, WorldChanged)]
+    assert [(event.origin, event.changes) for event in changes] == [("Set", ("stage:flag0.on == false",))]
+
+
+def test_a_listener_that_fails_is_told_no_more() -> None:
+    calls = []
+
+    def failing(event: Event) -> None:
+        calls.append(event)
+        raise OSError("no space")
+
+    told: list[Event] = []
+    run = Run(act("a"), Library().build(), Stage(world()), (failing, told.append))
+    assert run.tick() is Status.SUCCESS
+    assert len(calls) == 1 and len(told) > 1
+    assert len(run.problems) == 1 and "OSError: no space" in run.problems[0]
+
+
+def test_the_file_holds_what_was_told(tmp_path: Path) -> None:
+    told: list[Event] = []
+    with TraceWriter(tmp_path / "events.jsonl") as writer:
+        run = Run(
+            sel(call("Kept", name="a", flag=FLAGS[0]), act("b")),
+            Library().build(),
+            Stage(world()),
+            (told.append, writer),
+        )
+        run.tick()
+    assert list(read_trace(tmp_path / "events.jsonl")) == told and told
+    assert writer.problem is None
+
+
+def test_every_kind_of_event_survives_the_file(tmp_path: Path) -> None:
+    kinds = [cls for cls in vars(events).values() if isinstance(cls, type) and issubclass(cls, events._Event)]
+    samples = [sample(cls) for cls in kinds if cls is not events._Event]
+    assert len(samples) >= 11
+    with TraceWriter(tmp_path / "events.jsonl") as writer:
+        for event in samples:
+            writer(event)
+    assert list(read_trace(tmp_path / "events.jsonl")) == samples
+
+
+def sample(cls: type) -> Event:
+    """Make an event with some value in each field."""
+    values = {"float": 1.5, "int": 3, "str": "text", "Position": Position("a.skill", 1, 2)}
+    fields = {field.name: field for field in msgspec.structs.fields(cls)}
+    made = {}
+    for name, field in fields.items():
+        kind = getattr(field.type, "__name__", str(field.type))
+        if field.required:
+            made[name] = values.get(kind, () if "tuple" in str(field.type) else {})
+    return cls(**made)  # type: ignore[no-any-return]
+
+
+def test_a_last_line_cut_short_is_left_out(tmp_path: Path) -> None:
+    path = tmp_path / "events.jsonl"
+    with TraceWriter(path) as writer:
+        writer(Note(time=1.0, message="one"))
+        writer(Note(time=2.0, message="two"))
+    path.write_bytes(path.read_bytes()[:-5])
+    assert list(read_trace(path)) == [Note(time=1.0, message="one")]
+
+
+def test_a_full_disk_does_not_stop_the_run() -> None:
+    writer = TraceWriter(Path("/dev/full"))
+    run = Run(seq(act("a"), act("b")), Library().build(), Stage(world()), (writer,))
+    assert run.tick() is Status.SUCCESS
+    writer.close()
+    assert writer.problem is not None and "No space left" in writer.problem and run.problems == ()
+
+
+def test_the_outcome_is_the_tree_with_what_became_of_each_node() -> None:
+    cell = Stage(world(), {"a": [Script("fail")]})
+    run, _ = heard(sel(act("a"), act("b"), act("c")), cell)
+    outcome = run.outcome
+    assert [(child.name, child.status) for child in outcome.children] == [
+        ("Act[way0]", "failure"),
+        ("Act[way0]", "success"),
+        ("Act", "idle"),
+    ]
+    (primitive,) = outcome.children[0].children
+    assert (primitive.kind, primitive.name) == ("primitive", "Scripted")
+    assert msgspec.json.decode(msgspec.json.encode(outcome), type=Outcome) == outcome
+
+
+def test_a_plan_runs_step_by_step_and_stops_at_the_first_that_cannot_start() -> None:
+    cell, library = Stage(world()), Library().build()
+    steps = [("Use", {"name": "a", "device": DEVICES[0]}), ("Lit", {"name": "b", "flag": FLAGS[0]})]
+    body = plan_body(steps, library)
+    assert [step.skill for step in body.children] == ["Use", "Lit"]  # type: ignore[union-attr]
+    cell.world.commit([SetProperty(FLAGS[0], ON, False)])
+    run = Run(body, library, cell)
+    assert run.tick() is Status.FAILURE
+    assert cell.said("start") == ["start " + "a"] and run.failure is not None and run.failure.kind == "pre"
+
+
+def test_an_empty_plan_has_succeeded() -> None:
+    library = Library().build()
+    assert Run(plan_body([], library), library, Stage(world())).tick() is Status.SUCCESS
