@@ -30,7 +30,7 @@ class _Diagnosis:
     def __init__(self, posed: Posed, state: WorldState) -> None:
         self._domain, self._objects = posed.problem.domain, posed.problem.objects
         self._state = state
-        self._words = Words(posed.problem, state.vocabulary)
+        self._words = Words(posed.problem, posed.library)
         self._grounding = Grounding(posed.problem)
         self._grounding.explore()
 

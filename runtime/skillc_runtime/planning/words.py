@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import assert_never
 
 from skillc_compiler.library.pddl.domain import ROOT, ClassFact, GoalFact, GuardFact, PropertyFact, RelationFact
@@ -17,16 +17,20 @@ from skillc_compiler.library.pddl.formulas import (
     Universal,
 )
 from skillc_compiler.library.pddl.problem import Problem
-from skillc_compiler.library.vocabulary import Vocabulary, local_name
+from skillc_compiler.library.skills import Implementation, SkillLibrary
+from skillc_compiler.library.vocabulary import local_name
 from skillc_runtime.world.values import show
 
 
 class Words:
     """Writes formulas for people."""
 
-    def __init__(self, problem: Problem, vocabulary: Vocabulary) -> None:
+    def __init__(self, problem: Problem, library: SkillLibrary) -> None:
         self._problem = problem
-        self._short = vocabulary.short
+        self._short = library.vocabulary.short
+        self._texts = {
+            (each.skill, label): text for each in library.implementations.values() for label, text in _labelled(each)
+        }
         self._classes = {each.name: each.cls for each in problem.domain.types}
 
     def type_(self, name: str) -> str:
@@ -72,7 +76,8 @@ class Words:
             case ClassFact(cls):
                 return f"{terms[0]} is {self._short(cls)}"
             case GuardFact():
-                return f"{meaning.label}({', '.join(terms)})"
+                text = self._texts.get((meaning.skill, meaning.label), meaning.label)
+                return f"{text} for {', '.join(terms)}"
             case GoalFact():
                 return "the goal"
             case _:
@@ -82,3 +87,7 @@ class Words:
         if term in self._problem.names:
             return self._short(self._problem.names[term])
         return names.get(term, term.removeprefix("?"))
+
+
+def _labelled(implementation: Implementation) -> Iterator[tuple[str, str]]:
+    yield from ((each.label, each.text) for each in (*implementation.pre, *implementation.hold))
