@@ -2,39 +2,22 @@
 
 from __future__ import annotations
 
-import re
-from collections import Counter
-from xml.etree.ElementTree import Element, fromstring
+from xml.etree.ElementTree import fromstring
 
 import msgspec
 import pytest
 
 from accept import cases, expected
 from emit.samples import HERE, PICK, WIPE, holds, implementation, library, need
+from emit.tree_rules import broken_rules
 from skillc_compiler.emit import bt
 from skillc_compiler.emit.bt_names import Names, port
 from skillc_compiler.library.conditions import Variable
 from skillc_compiler.library.skills import Compound, SkillLibrary
 from skillc_compiler.library.tree import Call
 
-CHILDREN = {
-    "Condition": (0, 0), "Action": (0, 0), "SubTree": (0, 0), "Sleep": (0, 0), "AlwaysSuccess": (0, 0),
-    "AlwaysFailure": (0, 0), "Decorator": (1, 1), "Inverter": (1, 1), "ForceSuccess": (1, 1), "Repeat": (1, 1),
-    "RetryUntilSuccessful": (1, 1), "RunOnce": (1, 1), "Timeout": (1, 1), "IfThenElse": (2, 3), "Sequence": (1, 99),
-    "Fallback": (1, 99), "ReactiveSequence": (1, 99), "ReactiveFallback": (1, 99), "Parallel": (1, 99),
-    "Control": (1, 99),
-}  # fmt: skip
-DECLARED = {"Action", "Condition", "Control", "Decorator", "SubTree"}
-FILES = {
-    f"{case.name}/{path}": text
-    for case in cases()
-    for path, text in expected(case).items()
-    if path.startswith("trees/")
-}
-
-
-def nodes(root: Element) -> list[Element]:
-    return [node for tree in root.findall("BehaviorTree") for node in tree.iter() if node is not tree]
+ARTIFACTS = [(case.name, path, text) for case in cases() for path, text in expected(case).items()]
+FILES = {f"{name}/{path}": text for name, path, text in ARTIFACTS if path.startswith("trees/")}
 
 
 def compounded(fallback: bool = False) -> SkillLibrary:
@@ -49,31 +32,26 @@ def compounded(fallback: bool = False) -> SkillLibrary:
 
 @pytest.mark.parametrize("name", FILES)
 def test_a_file_keeps_the_rules_of_the_format(name: str) -> None:
-    root = fromstring(FILES[name])
-    model = {(each.tag, each.get("ID")) for each in root.findall("TreeNodesModel/*")}
-    trees = Counter(tree.get("ID") for tree in root.findall("BehaviorTree"))
-    assert root.get("BTCPP_format") == "4"
-    assert trees[root.get("main_tree_to_execute")] == 1
-    assert set(trees.values()) == {1}
-    assert all(len(tree) == 1 for tree in root.findall("BehaviorTree"))
-    for node in nodes(root):
-        least, most = CHILDREN[node.tag]
-        assert least <= len(node) <= most, node.tag
-        if node.tag in DECLARED:
-            assert (node.tag, node.get("ID")) in model
-        if node.tag == "SubTree":
-            assert node.get("ID") in trees
+    assert broken_rules(FILES[name]) == []
 
 
-@pytest.mark.parametrize("name", FILES)
-def test_names_are_legal_and_every_port_in_use_is_declared(name: str) -> None:
-    root = fromstring(FILES[name])
-    ports = {each.get("ID"): {p.get("name") for p in each if p.tag != "description"} for each in root.iter()}
-    for node in (node for node in nodes(root) if node.tag in DECLARED):
-        assert re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", node.get("ID", ""))
-        used = {each for each in node.attrib if each not in ("ID", "_description")}
-        assert used <= ports[node.get("ID")]
-    assert {"_while", "_failureIf"}.isdisjoint(key for node in nodes(root) for key in node.attrib)
+BREAKING = {
+    "the format is not 4": ('BTCPP_format="4"', 'BTCPP_format="3"'),
+    "the main tree is missing": ('main_tree_to_execute="Tour"', 'main_tree_to_execute="Detour"'),
+    "Inverter  has 0 children": ("<AlwaysSuccess />", "<Inverter />"),
+    "Action Gone is not declared once": ("<AlwaysSuccess />", '<Action ID="Gone" />'),
+    "SubTree Tour_round calls a tree that is not in the file": ('BehaviorTree ID="Tour_round"', 'BehaviorTree ID="X"'),
+    "Action Look uses an undeclared port": ('<Action ID="Look" robot', '<Action ID="Look" speed="1" robot'),
+}
+
+
+@pytest.mark.parametrize("words", BREAKING)
+def test_the_rules_notice_what_breaks_them(words: str) -> None:
+    text = FILES["control/trees/Tour.xml"].replace('<Sleep msec="1500" />', "<AlwaysSuccess />")
+    assert broken_rules(text) == []
+    before, after = BREAKING[words]
+    assert before in text
+    assert words in broken_rules(text.replace(before, after))
 
 
 def test_hold_conditions_guard_the_body_and_nothing_else() -> None:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import assert_never
 from xml.etree.ElementTree import Element
 
-from skillc_compiler.emit.bt_model import Model, Port
+from skillc_compiler.emit.bt_model import Kind, Model, Port
 from skillc_compiler.emit.bt_names import Names, port
 from skillc_compiler.emit.phrases import expression_text, literal_text
 from skillc_compiler.library.conditions import Condition, Expression, Individual, Literal, Variable
@@ -138,13 +138,10 @@ class Body:
 
     def invoke(self, skill: Skill, path: tuple[str, ...], attributes: dict[str, str], source: Position) -> Element:
         """Return the node that runs a skill, or its implementation if `path` names one."""
+        described = self.library.implementations[f"{skill.name}.{path[0]}"] if path else skill
+        kind: Kind = "SubTree" if is_tree(self.library, skill, path) else "Action"
         identity = self.names.of(skill.name, *path)
-        kind = "SubTree" if is_tree(self.library, skill, path) else "Action"
-        parameters = skill.parameters
-        if path:
-            parameters = self.library.implementations[f"{skill.name}.{path[0]}"].parameters
-        doc = skill.doc if not path else self.library.implementations[f"{skill.name}.{path[0]}"].doc
-        self.model.declare("SubTree" if kind == "SubTree" else "Action", identity, skill_ports(parameters), doc)
+        self.model.declare(kind, identity, skill_ports(described.parameters), described.doc)
         return _node(kind, identity, attributes, source)
 
     def _arguments(self, call: Call) -> tuple[list[Element], dict[str, str]]:

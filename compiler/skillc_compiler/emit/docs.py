@@ -31,12 +31,10 @@ def _page(skill: Skill, library: SkillLibrary) -> str:
         parameters=[_parameter(each, vocabulary) for each in skill.parameters],
         conditions=[(title, listed) for title, listed in conditions if listed],
         duration=expression_text(skill.duration, vocabulary) if skill.duration else "",
-        implementations=[(each, _difference(each, skill, vocabulary), _body(each)) for each in _ranked(skill, library)],
+        implementations=[
+            (each, _difference(each, skill, vocabulary), _body(each)) for each in library.implementations_of(skill.name)
+        ],
     )
-
-
-def _ranked(skill: Skill, library: SkillLibrary) -> tuple[Implementation, ...]:
-    return library.implementations_of(skill.name)
 
 
 def _parameter(parameter: Parameter, vocabulary: Vocabulary) -> tuple[str, ...]:
