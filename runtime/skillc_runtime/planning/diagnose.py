@@ -57,8 +57,13 @@ class _Diagnosis:
         """Yield why an action cannot make an atom true, for each of its effects that would."""
         for change in action.effects:
             start = _unified(change.atom, wanted, action) if change.positive else None
-            if start is not None:
+            if start is not None and self._typed(action, start):
                 yield f"{action.skill} {self._missing(action, start, depth)}"
+
+    def _typed(self, action: Action, values: dict[str, str]) -> bool:
+        types = {each.name: each.type for each in self._objects}
+        wanted = {each.name: each.type for each in action.parameters}
+        return all(self._domain.is_a(types[name], wanted[variable]) for variable, name in values.items())
 
     def _missing(self, action: Action, start: dict[str, str], depth: int) -> str:
         """Say what an action lacks: a thing of a class, or the first condition that fails beside those before it."""

@@ -1,0 +1,218 @@
+"""From goal to checked plan with every planner that is there, and the words for why there is none."""
+
+import msgspec
+import pytest
+
+from planning.samples import CLEAN, CLEANED, DRIVE, LAB, PICK, WIPING, library, parameter
+from skillc_compiler.library.conditions import (
+    And,
+    Condition,
+    Exists,
+    Forall,
+    Holds,
+    Individual,
+    Not,
+    Or,
+    PropertyOf,
+    Variable,
+)
+from skillc_compiler.library.vocabulary import ClassTerm
+from skillc_runtime.planning.astar import AStar
+from skillc_runtime.planning.choose import available
+from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Step, Unsolvable
+from skillc_runtime.planning.problem import GoalError, pose_problem
+from skillc_runtime.planning.solve import solve
+from skillc_runtime.planning.validate import PlanError, validate
+from skillc_runtime.world.changes import RemoveIndividual, RemoveRelation
+from skillc_runtime.world.state import WorldState
+from world.lab import assign, fact, individual, iri
+
+X = Variable("x")
+
+
+def i(name: str) -> Individual:
+    """Return an individual of the test scene."""
+    return Individual(iri(name))
+
+
+def skills(result: PlanResult) -> list[str]:
+    """Return the names of a plan's steps."""
+    assert isinstance(result, Solved), result
+    return [step.skill for step in result.plan.steps]
+
+
+@pytest.mark.parametrize("planner", available(), ids=lambda planner: planner.name)
+def test_the_optimal_plan_fetches_the_eraser_first(planner: Planner) -> None:
+    result = solve(WIPING, LAB, CLEANED, (planner,))
+    assert skills(result) == ["Drive", "Pick", "Drive", "Clean"]
+    assert isinstance(result, Solved) and result.optimal == "proven" and result.planner == planner.name
+    assert result.plan.duration_s == 12 + 15 + 12 + 40
+    assert result.plan.steps[0] == Step("Drive", {"robot": iri("robot"), "to": iri("shelf"), "from": iri("dock")})
+
+
+GOALS: list[tuple[Condition, list[str]]] = [
+    (Holds(i("robot"), iri("at"), i("wall")), ["Drive"]),
+    (Not(Holds(i("robot"), iri("at"), i("dock"))), ["Drive"]),
+    (Not(Holds(i("shelf"), iri("contain"), i("eraser"))), ["Drive", "Pick"]),
+    (Holds(i("eraser"), iri("containedIn"), i("gripper")), ["Drive", "Pick"]),
+    (Exists("x", iri("Gripper"), Holds(X, iri("contain"), i("eraser"))), ["Drive", "Pick"]),
+    (Forall("x", iri("Location"), Not(Holds(X, iri("contain"), i("eraser")))), ["Drive", "Pick"]),
+    (Or((CLEANED, Holds(i("robot"), iri("at"), i("wall")))), ["Drive"]),
+    (And((CLEANED, Holds(i("robot"), iri("at"), i("dock")))), ["Drive", "Pick", "Drive", "Clean", "Drive"]),
+    (Holds(i("robot"), iri("at"), i("dock")), []),
+    (Holds(i("robot"), iri("hasA"), i("arm")), []),
+]
+
+
+@pytest.mark.parametrize("planner", available(), ids=lambda planner: planner.name)
+@pytest.mark.parametrize(("goal", "expected"), GOALS)
+def test_every_kind_of_goal_is_planned_for(goal: Condition, expected: list[str], planner: Planner) -> None:
+    assert skills(solve(WIPING, LAB, goal, (planner,))) == expected
+
+
+UNSOLVABLE = [
+    ([RemoveIndividual(iri("eraser"))], CLEANED, "Clean needs a t:Eraser as `tool`, and there is none"),
+    ([assign("eraser", "weight", 3.0)], CLEANED, "Pick needs light for t:eraser, which nothing fulfils"),
+    (
+        [RemoveRelation(iri("shelf"), iri("contain"), iri("eraser"))],
+        CLEANED,
+        "Pick needs `from` contain t:eraser, which nothing fulfils",
+    ),
+    (
+        [],
+        Holds(i("robot"), iri("hasA"), i("eraser")),
+        "no skill can change this: t:robot hasA t:arm; needed",
+    ),
+    ([], Holds(i("robot"), iri("at"), i("robot")), "nothing makes `t:robot at t:robot` true"),
+    (
+        [],
+        And((Holds(i("robot"), iri("at"), i("wall")), Holds(i("robot"), iri("at"), i("shelf")))),
+        "each part of the goal can be reached, but not all of them together",
+    ),
+]
+
+
+@pytest.mark.parametrize("planner", available(), ids=lambda planner: planner.name)
+@pytest.mark.parametrize(("changes", "goal", "words"), UNSOLVABLE)
+def test_no_plan_is_proved_and_explained(changes: list, goal: Condition, words: str, planner: Planner) -> None:  # type: ignore[type-arg]
+    result = solve(WIPING, LAB.changed(changes), goal, (planner,))
+    assert isinstance(result, Unsolvable), result
+    assert words in result.why
+
+
+def test_a_skill_left_out_of_planning_is_named_when_the_goal_needs_it() -> None:
+    number = msgspec.structs.replace(
+        parameter("how_often", "Board", "in"), type=WIPING.vocabulary.properties[iri("weight")].type
+    )
+    strange = msgspec.structs.replace(CLEAN, parameters=(*CLEAN.parameters, number))
+    result = solve(library(DRIVE, PICK, strange), LAB, CLEANED)
+    assert isinstance(result, Unsolvable)
+    assert "Clean is left out of planning: its parameter `how_often` is no thing" in result.why
+
+
+@pytest.mark.parametrize(
+    ("goal", "words"),
+    [
+        (Holds(i("ghost"), iri("at"), i("dock")), "the goal speaks of t:ghost, which is not in the world model"),
+        (Holds(i("robot"), iri("near"), i("eraser")), "the goal reads `t:near`"),
+    ],
+)
+def test_a_goal_that_cannot_be_planned_for_is_refused_with_the_reason(goal: Condition, words: str) -> None:
+    with pytest.raises(GoalError) as caught:
+        solve(WIPING, LAB, goal)
+    assert words in str(caught.value)
+
+
+def test_every_object_stands_once_with_its_most_specific_type_and_irrelevant_ones_are_left_out() -> None:
+    problem = pose_problem(WIPING, LAB, CLEANED).problem
+    names = {individual: name for name, individual in problem.names.items()}
+    types = {each.name: problem.domain.names[each.type] for each in problem.objects}
+    assert len(types) == len(problem.objects) == len(LAB.individuals)
+    assert types[names[iri("eraser")]] == iri("Eraser") and types[names[iri("arm")]] == iri("CompliantArm")
+    driving = pose_problem(library(DRIVE), LAB, Holds(i("robot"), iri("at"), i("wall"))).problem
+    assert set(driving.names.values()) == set(map(iri, ("robot", "dock", "shelf", "wall")))
+
+
+def test_classes_of_the_scene_itself_take_part() -> None:
+    own = ClassTerm(iri=iri("Sponge"), parents=(iri("Eraser"),))
+    vocabulary = msgspec.structs.replace(
+        LAB.vocabulary, classes={**LAB.vocabulary.classes, own.iri: own}, prefixes=LAB.vocabulary.prefixes
+    )
+    state = WorldState.empty(vocabulary).changed(
+        [
+            *(individual(name, "Location") for name in ("shelf", "wall")),
+            individual("robot", "Robot"),
+            individual("arm", "Arm"),
+            individual("gripper", "Gripper"),
+            individual("board", "Board"),
+            individual("eraser", "Sponge"),
+            fact("robot", "at", "shelf"),
+            fact("robot", "hasA", "arm"),
+            fact("arm", "hasGripper", "gripper"),
+            fact("shelf", "contain", "eraser"),
+            fact("wall", "contain", "board"),
+            assign("eraser", "weight", 1.0),
+        ]
+    )
+    assert skills(solve(WIPING, state, CLEANED, (AStar(),))) == ["Pick", "Drive", "Clean"]
+
+
+def test_a_plan_that_does_not_work_is_refused() -> None:
+    result = solve(WIPING, LAB, CLEANED, (AStar(),))
+    assert isinstance(result, Solved)
+    steps = result.plan.steps
+    validate(result.plan, WIPING, LAB, CLEANED)
+    broken = {
+        "step 1, Pick: `here` does not hold: t:robot at t:dock; needed: t:robot at t:shelf": steps[1:],
+        "step 3, Clean: `here` does not hold": (*steps[:2], steps[3]),
+        "the goal does not hold after the plan: board has no isClean": steps[:3],
+        "step 1, Fly: there is no such skill": (Step("Fly", {}), *steps),
+        "step 1, Drive: `to` is t:arm, which is no t:Location": (
+            Step("Drive", {**steps[0].arguments, "to": iri("arm")}),
+            *steps[1:],
+        ),
+        "step 1, Drive: `from` is not bound": (Step("Drive", {"robot": iri("robot"), "to": iri("wall")}),),
+    }
+    for words, wrong in broken.items():
+        with pytest.raises(PlanError) as caught:
+            validate(Plan(tuple(wrong), 1.0), WIPING, LAB, CLEANED)
+        assert words in str(caught.value)
+
+
+class Liar:
+    """A planner whose plans do not work."""
+
+    name = "liar"
+
+    def plan(self, problem: object, deadline_s: float) -> PlanResult:
+        """Return a wrong plan."""
+        return Solved(Plan((), 0.0), "proven", self.name)
+
+
+def test_a_planner_is_never_trusted_and_the_next_one_is_asked() -> None:
+    result = solve(WIPING, LAB, CLEANED, (Liar(),))
+    assert isinstance(result, GaveUp) and "liar returned a plan that does not work" in result.why
+    assert skills(solve(WIPING, LAB, CLEANED, (Liar(), AStar())))[-1] == "Clean"
+
+
+def test_the_built_in_planner_gives_up_in_time() -> None:
+    crowd = LAB.changed([individual(f"place-{n}", "Location") for n in range(40)])
+    assert isinstance(solve(WIPING, crowd, CLEANED, (AStar(),), deadline_s=0.0), GaveUp)
+
+
+def test_durations_that_depend_on_things_are_minimised() -> None:
+    heavy = PropertyOf(Variable("object"), iri("weight"))
+    slow = msgspec.structs.replace(PICK, duration=heavy)
+    state = LAB.changed(
+        [
+            individual("light", "Eraser"),
+            assign("light", "weight", 0.5),
+            assign("eraser", "weight", 1.5),
+            fact("shelf", "contain", "light"),
+        ]
+    )
+    for planner in available():
+        result = solve(library(DRIVE, slow, CLEAN), state, CLEANED, (planner,))
+        assert isinstance(result, Solved)
+        assert result.plan.steps[1].arguments["object"] == iri("light")
+        assert result.plan.duration_s == 12 + 0.5 + 12 + 40
