@@ -8,6 +8,7 @@ import pytest
 
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Literal
+from skillc_compiler.library.skills import Compound, Skill
 from skillc_runtime.primitives.primitive import SkillFailure, Status
 from skillc_runtime.tree.locks import Locks
 from skillc_runtime.tree.run import Run
@@ -196,6 +197,36 @@ def test_what_is_set_up_outside_a_scope_lasts_until_the_run_ends() -> None:
     run = Run(seq(call("Setup", name="a"), call("Setup", name="b"), act("c")), Library().build(), cell)
     assert finish(run, cell) is Status.SUCCESS
     assert cell.said("start", "release") == ["start a", "start b", "start c", "release b", "release a"]
+
+
+def test_a_scoped_compound_is_undone_as_a_whole_when_its_scope_ends() -> None:
+    cell, library = stage(), Library()
+    both = seq(call("Setup", name="a"), call("Setup", name="b"))
+    library.add(Skill(name="Both", scoped=True, source=here()), Compound(both))
+    run = Run(seq(tree.With(call=call("Both"), child=act("c"), source=here()), act("d")), library.build(), cell)
+    assert finish(run, cell) is Status.SUCCESS
+    assert cell.said("start", "release") == ["start a", "start b", "start c", "release b", "release a", "start d"]
+
+
+def test_a_lock_is_refused_to_a_sibling_and_given_to_a_nested_call() -> None:
+    cell, library = stage(a=LONG), Library()
+    using = library.using(call("Use", name="a", device=DEVICES[0]))
+    first, second = call(using, device=DEVICES[0]), call("Use", name="b", device=DEVICES[0])
+    run = Run(par("all", first, second), library.build(), cell)
+    assert finish(run, cell) is Status.FAILURE
+    assert run.failure is not None and run.failure.kind == "lock"
+    assert run.failure.message == "stage:device0 is in use by another skill"
+    assert cell.said() == ["start a", "tick a", "halt a"]
+
+
+def test_runs_share_devices_by_sharing_locks() -> None:
+    cell, locks, library = stage(a=LONG), Locks(), Library().build()
+    one = Run(call("Use", name="a", device=DEVICES[0]), library, cell, locks=locks)
+    two = Run(call("Use", name="b", device=DEVICES[0]), library, cell, locks=locks)
+    assert (one.tick(), two.tick()) == (Status.RUNNING, Status.FAILURE)
+    one.halt("enough")
+    three = Run(call("Use", name="b", device=DEVICES[0]), library, cell, locks=locks)
+    assert three.tick() is Status.SUCCESS
 
 
 def test_a_broken_hold_is_not_hidden_and_names_the_facts() -> None:
