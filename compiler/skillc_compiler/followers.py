@@ -25,12 +25,11 @@ IN_DECLARATION = frozenset(
         "out-unassigned",
         "unlinked-inference",
         "unset-optional",
-        "unused-let",
-        "unused-parameter",
         "recursion",
     }
 )
-IN_LIBRARY = frozenset(
+UNUSED = frozenset({"unused-use", "unused-prefix", "unused-import", "unused-let", "unused-parameter"})
+UNKNOWN = frozenset(
     {
         "unknown-class",
         "unknown-type",
@@ -38,11 +37,6 @@ IN_LIBRARY = frozenset(
         "unknown-property",
         "unknown-function",
         "unknown-skill",
-        "unknown-vocabulary",
-        "unknown-prefix",
-        "unused-use",
-        "unused-prefix",
-        "unused-import",
         "no-implementation",
         "unachievable-goal",
     }
@@ -54,19 +48,24 @@ def without_followers(
 ) -> Iterator[Diagnostic]:
     """Yield what was found, without what the syntax errors explain.
 
-    An error inside a declaration explains what is unknown or missing in it, in the implementations of a skill so broken
-    and in calls of it; one outside any declaration explains names unknown anywhere in the library.
+    An error inside a declaration explains what else is wrong on its line, what is unknown or missing in the
+    declaration, in the implementations of a skill so broken and in calls of it. One outside any declaration, such as an
+    import of a file that there is not, explains names that are like no known one.
     """
+    lines = {(problem.span.path, problem.span.line) for problem in syntax}
     broken = list(_broken(syntax, files))
-    orphaned = any(not any(_inside(d.span, d2.span) for d2 in _declarations(files)) for d in syntax)
-    loose = bool(broken) or orphaned
+    orphaned = any(not any(_inside(d.span, known.span) for known in _declarations(files)) for d in syntax)
     for problem in found:
         places = (problem.span, *(label.span for label in problem.labels))
-        if problem.name in IN_DECLARATION and any(_inside(place, span) for place in places for span in broken):
-            continue
-        if problem.name in IN_LIBRARY and (orphaned or (loose and problem.name.startswith("unused"))):
-            continue
-        yield problem
+        in_broken = any(_inside(place, span) for place in places for span in broken)
+        explained = (
+            (problem.span.path, problem.span.line) in lines
+            or (problem.name in IN_DECLARATION and in_broken)
+            or (problem.name in UNUSED and bool(syntax))
+            or (problem.name in UNKNOWN and orphaned and not problem.help.startswith(("did you mean", "it is in")))
+        )
+        if not explained:
+            yield problem
 
 
 def _broken(syntax: Sequence[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Span]:

@@ -52,6 +52,8 @@ def _twice(call: Call) -> Iterator[Diagnostic]:
 
 def _missing(call: Call, skill: Skill) -> Iterator[Diagnostic]:
     passed = {argument.name.text for argument in call.written.arguments}
+    if any(skill.parameter(name) is None for name in passed):
+        return  # a misspelt argument is reported as such
     missing = [p for p in skill.parameters if p.direction == "in" and p.name not in passed]
     if missing:
         names = " and ".join(f"`{p.name}`" for p in missing)

@@ -13,14 +13,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.library.conditions import Expression
 from skillc_compiler.lower.folding import number
 from skillc_compiler.program import Parameter, Program, Valued
-from skillc_compiler.types import Measure, Type
+from skillc_compiler.types import INT, Measure, Type
 from skillc_compiler.walk import calls
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
-from skillc_dsl.units import UNITS
+from skillc_dsl.units import NUMBER, UNITS
 
 NAMES = ("out-of-range", "empty-range")
 
@@ -59,9 +58,7 @@ def _empty(parameter: Parameter) -> Iterator[Diagnostic]:
 def _outside(parameter: Parameter, value: Valued | None, place: Span | None = None) -> Iterator[Diagnostic]:
     """Report a constant outside the range; `place` is where to report it if not at the value."""
     low, high = _bounds(parameter)
-    known = (
-        number(value.meaning) if value and isinstance(value.type, Measure) and value.type == parameter.type else None
-    )
+    known = _number(value, parameter.type)
     if value is None or known is None or low is None or high is None or low > high or low <= known <= high:
         return
     bounds = f"{_shown(low, parameter.type)} .. {_shown(high, parameter.type)}"
@@ -75,12 +72,16 @@ def _outside(parameter: Parameter, value: Valued | None, place: Span | None = No
 
 
 def _bounds(parameter: Parameter) -> tuple[float | None, float | None]:
-    return _number(parameter.low), _number(parameter.high)
+    return _number(parameter.low, parameter.type), _number(parameter.high, parameter.type)
 
 
-def _number(value: Valued | None) -> float | None:
-    meaning: Expression | None = value.meaning if value else None
-    return number(meaning)
+def _number(value: Valued | None, kind: Type) -> float | None:
+    """Return a bound, None if there is none or it is of another type, which is reported elsewhere."""
+    return number(value.meaning) if value and _same(value.type, kind) else None
+
+
+def _same(given: Type, wanted: Type) -> bool:
+    return given == wanted or (given == INT and wanted == Measure(NUMBER))
 
 
 def _shown(si: float, kind: Type) -> str:

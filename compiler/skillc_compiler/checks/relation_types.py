@@ -19,7 +19,7 @@ from skillc_compiler.causes import declared
 from skillc_compiler.library.conditions import Holds
 from skillc_compiler.library.vocabulary import RelationTerm, local_name
 from skillc_compiler.program import Program, Valued
-from skillc_compiler.types import Thing, describe, fits
+from skillc_compiler.types import Thing, Unknown, describe, fits
 from skillc_compiler.walk import clauses
 from skillc_dsl.diagnostics import Diagnostic
 
@@ -32,7 +32,8 @@ def check(program: Program) -> Iterator[Diagnostic]:
         if isinstance(clause.meaning, Holds) and clause.meaning.relation in program.vocabulary.relations:
             relation = program.vocabulary.relations[clause.meaning.relation]
             subject, object_ = clause.values
-            yield from _sides(program, relation, subject, object_)
+            if all(isinstance(side.type, Thing | Unknown) for side in clause.values):
+                yield from _sides(program, relation, subject, object_)
 
 
 def _sides(program: Program, relation: RelationTerm, subject: Valued, object_: Valued) -> Iterator[Diagnostic]:

@@ -128,7 +128,7 @@ def _term(setting: Setting, of: Valued) -> Term:
 
 
 def _class(setting: Setting, name: s.Name) -> str:
-    return setting.names.term("class", name) or THING
+    return setting.names.term("class", name) or name.text
 
 
 def _compare(setting: Setting, scope: Scope, written: s.Compare) -> Clause:
@@ -148,9 +148,20 @@ def _sides(setting: Setting, scope: Scope, written: s.Compare) -> tuple[Valued, 
     """Understand the side with the property first: it tells which values a bare name on the other may be."""
     if isinstance(written.left, s.Reference) and isinstance(written.right, s.Member):
         right = value(setting, scope, written.right)
-        return value(setting, scope, written.left, _wanted(setting, right)), right
+        return _other_side(setting, scope, written.left, right), right
     left = value(setting, scope, written.left)
-    return left, value(setting, scope, written.right, _wanted(setting, left))
+    return left, _other_side(setting, scope, written.right, left)
+
+
+def _other_side(setting: Setting, scope: Scope, written: s.Value, known: Valued) -> Valued:
+    """Understand the side that `known` is compared with; beside something unknown, a bare name may be anything."""
+    match written:
+        case s.Reference(name=s.Name(text=text), span=span) if known.type == UNKNOWN and ":" not in text:
+            if text not in scope.variables:
+                return Valued(VariableTerm(text), UNKNOWN, span)
+        case _:
+            pass
+    return value(setting, scope, written, _wanted(setting, known))
 
 
 def _wanted(setting: Setting, other: Valued) -> Wanted:
@@ -177,7 +188,7 @@ def _given(setting: Setting, scope: Scope, name: s.Name, span: Span) -> Clause:
 
 def _quantified(setting: Setting, scope: Scope, written: s.Quantified) -> Clause:
     iri = setting.names.term("class", written.cls)
-    kind = Thing(iri) if iri else UNKNOWN
+    kind = (Thing(None) if iri == THING else Thing(iri)) if iri else UNKNOWN
     inner = setting.bind(scope, written.variable, Variable(kind, "variable", written.variable.span))
     body = clause(setting, inner, written.body)
     quantifier = Exists if written.quantifier == "exists" else Forall

@@ -9,7 +9,7 @@ from typing import Literal, TypeAlias
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program import Skill
 from skillc_compiler.resolve.names import Names
-from skillc_compiler.types import Type
+from skillc_compiler.types import UNKNOWN, Type
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
@@ -67,4 +67,5 @@ class Setting:
                 "choose another name",
                 Label(former.span, "declared here"),
             )
+            return scope.having(name.text, replace(former, type=UNKNOWN, sure=True))
         return scope.having(name.text, variable)

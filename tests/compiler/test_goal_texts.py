@@ -1,0 +1,108 @@
+"""Goals in `.skill` and PDDL text mean the same; calls and goals are checked against library and scene."""
+
+import pytest
+from shipped import library, shelf, vocabulary
+
+from skillc_compiler.goals import parse_call, parse_goal
+from skillc_compiler.library.conditions import And, Condition, Exists, Forall, Individual, Literal
+from skillc_compiler.library.vocabulary import Position
+from skillc_compiler.pipeline import compile
+from skillc_dsl.diagnostics import Outcome
+
+LAB = "http://example.org/lab#"
+
+
+def scene() -> dict[str, tuple[str, ...]]:
+    names = {"Board": "wiping:Whiteboard", "Arm": "skillc:Ur5e", "Hand": "skillc:WsgGripper", "Felt": "wiping:Eraser"}
+    return {LAB + name: (vocabulary().expand(cls),) for name, cls in names.items()}
+
+
+def goal(text: str) -> Outcome[Condition | None]:
+    return parse_goal(text, vocabulary(), scene(), {"lab": LAB})
+
+
+SAME = [
+    ("lab:Board.isClean == true", "(wiping:isClean lab:Board)"),
+    ("lab:Hand contain lab:Felt", "(skiros:contain lab:Hand lab:Felt)"),
+    ("(lab:Hand contain lab:Felt)", "(contain lab:Hand lab:Felt)"),
+    (
+        "not lab:Board.isClean == true or lab:Hand contain lab:Felt",
+        "(or (not (wiping:isClean lab:Board)) (skiros:contain lab:Hand lab:Felt))",
+    ),
+    (
+        "exists x: Eraser (forall y: wiping:Whiteboard (x == x and y.isClean == true))",
+        "(exists (?x - wiping:Eraser) (forall (?y - Whiteboard) (and (= ?x ?x) (wiping:isClean ?y)))) ; comment",
+    ),
+    ("lab:Board.isClean == true implies lab:Felt is Tool", "(imply (isClean lab:Board) (skillc:Tool lab:Felt))"),
+]
+
+
+@pytest.mark.parametrize(("text", "pddl"), SAME)
+def test_both_texts_mean_the_same(text: str, pddl: str) -> None:
+    one, other = goal(text), goal(pddl)
+    assert one.value is not None and one.value == other.value
+    assert one.ok and other.ok
+
+
+def test_the_kinds_of_goals_are_kept() -> None:
+    assert isinstance(goal("(and (contain lab:Hand lab:Felt) (isClean lab:Board))").value, And)
+    assert isinstance(goal("(exists (?x) (contain lab:Hand ?x))").value, Exists)
+    assert isinstance(goal("(forall (?x ?y - Eraser) (= ?x ?y))").value, Forall)
+
+
+WRONG = [
+    ("lab:Bord.isClean == true", "unknown-individual", 1, "did you mean `lab:Board`"),
+    ("(isClean lab:Bord)", "unknown-individual", 10, "did you mean `lab:Board`"),
+    ("(skiros:contains lab:Hand lab:Felt)", "unknown-relation", 2, "did you mean `skiros:contain`"),
+    ("lab:Hand contains lab:Felt", "unknown-relation", 10, "did you mean `contain`"),
+    ("(isClean lab:Hand)", "property-domain", 10, "WipeableSurface"),
+    ("lab:Felt contain lab:Hand", "relation-domain", 1, "Eraser"),
+    ("lba:Board.isClean == true", "unknown-prefix", 1, "did you mean `lab`"),
+    ("Board.isClean == true", "unknown-parameter", 1, "with its prefix"),
+    ("(and lab:Board)", "syntax", 6, "stands alone"),
+    ("(contain lab:Hand)", "unknown-property", 2, "relation"),
+    ("(exists lab:Hand (isClean lab:Board))", "syntax", 1, "no goal"),
+    ("lab:Board.isClean ==", "syntax", 19, "missing"),
+    ("", "syntax", 1, "missing"),
+    ("lab:Hand contain lab:Felt } task x { goal lab:Board.isClean == true", "syntax", 1, "not one goal"),
+    ("lab:Hand contain lab:Felt do Wipe(surface: lab:Board)", "syntax", 1, "not one goal"),
+]
+
+
+@pytest.mark.parametrize(("text", "name", "column", "words"), WRONG)
+def test_a_wrong_goal_is_explained(text: str, name: str, column: int, words: str) -> None:
+    outcome = goal(text)
+    assert outcome.value is None
+    problem = outcome.diagnostics[0]
+    assert (problem.name, problem.span.path, problem.span.line) == (name, "goal", 1)
+    assert problem.span.column == column
+    assert words in f"{problem.message} {problem.help}"
+
+
+def test_calls() -> None:
+    wiping = compile(library("wiping"), vocabulary(), shelf(), "wiping").value
+    outcome = parse_call("Wipe(surface: lab:Board, speed: 5 cm/s)", wiping, scene(), {"lab": LAB})
+    assert outcome.value is not None
+    assert outcome.value.arguments == {"surface": Individual(LAB + "Board"), "speed": Literal(0.05)}
+    assert outcome.value.source == Position("call", 1, 1)
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        ("Wip(surface: lab:Board)", "unknown-skill"),
+        ("Wipe(surfac: lab:Board)", "unknown-argument"),
+        ("Wipe()", "missing-argument"),
+        ("Wipe(surface: lab:Felt)", "wrong-type"),
+        ("Wipe(surface: lab:Board, speed: 3 N)", "wrong-dimension"),
+        ("Wipe(surface: lab:Board, speed: 3 m/s)", "out-of-range"),
+        ("Wipe[lanes](surface: lab:Board)", "unknown-implementation"),
+        ("seq { }", "syntax"),
+        ("Wipe(", "syntax"),
+    ],
+)
+def test_a_wrong_call_is_explained(text: str, name: str) -> None:
+    wiping = compile(library("wiping"), vocabulary(), shelf(), "wiping").value
+    outcome = parse_call(text, wiping, scene(), {"lab": LAB})
+    assert outcome.value is None
+    assert [(d.name, d.span.line) for d in outcome.diagnostics] == [(name, 1)]

@@ -1,0 +1,87 @@
+"""What Turtle says of terms reaches the vocabulary; broken files are told with their line."""
+
+from skillc_compiler.library.vocabulary import NumberType, PlainType, Position, Signature, VectorType, Vocabulary
+from skillc_compiler.vocabulary.load import load
+from skillc_dsl.source import Source
+
+HEAD = """@prefix t: <http://example.org/t#> .
+@prefix owl: <http://www.w3.org/2002/07/owl#> .
+@prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
+@prefix xsd: <http://www.w3.org/2001/XMLSchema#> .
+@prefix skillc: <https://w3id.org/skillc/core#> .
+@prefix vann: <http://purl.org/vocab/vann/> .
+<http://example.org/t> a owl:Ontology ;
+    vann:preferredNamespacePrefix "t" ; vann:preferredNamespaceUri "http://example.org/t#" .
+"""
+T = "http://example.org/t#"
+
+
+def loaded(text: str) -> Vocabulary:
+    outcome = load([Source("t.ttl", HEAD + text)])
+    assert outcome.diagnostics == ()
+    return outcome.value
+
+
+def test_classes() -> None:
+    found = loaded(
+        't:A a owl:Class ; rdfs:comment "First." .\n'
+        "t:B a owl:Class ; rdfs:subClassOf t:A, owl:Thing, [ a owl:Restriction ] .\n"
+        "t:C a owl:Class ; owl:disjointWith t:B .\n"
+        "t:D a owl:Class . t:E a owl:Class . t:F a owl:Class .\n"
+        "[] a owl:AllDisjointClasses ; owl:members ( t:D t:E t:F ) .\n"
+        "t:Old a owl:Class ; skillc:aliasOf t:A .\n"
+        "t:G a owl:Class ; rdfs:subClassOf t:Old .\n"
+    )
+    assert found.prefixes == {"t": T}
+    assert found.classes[T + "A"].comment == "First."
+    assert found.classes[T + "A"].source == Position("t.ttl", 9, 1)
+    assert found.classes[T + "B"].parents == (T + "A",)
+    assert found.disjoint(T + "B", T + "C") and found.disjoint(T + "C", T + "B")
+    assert found.disjoint(T + "D", T + "F") and not found.disjoint(T + "A", T + "F")
+    assert found.aliases == {T + "Old": T + "A"} and T + "Old" not in found.classes
+    assert found.is_a(T + "G", T + "A")
+
+
+def test_relations() -> None:
+    found = loaded(
+        "t:at a owl:ObjectProperty, owl:FunctionalProperty, owl:IrreflexiveProperty ;\n"
+        "    rdfs:domain t:A ; rdfs:range t:B ; owl:inverseOf t:has ; rdfs:subPropertyOf t:near .\n"
+        "t:has a owl:ObjectProperty .\n"
+        "t:near a owl:ObjectProperty, owl:SymmetricProperty, owl:TransitiveProperty .\n"
+    )
+    at, has, near = (found.relations[T + name] for name in ("at", "has", "near"))
+    assert at.signatures == (Signature(T + "A", T + "B"),) and at.functional and at.irreflexive
+    assert has.signatures == (Signature(T + "B", T + "A"),) and has.inverse == T + "at" and at.inverse == T + "has"
+    assert near.symmetric and near.transitive and not near.functional
+    assert found.super_relations[T + "at"] == {T + "at", T + "near"}
+
+
+def test_properties() -> None:
+    found = loaded(
+        't:force a owl:DatatypeProperty ; rdfs:domain t:A, t:B ; rdfs:range xsd:double ; skillc:dimension "Force" .\n'
+        "t:share a owl:DatatypeProperty, owl:FunctionalProperty ; rdfs:domain t:A ; rdfs:range xsd:float .\n"
+        't:state a owl:DatatypeProperty ; rdfs:range [ a rdfs:Datatype ; owl:oneOf ( "On" "Off" ) ] .\n'
+        't:normal a owl:DatatypeProperty ; rdfs:range skillc:Vector ; skillc:computedBy "m:normal" .\n'
+        "t:clean a owl:DatatypeProperty ; rdfs:range xsd:boolean .\n"
+    )
+    force, share, state, normal, clean = (
+        found.properties[T + name] for name in ("force", "share", "state", "normal", "clean")
+    )
+    assert (force.type, force.domains, force.functional) == (NumberType("Force"), (T + "A", T + "B"), False)
+    assert (share.type, share.functional) == (NumberType("Number"), True)
+    assert (state.type, state.values) == (PlainType("Text"), ("On", "Off"))
+    assert (normal.type, normal.computed_by) == (VectorType("Number"), "m:normal")
+    assert clean.type == PlainType("Bool")
+
+
+def test_a_broken_file_is_told_and_the_others_are_read() -> None:
+    good = Source("good.ttl", HEAD + "t:A a owl:Class .\n")
+    outcome = load([Source("bad.ttl", HEAD + "t:B a owl:Class ;;; ] .\n"), good])
+    assert [(d.name, d.span.path, d.span.line) for d in outcome.diagnostics] == [("broken-turtle", "bad.ttl", 9)]
+    assert sorted(outcome.value.classes) == [T + "A"]
+
+
+def test_an_unknown_datatype_is_told() -> None:
+    outcome = load([Source("t.ttl", HEAD + "t:when a owl:DatatypeProperty ; rdfs:range xsd:gYear .\n")])
+    assert [(d.name, d.severity, d.span.line) for d in outcome.diagnostics] == [("unknown-datatype", "warning", 9)]
+    assert outcome.value.properties == {}
