@@ -6,11 +6,11 @@ from pathlib import Path
 
 import mujoco
 import numpy as np
-import skillc_ontology
 
+import skillc_ontology
 from skillc_runtime.controllers.gains import gains
 from skillc_runtime.controllers.virtual_arm import virtual_model
-from skillc_runtime.motion.pose import Pose, quaternion_of, skew
+from skillc_runtime.motion.pose import Pose, exp, quaternion_of, skew
 from skillc_runtime.robots.arm import ArmLimits, ArmState, JointPosition, Torque
 from skillc_runtime.robots.driver import ArmDriver
 
@@ -41,8 +41,16 @@ GAINS = {robot: gains(LAWS[robot], sheet.__getitem__) for robot, sheet in SHEETS
 TOOL_M = np.array([0.1, 0.05, 0.03])
 
 
+def moved_by(pose: Pose, *way: float, turn=(0.0, 0.0, 0.0)) -> Pose:
+    """The pose moved by a way in m and turned by a rotation vector."""
+    return Pose(pose.position + np.array(way), exp(np.array(turn)) @ pose.rotation)
+
+
 class Bench:
-    """Implements `Arm`, to be read between `mj_step1` and `mj_step2`. The plate lies `gap` m below the tool, tilted by the rotation vector `tilt`; None for no plate."""
+    """Implements `Arm`, to be read between `mj_step1` and `mj_step2`.
+
+    The plate lies `gap` m below the tool, tilted by the rotation vector `tilt`; None for no plate.
+    """
 
     def __init__(
         self, robot: str, gap: float | None = None, tilt=(0.0, 0.0, 0.0), friction=0.5, period=0.001, base=None
@@ -87,6 +95,11 @@ class Bench:
             d.qfrc_bias.copy(),
             (wrench.reshape(2, 3) @ R).ravel(),
         )
+
+    def state_at_rest(self) -> ArmState:
+        """The state after joint positions were set by hand."""
+        mujoco.mj_forward(self.model, self.data)
+        return self.state()
 
     def contact(self) -> np.ndarray:
         """The force of the plate on the tool, in the world, as the solver has it."""

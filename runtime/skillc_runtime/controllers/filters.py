@@ -27,7 +27,7 @@ class Lag:
             self._period = period
             self._share = 1 - exp(-period / self._time_constant) if self._time_constant > 0 else 1.0
         np.subtract(target, self.value, out=self._difference)
-        if np.abs(self._difference).max() <= self._grain:
+        if self._difference @ self._difference <= self._grain**2:
             self.value[:] = target
         else:
             self._difference *= self._share
@@ -46,6 +46,8 @@ class RateLimit:
     def step(self, target: Array, period: float) -> Array:
         """Follow the target for `period` s and return `value`."""
         np.subtract(target, self.value, out=self._step)
-        np.clip(self._step, -self._rate * period, self._rate * period, out=self._step)
+        longest = self._rate * period
+        np.minimum(self._step, longest, out=self._step)
+        np.maximum(self._step, -longest, out=self._step)
         self.value += self._step
         return self.value

@@ -13,7 +13,7 @@ RANGE_MARGIN_RAD = 0.05
 """Within this distance of the end of its range a joint is pushed back, at the end with a quarter of its effort."""
 
 GREATEST_LAG_RAD = 0.2
-"""A position-controlled arm that lags behind its command by more is stuck."""
+"""A position-controlled arm that lags behind its command by more, over all joints, is stuck."""
 
 
 class TorqueLimit:
@@ -28,12 +28,14 @@ class TorqueLimit:
 
     def step(self, tau: Array, state: ArmState, period: float) -> Array:
         """Return what to command (nv,) in N m for torques without bias; `rate` in N m/s holds for them. A new array."""
-        np.clip(state.q, self._low, self._high, out=self._inside)
+        np.maximum(state.q, self._low, out=self._inside)
+        np.minimum(self._inside, self._high, out=self._inside)
         np.subtract(self._inside, state.q, out=self._tau)
         self._tau *= self._spring
         self._tau += self._ramp.step(tau, period)
         self._tau += state.bias
-        return np.clip(self._tau, -self._limits.effort, self._limits.effort)
+        np.minimum(self._tau, self._limits.effort, out=self._tau)
+        return np.maximum(self._tau, -self._limits.effort)
 
 
 class JointLimit:
@@ -50,12 +52,15 @@ class JointLimit:
 
         ControlError when the arm does not follow; it is then commanded to stay where it is.
         """
-        lag = float(np.abs(self.q - state.q).max())
-        if lag > GREATEST_LAG_RAD:
+        lag = self.q - state.q
+        if lag @ lag > GREATEST_LAG_RAD**2:
             self.q[:] = state.q
-            raise ControlError(f"a joint is {lag:.2f} rad away from where it was commanded to be; is the arm blocked?")
+            raise ControlError(
+                f"a joint is {np.abs(lag).max():.2f} rad away from where it was commanded to be; is the arm blocked?"
+            )
         self._ramp.step(q, period)
-        np.clip(self.q, self._low, self._high, out=self.q)
+        np.maximum(self.q, self._low, out=self.q)
+        np.minimum(self.q, self._high, out=self.q)
         return self.q.copy()
 
     def slowed(self, velocity: Array) -> Array:

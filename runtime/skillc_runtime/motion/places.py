@@ -38,7 +38,7 @@ def centre(state: WorldState, surface: str) -> Pose:
 
 
 def lanes(state: WorldState, surface: str, tool: str, overlap: float) -> list[Pose]:
-    """Return the tool's poses along lanes that cover a surface; `overlap` is the share that neighbours have in common."""
+    """Return the tool's poses along lanes that cover a surface; `overlap`: the share neighbours have in common."""
     frame = pose(state, surface)
     return [frame @ lane for lane in lane_pattern(size(state, surface)[:2], size(state, tool)[:2], overlap)]
 

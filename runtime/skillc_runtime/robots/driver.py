@@ -6,6 +6,7 @@ Primitives speak of the world; inside, all is in the arm's base frame, so that a
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import isfinite
 from typing import TypeAlias
 
 import mujoco
@@ -70,12 +71,12 @@ class ArmDriver:
         """Do one control period at `now` s. ControlError when a measurement or a command is not a number."""
         self._now = now
         state = self._arm.state()
-        if not np.isfinite(state.q.sum() + state.dq.sum() + state.wrench.sum() + state.tool.position.sum()):
+        if not _finite(state.q, state.dq, state.wrench, state.tool.position):
             self._arm.command(self._holding())
             raise ControlError("the arm reports something that is not a number")
         self._take_in(state)
         command = self._decide(state)
-        if not np.isfinite((command.tau if isinstance(command, Torque) else command.q).sum()):
+        if not _finite(command.tau if isinstance(command, Torque) else command.q):
             self._arm.command(self._holding())
             raise ControlError("the control law does not yield a number")
         self._arm.command(command)
@@ -84,9 +85,9 @@ class ArmDriver:
 
     def _take_in(self, state: ArmState) -> None:
         """Remember a state; a tool centre point that jumps was moved on the hand, say by taking hold of a tool."""
-        jumped = float(np.abs(state.tool.position - self._state.tool.position).max()) > TOOL_JUMP_M_S * self.period
+        way = state.tool.position - self._state.tool.position
         self._state = state
-        if jumped and self._joints is None:
+        if way @ way > (TOOL_JUMP_M_S * self.period) ** 2 and self._joints is None:
             self._tool.retake(state, self._laws.joints_now(state), self._now)
 
     def _decide(self, state: ArmState) -> Command:
@@ -308,3 +309,8 @@ class ArmDriver:
 
     def _joint_guide(self, q: Array, dq: Array) -> JointGuide:
         return JointGuide(q, dq, float(self.limits.velocity.min()) / JOINT_RAMP_S, self._now)
+
+
+def _finite(*vectors: Array) -> bool:
+    """Tell whether all numbers are finite, by their squares."""
+    return isfinite(sum(float(vector @ vector) for vector in vectors))

@@ -1,4 +1,4 @@
-"""What the tool of an arm shall do, in the arm's base frame: where it shall be, how it yields and pushes, by which law."""
+"""What the tool of an arm shall do, in the arm's base frame: where it shall be, how it yields and pushes."""
 
 from __future__ import annotations
 

@@ -1,0 +1,35 @@
+"""Noticing contact: from the course of speed and force to one word."""
+
+import pytest
+
+from skillc_runtime.robots.contact import Approach, advance
+
+COURSES = {
+    # name: (speed and force at each ms, what is known at the end)
+    "gets going": ([(0.05 * i / 100, 3 - i / 33) for i in range(100)], "approaching"),
+    "flies": ([(0.045, 0.3)] * 500, "approaching"),
+    "is stopped": ([(0.045, 0.3)] * 500 + [(0.005, 0.9)] * 21, "touching"),
+    "is slowed for an instant": ([(0.045, 0.3)] * 500 + [(0.005, 0.9)] * 15 + [(0.04, 0.3)] * 5, "approaching"),
+    "is pressed": ([(0.045, 0.3)] * 500 + [(0.04, 2.5)] * 6, "touching"),
+    "feels a spike": ([(0.045, 0.3)] * 500 + [(0.04, 9.0)] * 2 + [(0.04, 0.5)], "approaching"),
+    "bounces twice": ([(0.045, 0.3)] * 500 + ([(-0.01, 1.0)] * 10 + [(0.03, 0.5)] * 10) * 2, "approaching"),
+    "touches from the start": ([(0.0005, 2.9)] * 501, "touching"),
+    "meets nothing": ([(0.045, 0.3)] * 3000, "missing"),
+}
+
+
+@pytest.mark.parametrize("name", COURSES)
+def test_course(name):
+    samples, expected = COURSES[name]
+    approach = Approach(speed=0.05, travel=0.12)
+    for speed, force in samples:
+        approach = advance(approach, speed, force, 0.001)
+    assert approach.outcome == expected
+
+
+def test_it_takes_as_long_at_every_rate():
+    for period in (0.001, 0.002, 0.004):
+        approach, time = Approach(speed=0.05, travel=0.12, moved=True), 0.0
+        while approach.outcome == "approaching":
+            approach, time = advance(approach, 0.0, 0.0, period), time + period
+        assert time == pytest.approx(0.02, abs=period)
