@@ -30,7 +30,7 @@ bench: .venv/.dev ## benchmarks; each prints ratios
 	for file in benchmarks/[a-z]*.py; do echo "== $$file"; $(BIN)/python $$file || exit 1; done
 
 accept: .venv/.dev ## rewrite the expected artifacts of tests/cases/build
-	$(BIN)/python -m tests.accept
+	$(BIN)/python tests/accept.py
 
 lock: .tools/.uv ## pin every version anew
 	$(UV) pip compile -q --universal --python-version 3.11 --all-extras --no-emit-index-url --no-header --no-annotate \

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 
 from skillc_runtime.planning.fast_downward import installed
-from skillc_runtime.simulation.camera import RenderingUnavailable, check_rendering
+from skillc_runtime.simulation.rendering import RenderingUnavailable, check_rendering
 
 REQUIRED = ("lark", "msgspec", "pyoxigraph", "pddl", "numpy", "mujoco", "matplotlib", "rich", "click")
 

@@ -15,6 +15,7 @@ from skillc_compiler.library.skills import SkillLibrary, Task
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
+from skillc_dsl.lexing import decode
 from skillc_dsl.source import Source, Span
 from skillc_ontology import catalogue
 
@@ -91,11 +92,7 @@ def task_named(library: SkillLibrary, name: str) -> Task:
 
 def _read(file: Path, name: str) -> Source:
     try:
-        return Source(name, file.read_text(encoding="utf-8"))
-    except UnicodeDecodeError as error:
-        raise click.UsageError(
-            f"{file} is not UTF-8 text: byte {error.start} is {error.object[error.start]:#04x}"
-        ) from error
+        return decode(name, file.read_bytes())
     except OSError as error:
         raise click.UsageError(f"{file} cannot be read: {error.strerror}") from error
 

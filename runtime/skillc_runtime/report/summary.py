@@ -67,10 +67,11 @@ def _steps(tree: Outcome, choices: Mapping[int, ImplementationChosen], library: 
 
 
 def _step(call: Outcome, choice: ImplementationChosen | None, library: SkillLibrary) -> StepResult:
-    objects = {p.name for p in library.skills[call.name].parameters if p.direction in ("in", "infer")}
+    skill = choice.skill if choice else call.name
+    objects = {p.name for p in library.skills[skill].parameters if p.direction in ("in", "infer")}
     bindings = choice.bindings if choice else {}
     return StepResult(
-        skill=call.name,
+        skill=skill,
         implementation=choice.implementation if choice else "",
         arguments={name: value for name, value in bindings.items() if name in objects},
         source=str(choice.source if choice else call.source),

@@ -28,7 +28,7 @@ class Wiping:
 
 def find_wiping(tree: Outcome, choices: Mapping[int, ImplementationChosen], cell: SimulatedCell) -> Wiping | None:
     """Return the last call with a surface and a tool below which a path was followed to its end; None without one."""
-    prefixes = cell.world.snapshot().vocabulary
+    vocabulary = cell.world.snapshot().vocabulary
     found: Wiping | None = None
     for node in _nodes(tree):
         bindings = choices[node.id].bindings if node.id in choices else {}

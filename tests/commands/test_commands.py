@@ -1,0 +1,183 @@
+"""The command line as a user meets it: forms, exit codes, JSON, errors without a traceback."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from skillc_ontology import catalogue
+from skillc_runtime.commands.main import skillc
+
+LIBRARY = """
+use skiros, rparts
+skill Fetch {
+    in    arm:     ArmDevice
+    infer gripper: GripperEffector
+    in    object:  Product
+    pre   arm hasA gripper
+    post  gripper contain object
+}
+"""
+
+
+def run(*arguments: str | Path) -> Result:
+    result = CliRunner().invoke(skillc, [str(argument) for argument in arguments])
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
+    return result
+
+
+@pytest.fixture
+def library(tmp_path: Path) -> Path:
+    folder = tmp_path / "lab"
+    folder.mkdir()
+    (folder / "fetch.skill").write_text(LIBRARY, encoding="utf-8")
+    return folder
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Path:
+    return Path(shutil.copy(catalogue.scene("iiwa_table.ttl"), tmp_path / "scene.ttl"))
+
+
+def edited(scene: Path, old: str, new: str) -> Path:
+    text = scene.read_text(encoding="utf-8")
+    assert old in text
+    scene.write_text(text.replace(old, new), encoding="utf-8")
+    return scene
+
+
+def test_help_lists_every_command() -> None:
+    result = run("--help")
+    assert result.exit_code == 0
+    assert all(f"  {name} " in result.stdout for name in ("check", "compile", "plan", "run", "world", "demo", "doctor"))
+
+
+def test_an_unknown_command_is_named_with_those_that_exist() -> None:
+    result = run("complie")
+    assert result.exit_code == 2
+    assert "there is no command 'complie'" in result.stderr
+    assert "compile" in result.stderr
+
+
+def test_check_of_a_sound_library_says_so_and_exits_0(library: Path) -> None:
+    result = run("check", library, "--format", "concise")
+    assert result.exit_code == 0
+    assert "error" not in result.stdout
+
+
+def test_check_reports_every_error_as_json(library: Path) -> None:
+    (library / "bad.skill").write_text("use skiros\nskill A { in x: Prodct }\nskill B { in y: 3 }\n", encoding="utf-8")
+    result = run("check", library, "--format", "json")
+    found = json.loads(result.stdout)
+    assert result.exit_code == 1
+    assert {(each["line"], each["severity"]) for each in found if each["path"].endswith("bad.skill")} >= {
+        (2, "error"),
+        (3, "error"),
+    }
+    assert set(found[0]) == {
+        "name", "severity", "path", "line", "column", "end_line", "end_column", "message", "help",
+    }  # fmt: skip
+
+
+def test_a_path_that_does_not_exist_is_a_usage_error() -> None:
+    result = run("check", "nowhere.skill")
+    assert result.exit_code == 2
+    assert "there is no file or folder nowhere.skill" in result.stderr
+
+
+def test_compile_writes_all_artifacts_twice_the_same(library: Path, tmp_path: Path) -> None:
+    first, second = tmp_path / "one", tmp_path / "two"
+    assert run("compile", library, "-o", first).exit_code == 0
+    assert run("compile", library, "-o", second).exit_code == 0
+    files = sorted(path.relative_to(first) for path in first.rglob("*") if path.is_file())
+    assert {"library.json", "skills.ttl", "domain.pddl", "domain.temporal.pddl"} <= {str(path) for path in files}
+    assert all((first / path).read_bytes() == (second / path).read_bytes() for path in files)
+
+
+def test_compile_of_a_broken_library_writes_nothing(library: Path, tmp_path: Path) -> None:
+    (library / "bad.skill").write_text("skill A { in x: Nothing }", encoding="utf-8")
+    result = run("compile", library, "-o", tmp_path / "build")
+    assert result.exit_code == 1
+    assert "unknown-class" in result.stderr
+    assert not (tmp_path / "build").exists()
+
+
+def test_a_scene_with_an_unknown_class_is_refused_with_its_line(library: Path, scene: Path) -> None:
+    edited(scene, "a wiping:TableTop", "a wiping:TableTopp")
+    result = run("check", library, "--scene", scene, "--format", "concise")
+    line = next(n for n, text in enumerate(scene.read_text().splitlines(), 1) if "TableTopp" in text)
+    assert result.exit_code == 1
+    assert f"{scene}:{line}:" in result.stdout
+    assert "TableTop" in result.stdout
+
+
+def test_a_truncated_scene_is_refused(library: Path, scene: Path) -> None:
+    scene.write_text(scene.read_text(encoding="utf-8")[:1500], encoding="utf-8")
+    result = run("check", library, "--scene", scene, "--format", "concise")
+    assert result.exit_code == 1
+    assert str(scene) in result.stdout
+
+
+def test_plan_finds_the_optimal_plan_of_the_shipped_task() -> None:
+    result = run("plan", "clean_whiteboard", "--json")
+    answer = json.loads(result.stdout)
+    assert result.exit_code == 0
+    assert [step["skill"] for step in answer["plan"]] == ["Drive", "Pick", "Drive", "Wipe"]
+    assert answer["plan_optimal"] is True
+
+
+def test_plan_takes_a_pddl_goal(scene: Path) -> None:
+    result = run("plan", "--scene", scene, "--goal", "(skiros:contain lab:Robotiq-1 lab:Eraser-1)", "--json")
+    assert [step["skill"] for step in json.loads(result.stdout)["plan"]] == ["Pick"]
+
+
+def test_a_goal_about_an_individual_that_does_not_exist_is_explained(scene: Path) -> None:
+    result = run("plan", "--scene", scene, "--goal", "lab:Tabel-1.isClean == true")
+    assert result.exit_code == 1
+    assert "lab:Tabel-1" in result.stderr
+    assert "lab:Table-1" in result.stderr
+
+
+def test_without_an_eraser_there_is_no_plan_and_the_answer_says_why(scene: Path) -> None:
+    text = scene.read_text(encoding="utf-8")
+    start, end = text.index("lab:Eraser-1 a wiping:Eraser"), text.index("# --- the surface")
+    scene.write_text((text[:start] + text[end:]).replace("lab:Eraser-1, ", ""), encoding="utf-8")
+    result = run("run", "--scene", scene, "--goal", "lab:Table-1.isClean == true", "--json")
+    answer = json.loads(result.stdout)
+    assert result.exit_code == 3
+    assert answer["status"] == "refused"
+    assert "Eraser" in answer["failure"]
+
+
+def test_a_gripper_without_implementation_is_refused_before_anything_moves(scene: Path) -> None:
+    edited(scene, "a skillc:RobotiqGripper", "a rparts:GripperEffector")
+    result = run("run", "--scene", scene, "--goal", "lab:Table-1.isClean == true", "--json")
+    answer = json.loads(result.stdout)
+    assert result.exit_code == 3
+    assert answer["status"] == "refused"
+    assert "ActuateGripper" in answer["failure"]
+    assert "RobotiqGripper" in answer["failure"]
+
+
+def test_an_unknown_task_is_named_with_those_that_exist() -> None:
+    result = run("plan", "clean_whitebord")
+    assert result.exit_code == 2
+    assert "clean_whiteboard" in result.stderr
+
+
+def test_world_lists_and_queries(scene: Path) -> None:
+    listed = json.loads(run("world", scene, "--json").stdout)
+    arm = next(each for each in listed if each["individual"] == "lab:Iiwa-1")
+    assert arm["properties"]["skiros:CompliantController"] == "impedance"
+    asked = run("world", scene, "--query", "SELECT ?s WHERE { ?s wiping:normalForce ?f FILTER(?f > 10) }")
+    assert asked.stdout.split() == ["s", "lab:Table-1"]
+
+
+def test_a_query_that_is_not_sparql_is_explained(scene: Path) -> None:
+    result = run("world", scene, "--query", "SELEC ?s")
+    assert result.exit_code == 1
+    assert "not SPARQL" in result.stderr

@@ -1,0 +1,35 @@
+"""Every skill example in the documentation compiles."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from skillc_compiler import pipeline
+from skillc_dsl.rendering.concise import render
+from skillc_dsl.source import Source
+from skillc_runtime.commands import _library
+
+ROOT = Path(__file__).parents[2]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+BLOCK = re.compile(r"^```skill\n(.*?)^```", re.MULTILINE | re.DOTALL)
+EXAMPLES = [
+    pytest.param(text, id=f"{page.name}-{number}")
+    for page in PAGES
+    for number, text in enumerate(BLOCK.findall(page.read_text(encoding="utf-8")), 1)
+]
+
+
+def test_there_are_examples() -> None:
+    assert len(EXAMPLES) >= 6
+
+
+@pytest.mark.parametrize("text", EXAMPLES)
+def test_example_compiles(text: str) -> None:
+    shelf = _library.find(_library.SHIPPED / "wiping")
+    neighbours = shelf.shelf | {source.path: source for source in shelf.sources}
+    outcome = pipeline.compile([Source("example.skill", text)], _library.vocabulary(), neighbours, "example")
+    unexpected = [each for each in outcome.diagnostics if each.name != "no-implementation"]
+    assert not unexpected, render(unexpected, {})

@@ -1,0 +1,114 @@
+"""Whole tasks in simulation: both arms wipe, and what goes wrong on the way is told and leaves the arm safe."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_ontology import catalogue
+from skillc_runtime.commands import _library
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.report.summary import Choices, summarise
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.task import Assignment, Execution, Prepared, execute, prepare
+from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.scene import load_scene
+
+pytestmark = pytest.mark.sim
+
+TASKS = ("clean_whiteboard", "clean_table")
+ARMS = {"clean_whiteboard": "http://example.org/lab#Ur5e-1", "clean_table": "http://example.org/lab#Iiwa-1"}
+
+
+@cache
+def library() -> SkillLibrary:
+    outcome = _library.compile_library(_library.find(_library.SHIPPED / "wiping"))
+    assert outcome.ok
+    return outcome.value
+
+
+def start(name: str, seed: int) -> tuple[Prepared, SimulatedCell]:
+    task = library().tasks[name]
+    assert task.scene is not None
+    state = load_scene(catalogue.scene(task.scene), library().vocabulary)
+    prepared = prepare(Assignment(name, state, task.goal, task.body), library())
+    assert isinstance(prepared, Prepared), prepared
+    return prepared, SimulatedCell(WorldModel(state), seed)
+
+
+def at_rest(execution: Execution, arm: str) -> bool:
+    """Whether an arm neither moves nor is asked to push, and is stiff along every axis."""
+    driver = execution.cell.arm(arm)
+    pushes = abs(driver.commanded_wrench).max() > 0.1
+    return not pushes and bool((driver.commanded_stiffness[:3] > 0).all()) and abs(driver.velocity).max() < 0.02
+
+
+@pytest.mark.parametrize("seed", [0, 7])
+@pytest.mark.parametrize("name", TASKS)
+def test_the_goal_is_reached_and_the_surface_is_wiped_well(name: str, seed: int) -> None:
+    prepared, cell = start(name, seed)
+    choices = Choices()
+    execution = execute(prepared, library(), cell, [choices])
+    result = summarise(execution, choices, library())
+    assert result.status == "success", result.failure
+    assert result.plan_optimal
+    assert result.wiping is not None
+    assert result.wiping.coverage >= 0.99
+    assert abs(result.wiping.force_mean_n / result.wiping.force_command_n - 1) <= 0.1
+    assert result.wiping.contact_lost <= 0.01
+    assert at_rest(execution, ARMS[name])
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_interrupted_while_wiping_it_lets_go_and_is_stiff_again(name: str) -> None:
+    prepared, cell = start(name, 0)
+    choices = Choices()
+    wiping = lambda: any(choice.skill == "FollowPath" for choice in choices.values())  # noqa: E731
+    pushed: list[bool] = []
+
+    def interrupted() -> bool:
+        if wiping() and cell.now > choices[max(choices)].time + 1.0:
+            pushed.append(abs(cell.arm(ARMS[name]).commanded_wrench).max() > 1.0)
+            return True
+        return False
+
+    execution = execute(prepared, library(), cell, [choices], interrupted=interrupted)
+    assert pushed == [True]
+    assert execution.status is Status.HALTED
+    assert at_rest(execution, ARMS[name])
+
+
+def test_the_same_seed_gives_the_same_run() -> None:
+    recordings = []
+    for _ in range(2):
+        prepared, cell = start("clean_table", 3)
+        execute(prepared, library(), cell, interrupted=lambda now=cell: now.now > 8.0)  # type: ignore[misc]
+        recordings.append(cell.recording("http://example.org/lab#Eraser-1").rows.tobytes())
+    assert recordings[0] == recordings[1]
+    assert recordings[0]
+
+
+def test_ctrl_c_halts_reports_and_exits_with_3(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "skillc_runtime", "run", "clean_table", "--json", "--out", str(tmp_path)]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env={**os.environ, "PYTHONUNBUFFERED": "1"})
+    events = tmp_path / "events.jsonl"
+    try:
+        while process.poll() is None and not (events.exists() and "Grasp" in events.read_text(encoding="utf-8")):
+            pass
+        process.send_signal(signal.SIGINT)
+        output, _ = process.communicate(timeout=120)
+    finally:
+        process.kill()
+    result = json.loads(output)
+    assert process.returncode == 3
+    assert result["status"] == "halted"
+    assert "interrupted" in result["failure"]
+    assert (tmp_path / "report.html").is_file()
