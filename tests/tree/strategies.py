@@ -9,7 +9,11 @@ from hypothesis import strategies as st
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Compare, Condition, Individual, Literal, PropertyOf
 from skillc_compiler.library.skills import SkillLibrary
-from tree.stage import DEVICES, FLAGS, ON, PERIOD_S, Library, Script, call, here, par, sel, seq, with_
+from tree.stage import DEVICES, ON, PERIOD_S, Library, Script, call, here, par, sel, seq, with_
+from tree.stage import FLAGS as ALL_FLAGS
+
+FLAGS = ALL_FLAGS[:2]
+"""Few, so that switches often matter."""
 
 ENDINGS = ("success", "success", "success", "fail", "fail", "crash", "refuse", "crash at start")
 
@@ -30,9 +34,9 @@ def plays(draw: st.DrawFn, size: int = 12) -> Play:
     """Draw a tree of about so many leaves."""
     writer = _Writer(draw, size)
     body = writer.node(4)
-    ticks = st.integers(1, 12)
-    switches = draw(st.lists(st.tuples(ticks, st.sampled_from(FLAGS), st.booleans()), max_size=6))
-    halt_at = draw(st.one_of(st.none(), ticks))
+    switch = st.tuples(st.integers(1, 6), st.sampled_from(FLAGS), st.booleans())
+    switches = draw(st.lists(switch, max_size=8))
+    halt_at = draw(st.one_of(st.none(), st.none(), st.integers(1, 12)))
     return Play(body, writer.library.build(), writer.scripts, tuple(switches), halt_at)
 
 
@@ -59,7 +63,7 @@ class _Writer:
 
     def leaf(self) -> tree.Node:
         self.left -= 1
-        skills = ("Act", "Act", "Act", "Setup", "Kept", "Lit", "Set", "Use", "Either", "Another", "")
+        skills = ("Act", "Act", "Setup", "Kept", "Kept", "Lit", "Set", "Use", "Either", "Another", "", "")
         skill = self.draw(st.sampled_from(skills))
         if not skill:
             return self.condition_leaf()
@@ -73,7 +77,7 @@ class _Writer:
         return call(skill, name=self.name(), **more)
 
     def condition_leaf(self) -> tree.Node:
-        kind = self.draw(st.sampled_from(("check", "until", "wait")))
+        kind = self.draw(st.sampled_from(("check", "check", "until", "wait")))
         if kind == "wait":
             return tree.Wait(seconds=Literal(self.draw(st.integers(0, 3)) * PERIOD_S), source=here())
         condition = self.condition()
@@ -100,7 +104,7 @@ class _Writer:
 
     def decorator(self, depth: int) -> tree.Node:
         child = self.node(depth)
-        kind = self.draw(st.sampled_from((tree.Try, tree.Invert, tree.Once, tree.Timeout)))
+        kind = self.draw(st.sampled_from((tree.Try, tree.Try, tree.Invert, tree.Once, tree.Timeout)))
         if kind is tree.Timeout:
             return tree.Timeout(seconds=Literal(self.draw(st.integers(0, 4)) * PERIOD_S), child=child, source=here())
         return kind(child=child, source=here())

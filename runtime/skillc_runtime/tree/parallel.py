@@ -15,11 +15,12 @@ class ParallelNode(Node):
     """Starts the children in order and ticks those that run in the same order; a finished one keeps its result."""
 
     kind: ClassVar[str] = "par"
-    __slots__ = ("_running",)
+    __slots__ = ("_running", "_started")
 
     def begin(self) -> Status:
         self._running: list[Strand] = []
-        for child in self.children:
+        self._started = 0
+        for self._started, child in enumerate(self.children, start=1):
             strand = Strand(child)
             if strand.start() is RUNNING:
                 self._running.append(strand)
@@ -46,8 +47,9 @@ class ParallelNode(Node):
         return None if self._running else SUCCESS
 
     def still(self) -> bool:
-        done = [child for child in self.children if child.status is SUCCESS]
-        return self.status is SUCCESS and all(child.still() for child in done)
+        if self.status is not SUCCESS:
+            return False
+        return all(child.still() for child in self.children[: self._started] if child.status is SUCCESS)
 
     def _after_finishing(self) -> Status:
         self._running = [strand for strand in self._running if strand.top.status is RUNNING]
