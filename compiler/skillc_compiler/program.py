@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal as OneOf
 from typing import TypeAlias
 
@@ -204,9 +205,13 @@ class Program:
     tasks: tuple[Task, ...]
     used: Mapping[str, frozenset[str]]
 
-    def implementations_of(self, skill: str) -> tuple[Implementation, ...]:
-        """Return a skill's implementations in order of declaration."""
-        return tuple(i for i in self.implementations if i.skill.name == skill)
+    @cached_property
+    def implementations_of(self) -> Mapping[str, tuple[Implementation, ...]]:
+        """Each skill's implementations in order of declaration."""
+        found: dict[str, tuple[Implementation, ...]] = dict.fromkeys(self.skills, ())
+        for implementation in self.implementations:
+            found[implementation.skill.name] += (implementation,)
+        return found
 
 
 def position(span: Span) -> Position:

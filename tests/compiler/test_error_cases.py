@@ -10,6 +10,7 @@ from shipped import shelf
 from skillc_compiler.checks import checks
 from skillc_compiler.pipeline import compile
 from skillc_compiler.vocabulary.load import load
+from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
 
@@ -17,14 +18,17 @@ CASES = sorted((Path(__file__).parent.parent / "cases" / "errors").glob("*.skill
 EXPECTED = re.compile(r'#! ([a-z-]+) "([^"]*)"')
 
 
-def found(path: Path) -> list[tuple[int, str, str]]:
-    """Compile a case; return line, name and words of each diagnostic in it."""
-    shipped = [Source(name, text) for name, text in vocabulary_files()]
+def diagnostics_of(path: Path, text: str) -> list[Diagnostic]:
+    """Compile a text in place of a case; return the diagnostics in it."""
+    shipped = [Source(name, turtle) for name, turtle in vocabulary_files()]
     own = [Source(file.name, file.read_text()) for file in sorted(path.parent.glob(f"{path.stem}*.ttl"))]
-    base = load([*shipped, *own])
-    outcome = compile([Source(path.name, path.read_text())], base.value, shelf(), "cases")
-    mine = [d for d in outcome.diagnostics if d.span.path == path.name]
-    return [(d.span.line, d.name, f"{d.message} | {d.help}") for d in mine]
+    outcome = compile([Source(path.name, text)], load([*shipped, *own]).value, shelf(), "cases")
+    return [d for d in outcome.diagnostics if d.span.path == path.name]
+
+
+def found(path: Path) -> list[tuple[int, str, str]]:
+    """Return line, name and words of each diagnostic in a case."""
+    return [(d.span.line, d.name, f"{d.message} | {d.help}") for d in diagnostics_of(path, path.read_text())]
 
 
 @pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
@@ -46,3 +50,32 @@ def test_every_check_has_a_case() -> None:
     declared = {name for check in checks() for name in check.NAMES}
     assert declared
     assert declared <= shown
+
+
+@pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
+def test_a_fix_cures_its_problem(path: Path) -> None:
+    text = path.read_text()
+    for diagnostic in (d for d in diagnostics_of(path, text) if d.fix):
+        cured = edited(text, diagnostic.fix)
+        same = [
+            d for d in diagnostics_of(path, cured) if (d.name, d.span.line) == (diagnostic.name, diagnostic.span.line)
+        ]
+        before = [
+            d for d in diagnostics_of(path, text) if (d.name, d.span.line) == (diagnostic.name, diagnostic.span.line)
+        ]
+        assert len(same) < len(before), diagnostic
+
+
+def test_misspelt_names_have_fixes() -> None:
+    case = next(path for path in CASES if path.stem == "authoring")
+    fixed = {d.name for d in diagnostics_of(case, case.read_text()) if d.fix}
+    assert {"unknown-relation", "unknown-property", "unknown-skill", "unknown-value"} <= fixed
+
+
+def edited(text: str, fix: Fix | None) -> str:
+    """Return the text after an edit in one line."""
+    assert fix is not None and fix.span.line == fix.span.end_line
+    lines = text.split("\n")
+    line = lines[fix.span.line - 1]
+    lines[fix.span.line - 1] = line[: fix.span.column - 1] + fix.text + line[fix.span.end_column - 1 :]
+    return "\n".join(lines)

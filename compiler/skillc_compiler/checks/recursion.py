@@ -42,7 +42,7 @@ def _edges(program: Program, implementation: Implementation) -> Iterator[tuple[s
         return
     for step in within(implementation.body):
         if step.call and step.call.skill:
-            for called in program.implementations_of(step.call.skill.name):
+            for called in program.implementations_of[step.call.skill.name]:
                 if step.call.implementation in (None, called.name):
                     yield called.key, step.call
 

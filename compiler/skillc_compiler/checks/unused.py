@@ -77,7 +77,7 @@ def _import_used(program: Program, unit: ReadFile, path: str) -> bool:
 
 
 def _parameters(program: Program, skill: Skill) -> Iterator[Diagnostic]:
-    implementations = program.implementations_of(skill.name)
+    implementations = program.implementations_of[skill.name]
     if not implementations or any(not isinstance(i.body, Step) for i in implementations):
         return
     read = {device.parameter.text for device in skill.devices}

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import hashlib
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 
+import msgspec
+
 from skillc_compiler.library import skills as library
+from skillc_compiler.library.pddl.names import pddl_names
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.lower import flattening
 from skillc_compiler.lower.ranking import ranked
@@ -20,12 +24,15 @@ def lower(program: Program, problems: Sequence[Diagnostic]) -> SkillLibrary:
     skills = {name: s for name, s in sorted(program.skills.items()) if not _touched(s.span, errors)}
     sound = [i for i in program.implementations if i.body is not None and not _touched(i.span, errors)]
     kept = [i for i in sound if i.skill.name in skills and _calls_known(i.body, skills)]
-    by_skill = {name: ranked(program.vocabulary, [i for i in kept if i.skill.name == name]) for name in skills}
-    return SkillLibrary(
+    by_skill: dict[str, list[Implementation]] = defaultdict(list)
+    for one in kept:
+        by_skill[one.skill.name].append(one)
+    order = {name: ranked(program.vocabulary, by_skill[name]) for name in skills}
+    unnamed = SkillLibrary(
         name=program.name,
         hash=_hash(program.files),
         vocabulary=program.vocabulary,
-        skills={name: flattening.skill(s, [i.name for i in by_skill[name]]) for name, s in skills.items()},
+        skills={name: flattening.skill(s, [i.name for i in order[name]]) for name, s in skills.items()},
         implementations={i.key: _implementation(i) for i in sorted(kept, key=lambda i: i.key)},
         tasks={
             task.name: flattening.task(task)
@@ -33,6 +40,7 @@ def lower(program: Program, problems: Sequence[Diagnostic]) -> SkillLibrary:
             if not _touched(task.span, errors) and _calls_known(task.body, skills)
         },
     )
+    return msgspec.structs.replace(unnamed, names=pddl_names(unnamed))
 
 
 def calls(step: Step) -> Iterator[Call]:

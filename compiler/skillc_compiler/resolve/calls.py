@@ -9,7 +9,7 @@ from skillc_compiler.resolve.scope import Scope, Setting, Variable
 from skillc_compiler.resolve.values import ANYTHING, Wanted, value
 from skillc_compiler.types import UNKNOWN, Type, fits
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Label, did_you_mean
+from skillc_dsl.diagnostics import Label
 
 
 def call(setting: Setting, scope: Scope, written: s.CallSkill) -> tuple[Call, Scope]:
@@ -57,11 +57,12 @@ def _not_a_parameter(
             Label(out.span, "declared here"),
         )
         return
-    setting.report(
+    setting.report_unknown(
         "unknown-argument",
-        argument.name.span,
+        argument.name,
         f"the skill `{skill.name}` has no parameter `{name}`",
-        did_you_mean(name, _free(setting, skill, written, kind)) or f"it takes {_list(skill)}",
+        _free(setting, skill, written, kind),
+        f"it takes {_list(skill)}",
         Label(skill.name_span, "declared here"),
     )
 
@@ -83,12 +84,8 @@ def _implementation(setting: Setting, written: s.CallSkill, skill: Skill | None)
         return None
     known = setting.implementations.get(skill.name, ())
     if name.text not in known:
-        setting.report(
-            "unknown-implementation",
-            name.span,
-            f"the skill `{skill.name}` has no implementation `{name.text}`",
-            did_you_mean(name.text, known),
-        )
+        message = f"the skill `{skill.name}` has no implementation `{name.text}`"
+        setting.report_unknown("unknown-implementation", name, message, known)
     return name.text
 
 

@@ -30,7 +30,7 @@ from skillc_compiler.resolve.scope import Scope, Setting, Variable
 from skillc_compiler.resolve.values import ANYTHING, Wanted, property_of, value
 from skillc_compiler.types import BOOL, UNKNOWN, Thing, Type, fits
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.source import Span
 
 
@@ -177,12 +177,8 @@ def _given(setting: Setting, scope: Scope, name: s.Name, span: Span) -> Clause:
     known = scope.variables.get(name.text)
     if known is None or known.origin != "parameter":
         parameters = [n for n, v in scope.variables.items() if v.origin == "parameter"]
-        setting.report(
-            "unknown-parameter",
-            name.span,
-            f"{scope.owner} has no parameter `{name.text}`",
-            did_you_mean(name.text, parameters) or "declare it with `opt`",
-        )
+        message = f"{scope.owner} has no parameter `{name.text}`"
+        setting.report_unknown("unknown-parameter", name, message, parameters, "declare it with `opt`")
     return Clause(Given(name.text), span)
 
 

@@ -14,7 +14,7 @@ from skillc_compiler.resolve.typenames import value_type
 from skillc_compiler.resolve.values import value
 from skillc_compiler.types import of_library
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Label, did_you_mean
+from skillc_dsl.diagnostics import Label
 from skillc_dsl.source import Span
 
 
@@ -76,11 +76,12 @@ def _refinements(setting: Setting, written: s.ImplementationDeclaration, skill: 
 def _refined(setting: Setting, member: s.Refinement, skill: Skill) -> Parameter | None:
     parameter = skill.parameter(member.name.text)
     if parameter is None:
-        setting.report(
+        setting.report_unknown(
             "unknown-parameter",
-            member.name.span,
+            member.name,
             f"the skill `{skill.name}` has no parameter `{member.name.text}` to refine",
-            did_you_mean(member.name.text, (p.name for p in skill.parameters)),
+            [p.name for p in skill.parameters],
+            "",
             Label(skill.name_span, "declared here"),
         )
     return parameter

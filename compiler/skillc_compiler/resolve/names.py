@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 from skillc_compiler.library.vocabulary import THING, FunctionTerm, Vocabulary, local_name
+from skillc_compiler.resolve.near import correction
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, did_you_mean
 
@@ -139,16 +140,16 @@ class Names:
         self._report_unknown(kind, name, candidates)
 
     def _report_unknown(self, what: str, name: s.Name, candidates: Iterable[str]) -> None:
-        home = self.elsewhere.get(name.text)
-        help_ = f'it is declared in {home}: write `import "{home.rpartition("/")[2]}"` at the top' if home else ""
+        home, near = self.elsewhere.get(name.text), tuple(candidates)
+        elsewhere = f'it is declared in {home}: write `import "{home.rpartition("/")[2]}"` at the top' if home else ""
+        otherwise = f"declare the {what}, or import the file that does"
         self.problems.append(
             Diagnostic(
                 f"unknown-{what}",
                 name.span,
                 f"there is no {what} `{name.text}`",
-                help=help_
-                or did_you_mean(name.text, candidates)
-                or f"declare the {what}, or import the file that does",
+                help=elsewhere or did_you_mean(name.text, near) or otherwise,
+                fix=None if home else correction(name, near),
             )
         )
 

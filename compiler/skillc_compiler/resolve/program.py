@@ -105,14 +105,14 @@ def _implementation_names(files: Sequence[ReadFile]) -> dict[str, list[str]]:
 def _implementations(files: Sequence[ReadFile], settings: Mapping[str, Setting]) -> Iterator[Implementation]:
     seen: set[tuple[str, str]] = set()
     for unit in files:
-        setting = settings[unit.file.path]
+        setting, lines = settings[unit.file.path], unit.text.splitlines()
         for declaration in unit.file.declarations:
             if not isinstance(declaration, s.ImplementationDeclaration):
                 continue
             of = setting.names.skill(declaration.skill)
             if of is not None and (of, declaration.name.text) not in seen:
                 seen.add((of, declaration.name.text))
-                yield implementation(setting, declaration, setting.skills[of], unit.text.splitlines())
+                yield implementation(setting, declaration, setting.skills[of], lines)
 
 
 def _tasks(files: Sequence[ReadFile], settings: Mapping[str, Setting]) -> Iterator[Task]:

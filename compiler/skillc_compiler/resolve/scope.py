@@ -9,9 +9,10 @@ from typing import Literal, TypeAlias
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program import Skill
 from skillc_compiler.resolve.names import Names
+from skillc_compiler.resolve.near import correction
 from skillc_compiler.types import UNKNOWN, Type
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.diagnostics import Diagnostic, Label, did_you_mean
 from skillc_dsl.source import Span
 
 Origin: TypeAlias = Literal["parameter", "out", "let", "output", "loop variable", "variable"]
@@ -55,6 +56,14 @@ class Setting:
     def report(self, name: str, span: Span, message: str, help: str = "", *labels: Label) -> None:
         """Note a problem."""
         self.names.problems.append(Diagnostic(name, span, message, help, labels=labels))
+
+    def report_unknown(
+        self, name: str, wrong: s.Name, message: str, candidates: Sequence[str], otherwise: str = "", *labels: Label
+    ) -> None:
+        """Note that a name means nothing; help is the names it is like, else `otherwise`."""
+        help_ = did_you_mean(wrong.text, candidates) or otherwise
+        fix = correction(wrong, candidates)
+        self.names.problems.append(Diagnostic(name, wrong.span, message, help_, labels=labels, fix=fix))
 
     def bind(self, scope: Scope, name: s.Name, variable: Variable) -> Scope:
         """Return the scope with a new name; a name that is taken is reported."""

@@ -10,7 +10,7 @@ from skillc_compiler.resolve.scope import Scope, Setting, Variable
 from skillc_compiler.resolve.typenames import value_type
 from skillc_compiler.types import of_library
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Label, did_you_mean
+from skillc_dsl.diagnostics import Label
 
 
 def skill(setting: Setting, written: s.SkillDeclaration) -> Skill:
@@ -81,9 +81,5 @@ def _devices(setting: Setting, written: s.SkillDeclaration, parameters: tuple[Pa
             if member.parameter.text in names:
                 yield member
                 continue
-            setting.report(
-                "unknown-parameter",
-                member.parameter.span,
-                f"the skill `{written.name.text}` has no parameter `{member.parameter.text}`",
-                did_you_mean(member.parameter.text, names),
-            )
+            message = f"the skill `{written.name.text}` has no parameter `{member.parameter.text}`"
+            setting.report_unknown("unknown-parameter", member.parameter, message, names)

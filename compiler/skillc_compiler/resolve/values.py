@@ -29,7 +29,6 @@ from skillc_compiler.types import (
     of_property,
 )
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import did_you_mean
 from skillc_dsl.units import NUMBER, dimension_of, to_si
 
 
@@ -53,6 +52,8 @@ def value(setting: Setting, scope: Scope, written: s.Value, wanted: Wanted = ANY
             whole = text.lstrip("-").isdigit()
             return Valued(Literal(int(number) if whole else number), INT if whole else Measure(NUMBER), span)
         case s.Text(value=text, span=span):
+            if wanted.values and text not in wanted.values:
+                _unknown_value(setting, s.Name(text, span), wanted)
             return Valued(Literal(text), TEXT, span)
         case s.Boolean(value=truth, span=span):
             return Valued(Literal(truth), BOOL, span)
@@ -85,24 +86,25 @@ def _reference(setting: Setting, scope: Scope, written: s.Reference, wanted: Wan
     if text in wanted.values:
         return Valued(Literal(text), TEXT, span)
     if wanted.values:
-        setting.report(
-            "unknown-value",
-            span,
-            f"`{text}` is no value of this property",
-            did_you_mean(text, wanted.values) or f"its values are {', '.join(wanted.values)}",
-        )
+        _unknown_value(setting, written.name, wanted)
     else:
         _unknown_name(setting, scope, written, wanted)
     return Valued(Variable(text), UNKNOWN, span)
 
 
+def _unknown_value(setting: Setting, name: s.Name, wanted: Wanted) -> None:
+    message = f"`{name.text}` is no value of this property"
+    setting.report_unknown("unknown-value", name, message, wanted.values, f"it is {' or '.join(wanted.values)}")
+
+
 def _unknown_name(setting: Setting, scope: Scope, written: s.Reference, wanted: Wanted) -> None:
     fitting = [n for n, v in scope.variables.items() if fits(setting.vocabulary, v.type, wanted.type)]
-    setting.report(
+    setting.report_unknown(
         "unknown-parameter",
-        written.span,
+        written.name,
         f"{scope.owner} has no parameter or other name `{written.name.text}`",
-        did_you_mean(written.name.text, fitting) or "an individual is written with its prefix: `lab:Board-1`",
+        fitting,
+        "an individual is written with its prefix: `lab:Board-1`",
     )
 
 
@@ -130,12 +132,8 @@ def _class_of(setting: Setting, written: s.Reference, iri: str, wanted: Wanted) 
     if iri in known:
         return Thing(known[iri])
     fitting = [other for other, cls in known.items() if fits(setting.vocabulary, Thing(cls), wanted.type)]
-    setting.report(
-        "unknown-individual",
-        written.span,
-        f"there is no `{written.name.text}` in the scene",
-        did_you_mean(written.name.text, map(setting.names.short, fitting)),
-    )
+    message = f"there is no `{written.name.text}` in the scene"
+    setting.report_unknown("unknown-individual", written.name, message, [setting.names.short(i) for i in fitting])
     return UNKNOWN
 
 
