@@ -144,15 +144,25 @@ class ArmDriver:
         return self._state.wrench if self._joints is not None else self._tool.contact_wrench
 
     @property
+    def commanded_stiffness(self) -> Array:
+        """The stiffness (6,) that skills want along the axes of the compliance frame, N/m and N m/rad."""
+        return self._tool.yielding.wanted.stiffness.copy()
+
+    @property
+    def commanded_wrench(self) -> Array:
+        """The wrench (6,) that the tool now exerts along the axes of the compliance frame, N and N m."""
+        return self._tool.yielding.compliance.wrench.copy()
+
+    @property
     def q(self) -> Array:
         """The measured joints (nv,) in rad."""
         return self._state.q.copy()
 
     @property
     def reference(self) -> Reference:
-        """Where the tool shall be now."""
+        """Where the tool shall be, as of the last control period."""
         if self._joints is None:
-            return moved(self._tool.guide.sample(self._now), self._base())
+            return moved(self._tool.reference, self._base())
         reference = self._joints.sample(self._now)
         tool, jacobian = self._tool_at(reference.q)
         return moved(Reference(tool, jacobian @ reference.dq, jacobian @ reference.ddq), self._base())

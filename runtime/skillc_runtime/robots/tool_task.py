@@ -8,6 +8,7 @@ from skillc_runtime.controllers.controller import Controller
 from skillc_runtime.controllers.gains import Gains
 from skillc_runtime.motion.guide import Guide
 from skillc_runtime.motion.pose import Array, Pose, log
+from skillc_runtime.motion.reference import at_rest
 from skillc_runtime.robots.arm import ArmState, Command
 from skillc_runtime.robots.yielding import Yielding
 
@@ -16,22 +17,28 @@ NEAR_M, NEAR_RAD = 0.005, 0.05
 
 
 class ToolTask:
-    """The guide says where, `yielding` how; the two change together when something is released or restored."""
+    """The guide says where, `yielding` how; the two change together when something is released or restored.
+
+    `reference` is that of the last control period.
+    """
 
     def __init__(self, gains: Gains, law: Controller, tool: Pose) -> None:
         self.guide = Guide(tool, gains.acceleration_limit)
         self.yielding = Yielding(gains)
         self._stiffness, self._force_limit = gains.linear_stiffness, gains.force_limit
         self._law = law
+        self.reference = at_rest(tool)
 
     def command(self, state: ArmState, now: float, period: float) -> Command:
         """Return what to tell the arm."""
-        return self._law.command(state, self.guide.sample(now), self.yielding.compliance, period)
+        self.reference = self.guide.sample(now)
+        return self._law.command(state, self.reference, self.yielding.compliance, period)
 
     def take_up(self, state: ArmState, q: Array, tool: Pose, twist: Array, now: float) -> None:
         """Begin from joints q (nv,), where the tool is at `tool` and moves with a twist (6,), and come to rest."""
         self._law.reset(state, q)
         self.guide.take_up(tool, twist, now)
+        self.reference = self.guide.sample(now)
 
     def retake(self, state: ArmState, q: Array, now: float) -> None:
         """Hold the tool where it is: its centre point was moved on the hand."""
