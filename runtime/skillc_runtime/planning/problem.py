@@ -9,7 +9,7 @@ import msgspec
 from skillc_compiler.library.conditions import Anything, Condition, Exists, Forall, Holds, Individual
 from skillc_compiler.library.pddl.domain import PlanningDomain
 from skillc_compiler.library.pddl.formulas import Formula, Typed
-from skillc_compiler.library.pddl.goals import ground_goal
+from skillc_compiler.library.pddl.goals import ground_goal, with_predicates_of
 from skillc_compiler.library.pddl.names import object_names
 from skillc_compiler.library.pddl.planning import planning_domain
 from skillc_compiler.library.pddl.problem import Problem
@@ -54,6 +54,8 @@ def pose_problem(library: SkillLibrary, state: WorldState, goal: Condition) -> P
     names = object_names(types, state.vocabulary, domain.names.keys() | {each.name for each in domain.predicates})
     objects = tuple(Typed(name, types[iri]) for name, iri in sorted(names.items()))
     by_iri = {iri: name for name, iri in names.items()}
+    ground = _ground(goal, library, domain, by_iri, state)
+    domain = with_predicates_of(ground, library, domain)
     initial = Initial(domain, state, objects, names)
     problem = Problem(
         name="task",
@@ -62,7 +64,7 @@ def pose_problem(library: SkillLibrary, state: WorldState, goal: Condition) -> P
         names=names,
         init=tuple(initial.atoms()),
         costs=tuple(initial.costs()),
-        goal=_ground(goal, library, domain, by_iri, state),
+        goal=ground,
     )
     return Posed(problem, library, tuple(initial.undecided))
 

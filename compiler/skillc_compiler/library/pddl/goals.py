@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import TypeAlias, assert_never
 
 from skillc_compiler.library.conditions import (
@@ -22,7 +23,7 @@ from skillc_compiler.library.conditions import (
     Same,
 )
 from skillc_compiler.library.pddl.domain import PlanningDomain, PropertyFact, RelationFact
-from skillc_compiler.library.pddl.formulas import FALSE, TRUE, Formula
+from skillc_compiler.library.pddl.formulas import FALSE, TRUE, Formula, atoms
 from skillc_compiler.library.pddl.hierarchy import Hierarchy
 from skillc_compiler.library.pddl.reading import replaced
 from skillc_compiler.library.pddl.relations import Relations
@@ -52,6 +53,16 @@ def ground_goal(
         return TRUE if holds(condition) else FALSE
 
     return Translator(symbols, settle, objects).formula(_ground(goal, symbols, members), {})
+
+
+def with_predicates_of(goal: Formula, library: SkillLibrary, domain: PlanningDomain) -> PlanningDomain:
+    """Return the domain with the predicates that only the goal speaks of, so that the problem initialises them."""
+    missing = {atom.predicate for atom in atoms(goal)} - domain.predicate.keys()
+    if not missing:
+        return domain
+    symbols = _symbols(library, domain)
+    extended = (*domain.predicates, *(symbols.predicate(name) for name in missing))
+    return replace(domain, predicates=tuple(sorted(extended, key=lambda each: each.name)))
 
 
 def _symbols(library: SkillLibrary, domain: PlanningDomain) -> Symbols:
