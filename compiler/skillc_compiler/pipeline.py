@@ -21,11 +21,14 @@ def compile(
     """Compile a library: read, resolve, check, lower; problems that only follow from a syntax error are not told.
 
     `sources` are the files of the library called `name`, `shelf` those that every library may import, by file name.
-    The result holds everything in which no error was found; diagnostics are in the order of the files and lines.
+    The result holds everything in which no error was found; diagnostics are in the order of the files and lines, those
+    of the shelf only where they are errors.
     """
     files = read(sources, shelf, name)
     program = resolve(files.value, vocabulary, name)
     found = (*program.diagnostics, *check(program.value))
     problems = (*files.diagnostics, *without_followers(found, files.diagnostics, files.value))
     library = lower(program.value, problems)
-    return Outcome(library, tuple(sorted(set(problems), key=lambda d: (d.span, d.name))))
+    own = {source.path for source in sources}
+    told = {problem for problem in problems if problem.severity == "error" or problem.span.path in own}
+    return Outcome(library, tuple(sorted(told, key=lambda d: (d.span, d.name))))

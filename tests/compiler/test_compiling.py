@@ -144,6 +144,17 @@ def test_only_what_is_imported_is_visible() -> None:
     assert found.value.skills["Use"].implementations == ("one", "two")
 
 
+def test_warnings_are_told_of_the_library_itself_only() -> None:
+    imported = Source(
+        "std/rest.skill", HEADER + 'skill Rest { in arm: ArmDevice }\nimpl one of Rest { run python "m:R" }\n'
+    )
+    own = Source("own.skill", 'use rparts\nimport "rest.skill"\nimpl two of Rest { run python "m:R" }\n')
+    outcome = compile([own], vocabulary(), {"rest.skill": imported}, "own")
+    assert [(d.name, d.span.path) for d in outcome.diagnostics] == [("unused-use", "own.skill")]
+    alone = compile([imported], vocabulary(), {}, "std")
+    assert {d.name for d in alone.diagnostics} == {"unused-use", "no-effect"}
+
+
 def test_imports_in_a_circle_are_told_and_both_files_are_read() -> None:
     skill = 'skill {0} {{ in arm: ArmDevice noplan }}\nimpl one of {0} {{ run python "m:One" }}\n'
     outcome = compiled('import "file2.skill"\n' + skill.format("A"), 'import "file1.skill"\n' + skill.format("B"))
