@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 
 from skillc_runtime.planning.fast_downward import installed
-from skillc_runtime.simulation.rendering import RenderingUnavailable, check_rendering
+from skillc_runtime.simulation.rendering import RenderingError, check_rendering
 
 REQUIRED = ("lark", "msgspec", "pyoxigraph", "pddl", "numpy", "mujoco", "matplotlib", "rich", "click")
 
@@ -51,7 +51,7 @@ def _planner() -> Finding:
 def _rendering() -> Finding:
     try:
         return Finding("GL library", True, check_rendering(), "runs are filmed")
-    except RenderingUnavailable as error:
+    except RenderingError as error:
         return Finding("GL library", False, "", str(error))
 
 

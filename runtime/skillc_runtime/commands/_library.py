@@ -33,7 +33,10 @@ class LibraryFiles:
 
     def shown(self, path: str) -> str:
         """Return a source's path as a user can open it from here."""
-        file = SHIPPED / path if path.startswith("std/") else self.root / path
+        if path.startswith("std/"):
+            file = SHIPPED / path
+        else:
+            file = catalogue.ROOT / path if path.endswith(".ttl") else self.root / path
         here = Path.cwd()
         return str(file.relative_to(here) if file.is_relative_to(here) else file)
 

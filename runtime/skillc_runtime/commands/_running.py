@@ -19,8 +19,8 @@ from skillc_runtime.report.summary import Choices, summarise
 from skillc_runtime.report.wiping import find_wiping
 from skillc_runtime.report.write import write_report
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.film import Film, FilmUnavailable
-from skillc_runtime.simulation.rendering import RenderingUnavailable
+from skillc_runtime.simulation.film import Film, FilmError
+from skillc_runtime.simulation.rendering import RenderingError
 from skillc_runtime.simulation.sheet import SheetError
 from skillc_runtime.task import Execution, Prepared, execute, prepare
 from skillc_runtime.trace.events import Listener
@@ -83,7 +83,7 @@ def _report(directory: Path, result: TaskResult, execution: Execution, choices: 
         if film is not None:
             try:
                 filmed = film.write(directory / "film.mp4").name
-            except (FilmUnavailable, RenderingUnavailable) as error:
+            except (FilmError, RenderingError) as error:
                 click.echo(f"no film: {error}", err=True)
         write_report(directory, result, execution, wiping, filmed)
 

@@ -18,28 +18,25 @@ PATH_SKILL = "FollowPath"
 
 @dataclass(frozen=True, slots=True)
 class Wiping:
-    """A stretch of a run in which a tool followed a path on a surface: IRIs, start and end in s of the cell's clock."""
+    """A tool followed a path on a surface from `start` to `end`, in a skill that `began` before; IRIs, s."""
 
     surface: str
     tool: str
+    began: float
     start: float
     end: float
 
 
 def find_wiping(tree: Outcome, choices: Mapping[int, ImplementationChosen], cell: SimulatedCell) -> Wiping | None:
     """Return the last call with a surface and a tool below which a path was followed to its end; None without one."""
-    vocabulary = cell.world.snapshot().vocabulary
+    expand = cell.world.snapshot().vocabulary.expand
     found: Wiping | None = None
     for node in _nodes(tree):
         bindings = choices[node.id].bindings if node.id in choices else {}
         if "surface" not in bindings or "tool" not in bindings:
             continue
-        for path in _nodes(node):
-            if path.name == PATH_SKILL and path.status == "success":
-                assert path.started is not None
-                assert path.ended is not None
-                surface, tool = prefixes.expand(bindings["surface"]), prefixes.expand(bindings["tool"])
-                found = Wiping(surface, tool, path.started, path.ended)
+        for start, end in _paths(node, choices):
+            found = Wiping(expand(bindings["surface"]), expand(bindings["tool"]), node.started or 0.0, start, end)
     return found
 
 
@@ -58,7 +55,8 @@ def described(wiping: Wiping, cell: SimulatedCell) -> Wiped:
 
 def judge(wiping: Wiping, cell: SimulatedCell) -> WipingResult:
     """Measure how good the wiping was."""
-    metrics = wiping_metrics(cell.recording(wiping.tool), wiping.start, wiping.end, described(wiping, cell))
+    recording = cell.recording(wiping.tool).between(wiping.began, wiping.end)
+    metrics = wiping_metrics(recording, wiping.start, wiping.end, described(wiping, cell))
     return WipingResult(
         coverage=metrics.coverage,
         force_command_n=metrics.force_command_n,
@@ -70,6 +68,15 @@ def judge(wiping: Wiping, cell: SimulatedCell) -> WipingResult:
         first_impact_n=metrics.first_impact_n,
         lane_dwell_s=metrics.lane_dwell_s,
     )
+
+
+def _paths(node: Outcome, choices: Mapping[int, ImplementationChosen]) -> Iterator[tuple[float, float]]:
+    """Yield when each path below a node that was followed to its end began and ended."""
+    for each in _nodes(node):
+        choice = choices.get(each.id)
+        followed = choice is not None and choice.skill == PATH_SKILL and each.status == "success"
+        if followed and each.started is not None and each.ended is not None:
+            yield each.started, each.ended
 
 
 def _nodes(node: Outcome) -> Iterator[Outcome]:

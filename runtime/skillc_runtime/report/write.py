@@ -28,7 +28,8 @@ def write_report(
 
 def pictures_of(wiping: Wiping, cell: SimulatedCell) -> list[Picture]:
     """Draw the path with what was wiped, and the force."""
-    recording, wiped = cell.recording(wiping.tool), described(wiping, cell)
+    recording = cell.recording(wiping.tool).between(wiping.began, wiping.end)
+    wiped = described(wiping, cell)
     window = recording.between(wiping.start, wiping.end)
     frame = wiped.surface.inverse()
     paths = (

@@ -13,15 +13,15 @@ from skillc_runtime.motion.pose import Array
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.rendering import Picture, Renderer
 
-FRAMES_PER_S = 20
+FRAMES_PER_S = 12
 SPEED_UP = 4
 """How much faster than the run the film is."""
 
-WIDTH, HEIGHT = 640, 480
+WIDTH, HEIGHT = 480, 360
 AZIMUTH_DEG, ELEVATION_DEG, DISTANCE_M = 130.0, -20.0, 2.4
 
 
-class FilmUnavailable(RuntimeError):
+class FilmError(RuntimeError):
     """The film cannot be written here; the message says what is missing."""
 
 
@@ -39,11 +39,11 @@ class Film:
             self._frames.append((data.qpos.copy(), data.mocap_pos.copy(), data.mocap_quat.copy()))
 
     def write(self, path: Path) -> Path:
-        """Draw all frames and write them as MP4; FilmUnavailable or RenderingUnavailable where that is not possible."""
+        """Draw all frames and write them as MP4; FilmError or RenderingError where that is not possible."""
         try:
             import av
         except ImportError as error:
-            raise FilmUnavailable("films need PyAV: pip install 'skillc[video]'") from error
+            raise FilmError("films need PyAV: pip install 'skillc[video]'") from error
         with av.open(str(path), "w", format="mp4") as container:
             stream: Any = container.add_stream("libx264", rate=FRAMES_PER_S)
             stream.width, stream.height, stream.pix_fmt = WIDTH, HEIGHT, "yuv420p"

@@ -12,16 +12,19 @@ from numpy.typing import NDArray
 
 Picture = NDArray[np.uint8]
 
+SAMPLES = 2
+"""Samples a pixel: where a processor draws, each costs as much as a picture."""
+
 PLATFORMS = {"EGL": "egl", "OSMesa": "osmesa"}
 """GL libraries that draw without a screen, and what PyOpenGL calls them."""
 
 
-class RenderingUnavailable(RuntimeError):
+class RenderingError(RuntimeError):
     """There is no GL library that draws off screen; the message says how to get one."""
 
 
 def check_rendering() -> str:
-    """Draw one picture and return the name of the GL library that did; RenderingUnavailable where none can."""
+    """Draw one picture and return the name of the GL library that did; RenderingError where none can."""
     renderer = Renderer(mujoco.MjModel.from_xml_string("<mujoco/>"), 16, 16)
     renderer.close()
     return renderer.library
@@ -30,7 +33,7 @@ def check_rendering() -> str:
 class Renderer:
     """Draws a model's states, width x height pixels, from a camera that looks at a point.
 
-    RenderingUnavailable when there is no GL library.
+    RenderingError when there is no GL library.
     """
 
     def __init__(self, model: Any, width: int, height: int) -> None:
@@ -38,10 +41,13 @@ class Renderer:
         self.library, context = _context(width, height)
         self._context = context
         self._context.make_current()
+        model.vis.quality.offsamples = SAMPLES
         model.vis.global_.offwidth, model.vis.global_.offheight = width, height
         self._gl = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._gl)
         self._scene = mujoco.MjvScene(model, maxgeom=2000)
+        for costly in (mujoco.mjtRndFlag.mjRND_SHADOW, mujoco.mjtRndFlag.mjRND_REFLECTION):
+            self._scene.flags[costly] = False
         self.camera = mujoco.MjvCamera()
 
     def look_at(self, point: NDArray[np.float64], distance: float, azimuth_deg: float, elevation_deg: float) -> None:
@@ -78,7 +84,7 @@ def _context(width: int, height: int) -> tuple[str, Any]:
         except (ImportError, AttributeError, RuntimeError) as error:
             reasons.append(f"{library}: {error}")
     tried = f" ({'; '.join(reasons)})" if reasons else ""
-    raise RenderingUnavailable(f"no GL library draws off screen{tried}; on Debian: apt install libegl1 libgl1-mesa-dri")
+    raise RenderingError(f"no GL library draws off screen{tried}; on Debian: apt install libegl1 libgl1-mesa-dri")
 
 
 def _made(library: str, width: int, height: int) -> Any:
