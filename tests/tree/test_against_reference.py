@@ -16,7 +16,7 @@ TICKS = 40
 
 
 @given(plays())
-@settings(max_examples=400, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
+@settings(max_examples=250, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 def test_the_engine_agrees_with_the_reference(play: Play) -> None:
     statuses, log, failure = by_reference(play)
     stage = Stage(world(), play.scripts)

@@ -20,7 +20,8 @@ class ParallelNode(Node):
     def begin(self) -> Status:
         self._running: list[Strand] = []
         self._started = 0
-        for self._started, child in enumerate(self.children, start=1):
+        for child in self.children:
+            self._started += 1
             strand = Strand(child)
             if strand.start() is RUNNING:
                 self._running.append(strand)
