@@ -14,7 +14,7 @@ from skillc_compiler.emit.bt_names import Names, legal
 from skillc_compiler.emit.bt_nodes import Body, is_tree
 from skillc_compiler.emit.bt_skills import implementation_tree, skill_tree
 from skillc_compiler.emit.headers import XML_DECLARATION
-from skillc_compiler.library.pddl.reading import walk
+from skillc_compiler.library.reading import walk
 from skillc_compiler.library.skills import Compound, Skill, SkillLibrary, Task
 from skillc_compiler.library.tree import Call, Node
 

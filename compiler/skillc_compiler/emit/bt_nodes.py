@@ -15,7 +15,7 @@ from skillc_compiler.emit.bt_model import Kind, Model, Port
 from skillc_compiler.emit.bt_names import Names, port
 from skillc_compiler.emit.phrases import expression_text, literal_text
 from skillc_compiler.library.conditions import Condition, Expression, Individual, Literal, Variable
-from skillc_compiler.library.pddl.reading import free_variables
+from skillc_compiler.library.reading import free_variables_in_order
 from skillc_compiler.library.skills import Compound, Parameter, Post, Skill, SkillLibrary
 from skillc_compiler.library.tree import (
     Apply,
@@ -109,7 +109,7 @@ class Body:
     def condition(self, path: tuple[str, ...], condition: Condition, text: str, source: Position) -> Element:
         """Return the test of a condition, declared as a node of its own."""
         identity = self.names.of(*path)
-        variables = free_variables(condition)
+        variables = free_variables_in_order(condition)
         self.model.declare("Condition", identity, [Port(port(name)) for name in variables], text)
         return _node("Condition", identity, {port(name): f"{{{port(name)}}}" for name in variables}, source)
 
@@ -211,7 +211,7 @@ class Body:
 
     def _apply(self, post: Post) -> Element:
         identity = self.names.of(self.owner[0], "apply", post.label)
-        variables = free_variables(post.condition)
+        variables = free_variables_in_order(post.condition)
         self.model.declare("Action", identity, [Port(port(name)) for name in variables], f"Writes: {post.text}")
         return _node("Action", identity, {port(name): f"{{{port(name)}}}" for name in variables}, post.source)
 

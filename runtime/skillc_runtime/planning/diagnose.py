@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from skillc_compiler.library.conditions import Assign, Condition
 from skillc_compiler.library.pddl.domain import Action
 from skillc_compiler.library.pddl.formulas import FALSE, Atom, Formula, conjunction, conjuncts
-from skillc_compiler.library.pddl.reading import terms_read
+from skillc_compiler.library.reading import terms_read
 from skillc_compiler.library.skills import Skill
 from skillc_runtime.planning.grounding import Grounding
 from skillc_runtime.planning.problem import Posed

@@ -13,8 +13,8 @@ from skillc_compiler.library.pddl.goals import ground_goal, with_predicates_of
 from skillc_compiler.library.pddl.names import object_names
 from skillc_compiler.library.pddl.planning import planning_domain
 from skillc_compiler.library.pddl.problem import Problem
-from skillc_compiler.library.pddl.reading import walk
 from skillc_compiler.library.pddl.translate import Untranslatable
+from skillc_compiler.library.reading import walk
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_runtime.planning.initial import Initial

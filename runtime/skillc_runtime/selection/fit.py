@@ -6,11 +6,11 @@ import re
 from collections.abc import Mapping, Set
 from dataclasses import dataclass
 
+from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Implementation, Parameter, Post, Requirement
 from skillc_runtime.selection.arguments import problem_with
 from skillc_runtime.selection.describe import bindings_text
 from skillc_runtime.selection.inferred import Inferred, infer_parameters
-from skillc_runtime.selection.reads import variables
 from skillc_runtime.trace.failure import Rejected, Stage
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.explain import explain
@@ -114,7 +114,7 @@ def bind_defaults(
         default = parameter.default
         if default is None or parameter.name in bindings or parameter.name in passed:
             continue
-        if bindings.keys() >= variables(default):
+        if bindings.keys() >= free_variables(default):
             bindings[parameter.name] = value_of(default, state, bindings)
 
 

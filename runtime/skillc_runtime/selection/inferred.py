@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
 
+from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Implementation, Parameter, Requirement
 from skillc_compiler.library.vocabulary import ClassType, Vocabulary
 from skillc_runtime.trace.failure import Rejected
@@ -13,7 +14,6 @@ from skillc_runtime.world.explain import explain
 from skillc_runtime.world.inference import Ambiguous, Binding, Found, NoneFound, infer
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
-from skillc_runtime.world.variables import free_variables
 
 
 @dataclass(frozen=True, slots=True)

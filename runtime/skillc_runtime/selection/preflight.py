@@ -8,19 +8,19 @@ from typing import assert_never
 
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Condition, Expression
+from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Compound, Implementation, Primitive, SkillLibrary
 from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.selection.fit import bind_arguments, bind_defaults
 from skillc_runtime.selection.inferred import infer_fixed
 from skillc_runtime.selection.python import PrimitiveError, fitting_class
-from skillc_runtime.selection.reads import changing_terms, has_fixed_value, is_fixed, variables
+from skillc_runtime.selection.reads import changing_terms, has_fixed_value, is_fixed
 from skillc_runtime.selection.select import candidates, why_none
 from skillc_runtime.trace.failure import Rejected
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.expressions import EvaluationError, value_of
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
-from skillc_runtime.world.variables import free_variables
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,7 +142,7 @@ class _Preflight:
         values: dict[str, Value] = {}
         for name, expression in expressions.items():
             fixed = has_fixed_value(expression, self._changing, self._state.vocabulary)
-            if fixed and known.keys() >= variables(expression):
+            if fixed and known.keys() >= free_variables(expression):
                 try:
                     values[name] = value_of(expression, self._state, known)
                 except EvaluationError:

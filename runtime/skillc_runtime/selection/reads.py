@@ -30,23 +30,6 @@ from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Vocabulary
 
 
-def variables(expression: Expression) -> frozenset[str]:
-    """Return the names an expression reads."""
-    match expression:
-        case Variable(name=name):
-            return frozenset((name,))
-        case PropertyOf(of=of):
-            return variables(of)
-        case Arithmetic(left=left, right=right):
-            return variables(left) | variables(right)
-        case Invoke(arguments=arguments):
-            return frozenset[str]().union(*(variables(argument) for argument in arguments))
-        case Literal() | Individual():
-            return frozenset()
-        case _:
-            assert_never(expression)
-
-
 def changing_terms(library: SkillLibrary) -> frozenset[str]:
     """Return the relations and properties that some skill changes, with the relations that change with them."""
     changing: set[str] = set()

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from skillc_compiler.library.conditions import Condition, Exists
+from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Parameter, Requirement
 from skillc_compiler.library.vocabulary import ClassType
 from skillc_runtime.world.explain import explain
 from skillc_runtime.world.expressions import Bindings, EvaluationError
 from skillc_runtime.world.join import solutions
 from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.variables import free_variables
 
 Binding: TypeAlias = dict[str, str]
 """Individuals by parameter name."""

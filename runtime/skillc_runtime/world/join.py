@@ -6,11 +6,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from skillc_compiler.library.conditions import And, Anything, Condition, Holds, Individual, Term, Variable
+from skillc_compiler.library.reading import free_variables
 from skillc_runtime.world.conditions import Test, compile_condition
 from skillc_runtime.world.expressions import Bindings
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
-from skillc_runtime.world.variables import free_variables
 
 
 def solutions(

@@ -8,8 +8,9 @@ from skillc_compiler.library.conditions import Expression
 from skillc_compiler.library.pddl.domain import ComputedCost, Cost, CostFunction, FixedCost
 from skillc_compiler.library.pddl.names import fresh, kebab
 from skillc_compiler.library.pddl.parameters import Defaults
-from skillc_compiler.library.pddl.reading import constant, free_variables, replaced
+from skillc_compiler.library.pddl.rewriting import constant, replaced
 from skillc_compiler.library.pddl.translate import Scope, Untranslatable
+from skillc_compiler.library.reading import free_variables_in_order
 from skillc_compiler.library.skills import Skill
 
 UNITS_PER_SECOND = 10.0
@@ -34,7 +35,7 @@ def action_cost(
     seconds = constant(duration)
     if seconds is not None:
         return FixedCost(units(seconds)), None
-    variables = free_variables(duration)
+    variables = free_variables_in_order(duration)
     for name in variables:
         if name not in scope:
             raise Untranslatable(f"its duration reads `{name}`, which a planner does not bind")

@@ -25,8 +25,8 @@ from skillc_compiler.library.conditions import (
 from skillc_compiler.library.pddl.domain import PlanningDomain, PropertyFact, RelationFact
 from skillc_compiler.library.pddl.formulas import FALSE, TRUE, Formula, atoms
 from skillc_compiler.library.pddl.hierarchy import Hierarchy
-from skillc_compiler.library.pddl.reading import replaced
 from skillc_compiler.library.pddl.relations import Relations
+from skillc_compiler.library.pddl.rewriting import replaced
 from skillc_compiler.library.pddl.symbols import Symbols
 from skillc_compiler.library.pddl.translate import Scope, Translator
 from skillc_compiler.library.skills import SkillLibrary

@@ -9,8 +9,9 @@ from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.pddl.domain import GuardFact, Predicate
 from skillc_compiler.library.pddl.formulas import Atom, Formula
 from skillc_compiler.library.pddl.names import fresh, kebab
-from skillc_compiler.library.pddl.reading import free_variables, is_plain
+from skillc_compiler.library.pddl.rewriting import is_plain
 from skillc_compiler.library.pddl.translate import Scope, Settle, Untranslatable
+from skillc_compiler.library.reading import free_variables_in_order
 
 
 @dataclass
@@ -30,7 +31,7 @@ class Guards:
         return settle
 
     def _guard(self, label: str, condition: Condition, scope: Scope) -> Atom:
-        variables = free_variables(condition)
+        variables = free_variables_in_order(condition)
         for name in variables:
             if name not in scope:
                 raise Untranslatable(f"reads `{name}`, which a planner does not bind")

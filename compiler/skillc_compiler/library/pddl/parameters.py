@@ -9,7 +9,7 @@ from skillc_compiler.library.conditions import Condition, Expression
 from skillc_compiler.library.pddl.formulas import Typed
 from skillc_compiler.library.pddl.hierarchy import Hierarchy
 from skillc_compiler.library.pddl.names import variable
-from skillc_compiler.library.pddl.reading import decided, replaced
+from skillc_compiler.library.pddl.rewriting import decided, replaced
 from skillc_compiler.library.pddl.translate import Place, Untranslatable
 from skillc_compiler.library.skills import Parameter
 from skillc_compiler.library.vocabulary import ClassType

@@ -43,8 +43,8 @@ from skillc_compiler.library.pddl.formulas import (
     disjunction,
 )
 from skillc_compiler.library.pddl.names import variable
-from skillc_compiler.library.pddl.reading import terms_read
 from skillc_compiler.library.pddl.symbols import Symbols
+from skillc_compiler.library.reading import terms_read
 
 
 class Untranslatable(Exception):  # noqa: N818  (an answer about a skill, not an accident)

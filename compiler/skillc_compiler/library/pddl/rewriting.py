@@ -1,8 +1,8 @@
-"""Looking through conditions and expressions: what they read, which variables are free, and values for variables."""
+"""Rewriting conditions and expressions: values for variables, answers for `given`, constants."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import TypeVar, assert_never
 
 import msgspec
@@ -30,46 +30,10 @@ from skillc_compiler.library.conditions import (
     Term,
     Variable,
 )
+from skillc_compiler.library.reading import walk
 
 T = TypeVar("T", bound=Condition | Expression | Term)
 ALWAYS, NEVER = And(()), Or(())
-
-
-def walk(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
-    """Yield a condition or expression and everything inside it."""
-    yield item
-    for part in _inside(item):
-        yield from walk(part)
-
-
-def _inside(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
-    for name in item.__struct_fields__:
-        value = getattr(item, name)
-        yield from (
-            part for part in (value if isinstance(value, tuple) else (value,)) if isinstance(part, msgspec.Struct)
-        )
-
-
-def terms_read(condition: Condition) -> frozenset[str]:
-    """Return the IRIs of the relations and properties that decide whether the condition holds."""
-    read: set[str] = set()
-    for each in walk(condition):
-        match each:
-            case Holds(relation=iri) | HasProperty(property=iri) | PropertyOf(property=iri):
-                read.add(iri)
-    return frozenset(read)
-
-
-def free_variables(item: Condition | Expression) -> tuple[str, ...]:
-    """Return the variables that stand for values from outside, in the order in which they first occur."""
-    return tuple(dict.fromkeys(_free(item)))
-
-
-def _free(item: msgspec.Struct) -> Iterator[str]:
-    if isinstance(item, Variable):
-        yield item.name
-    bound = item.variable if isinstance(item, Exists | Forall) else None
-    yield from (name for part in _inside(item) for name in _free(part) if name != bound)
 
 
 def has(item: Condition, *kinds: type[msgspec.Struct]) -> bool:

@@ -1,0 +1,61 @@
+"""Looking into conditions and expressions: what they are made of, what they read, which names they leave open."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+
+import msgspec
+
+from skillc_compiler.library.conditions import (
+    Condition,
+    Exists,
+    Expression,
+    Forall,
+    HasProperty,
+    Holds,
+    PropertyOf,
+    Variable,
+)
+
+
+def walk(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
+    """Yield a condition or expression and everything inside it."""
+    yield item
+    for part in _inside(item):
+        yield from walk(part)
+
+
+def terms_read(condition: Condition) -> frozenset[str]:
+    """Return the IRIs of the relations and properties that decide whether the condition holds."""
+    read: set[str] = set()
+    for each in walk(condition):
+        match each:
+            case Holds(relation=iri) | HasProperty(property=iri) | PropertyOf(property=iri):
+                read.add(iri)
+    return frozenset(read)
+
+
+@lru_cache(maxsize=4096)
+def free_variables(item: Condition | Expression) -> frozenset[str]:
+    """Return the variables whose values come from outside."""
+    return frozenset(_free(item))
+
+
+def free_variables_in_order(item: Condition | Expression) -> tuple[str, ...]:
+    """Return the same in the order in which they first occur."""
+    return tuple(dict.fromkeys(_free(item)))
+
+
+def _free(item: msgspec.Struct) -> Iterator[str]:
+    if isinstance(item, Variable):
+        yield item.name
+    bound = item.variable if isinstance(item, Exists | Forall) else None
+    yield from (name for part in _inside(item) for name in _free(part) if name != bound)
+
+
+def _inside(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
+    for name in item.__struct_fields__:
+        value = getattr(item, name)
+        parts = value if isinstance(value, tuple) else (value,)
+        yield from (part for part in parts if isinstance(part, msgspec.Struct))
