@@ -305,6 +305,7 @@ class ArmDriver:
 
     def _move_tool(self) -> None:
         """Hand over from joint to tool control: the tool goes on as the joints moved it."""
+        self._take_in(self._arm.state())
         if self._joints is None:
             return
         reference = self._joints.sample(self._now)
