@@ -13,6 +13,13 @@ from skillc_runtime.robots.tools import working_face
 from skillc_runtime.simulation.facts import ArmFacts, GripperFacts, ToolFacts
 from skillc_runtime.simulation.names import face_sensor, part, wrist_sensor
 
+WRIST_SENSORS = (
+    ("force", mujoco.mjtSensor.mjSENS_FORCE),
+    ("torque", mujoco.mjtSensor.mjSENS_TORQUE),
+    ("acceleration", mujoco.mjtSensor.mjSENS_ACCELEROMETER),
+)
+"""What a wrist measures, in this order."""
+
 TOUCH_MARGIN_M = 0.01
 """How far the zone of a tool's touch sensor reaches beyond its working geom, so that pressed-in contacts count."""
 
@@ -72,7 +79,7 @@ def _add_gripper(spec: Any, names: Mapping[str, str], arm: ArmFacts, gripper: Gr
     model.body("palm").add_site(name="wrist")
     spec.attach(model, prefix=part(name, ""), site=spec.site(part(names[arm.individual], "flange")))
     if arm.force_torque:
-        for quantity, kind in (("force", mujoco.mjtSensor.mjSENS_FORCE), ("torque", mujoco.mjtSensor.mjSENS_TORQUE)):
+        for quantity, kind in WRIST_SENSORS:
             _add_sensor(spec, wrist_sensor(name, quantity), kind, part(name, "wrist"))
 
 

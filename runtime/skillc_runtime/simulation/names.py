@@ -24,10 +24,10 @@ def weld(gripper: str, tool: str) -> str:
 
 
 def wrist_sensor(gripper: str, quantity: str) -> str:
-    """Return the name of a gripper's wrist sensor for `force` or `torque`, and of its site for `site`."""
+    """Return the name of a gripper's wrist sensor for `force`, `torque` or `acceleration`."""
     return f"{gripper}/wrist/{quantity}"
 
 
 def face_sensor(tool: str, quantity: str) -> str:
-    """Return the name of a sensor at a tool's working face, and of its site for `site`."""
+    """Return the name of a sensor at a tool's working face."""
     return f"{tool}/face/{quantity}"
