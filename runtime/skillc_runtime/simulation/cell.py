@@ -52,7 +52,6 @@ class SimulatedCell:
             for tool in facts.tools
         }
         self._camera = SimulatedCamera(self.coverage)
-        self.marks: list[tuple[float, str]] = []
 
     @property
     def now(self) -> float:
@@ -88,10 +87,6 @@ class SimulatedCell:
     def true_pose(self, surface: SurfaceFacts) -> Pose:
         """Return where a surface really is, in the world."""
         return self.variation.of(surface.individual).true_pose(surface.pose)
-
-    def mark(self, name: str) -> None:
-        """Remember that something named begins or ends now."""
-        self.marks.append((self.now, name))
 
     def recording(self, tool: str) -> Recording:
         """Return what was recorded of a tool, by IRI, while it was held; KeyError where the cell has no such tool."""

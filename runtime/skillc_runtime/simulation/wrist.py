@@ -15,9 +15,10 @@ from skillc_runtime.simulation.names import part, wrist_sensor
 class Wrist:
     """The sensor between flange and gripper.
 
-    MuJoCo reports what the parent does to the child: a hanging child of 2 kg reads +20 N upwards. An accelerometer beside
-    the sensor reads s = a - g. With the masses m at c, relative to the sensor S: f_ext = m s - f_S, t_ext = c x m s - t_S,
-    at the tool centre point p: t_ext - p x f_ext. So weight and inertia are removed at once, but for that of turning.
+    MuJoCo reports what the parent does to the child: a hanging child of 2 kg reads +20 N upwards. An accelerometer
+    beside the sensor reads s = a - g. With masses m at c, relative to the sensor S: f_ext = m s - f_S,
+    t_ext = c x m s - t_S, at the tool centre point p: t_ext - p x f_ext. So weight and inertia are removed at once,
+    but for the inertia of turning.
     """
 
     def __init__(self, model: Any, data: Any, gripper: str, time_constant_s: float) -> None:
