@@ -54,14 +54,15 @@ class SimulatedArm:
         self._link_position, self._link_rotation = data.xpos[self._link], data.xmat[self._link].reshape(3, 3)
         self.limits = _limits(model, joints, actuator, facts)
         self.fixed_tool = _fixed_tool(model, name, gripper)
-        self._tool, self.payload = self.fixed_tool, NO_PAYLOAD
         self._both = np.zeros((2, 3, model.nv))
         self._both_arm = self._both[:, :, self._dofs]
         self._jacobian, self._mass = np.zeros((6, count)), np.zeros((count, count))
         self._jacobian_halves = self._jacobian.reshape(2, 3, count)
         self._full_mass, self._next_mass_time = np.zeros((model.nv, model.nv)), 0.0
         self._load, self._gravity, self._compensated = np.zeros(6), model.opt.gravity.copy(), np.zeros(count)
+        self._flange = _in_body(model.site(part(name, "flange")))
         self._wrist = _wrist(facts, gripper, model, data)
+        self._configure(NO_PAYLOAD, self.fixed_tool)
         self._still = np.zeros(6)
         self._increment, self._steps_left, self._steps_per_command = np.zeros(count), 0, steps_per_command
         self._q[:] = facts.home
@@ -80,31 +81,27 @@ class SimulatedArm:
 
     def state(self) -> ArmState:
         """Return the present state, in the arm's base frame."""
-        turn = self._base_rotation.T
-        hand, placed = self._link_rotation, self._tool
-        point = hand @ placed.position
+        turn, link, placed = self._base_rotation.T, self._link_rotation, self._tool
+        point = link @ placed.position
         point += self._link_position
         mujoco.mj_jac(self._model, self._data, self._both[0], self._both[1], point, self._link)
         np.matmul(turn, self._both_arm, out=self._jacobian_halves)
         if self._data.time >= self._next_mass_time:
             self._update_mass_matrix()
+        hand = turn @ link
         bias = self._bias.copy()
         if self.payload.mass_kg > 0.0:
-            bias += self._payload_weight(turn, point)
+            bias += self._payload_weight(turn, hand)
         self._compensated = bias
         return ArmState(
             q=self._q.copy(),
             dq=self._dq.copy(),
-            tool=Pose(turn @ (point - self._base_position), turn @ hand @ placed.rotation),
+            tool=Pose(turn @ (point - self._base_position), hand @ placed.rotation),
             jacobian=self._jacobian,
             mass_matrix=self._mass,
             bias=bias,
-            wrench=self._still if self._wrist is None else self._wrist.external(point, turn, self.payload_at()),
+            wrench=self._still if self._wrist is None else self._wrist.external(hand @ self._flange.rotation),
         )
-
-    def payload_at(self) -> tuple[float, Array]:
-        """Return the payload's mass in kg and its centre of mass (3,) m in the world."""
-        return self.payload.mass_kg, self._link_position + self._link_rotation @ self.payload.centre
 
     def command(self, command: Command) -> None:
         """Take a command for the next step; TypeError for a kind the interface does not take."""
@@ -134,31 +131,35 @@ class SimulatedArm:
 
     def carry(self, payload: Payload, tool_in_fixed: Pose) -> None:
         """Configure what the gripper holds: its weight, and the tool centre point relative to the gripper's own."""
-        self.payload, self._tool = payload, self.fixed_tool @ tool_in_fixed
-        self._next_mass_time = 0.0
+        self._configure(payload, self.fixed_tool @ tool_in_fixed)
 
     def carry_nothing(self) -> None:
         """Configure the empty gripper."""
-        self.payload, self._tool = NO_PAYLOAD, self.fixed_tool
-        self._next_mass_time = 0.0
+        self._configure(NO_PAYLOAD, self.fixed_tool)
 
-    def _payload_weight(self, turn: Array, point: Array) -> Array:
+    def _configure(self, payload: Payload, tool: Pose) -> None:
+        self.payload, self._tool, self._next_mass_time = payload, tool, 0.0
+        self._lever = payload.centre - tool.position
+        if self._wrist is not None:
+            to_sensor = self._flange.inverse()
+            self._wrist.configure(to_sensor @ tool, payload.mass_kg, to_sensor.at(payload.centre))
+
+    def _payload_weight(self, turn: Array, hand: Array) -> Array:
         """Return the joint torques (nv,) that carry the payload: J^T [w; r x w], w = -m g at r from the tool centre."""
-        mass, centre = self.payload_at()
-        lift, lever = turn @ (-mass * self._gravity), turn @ (centre - point)
+        lift = turn @ (-self.payload.mass_kg * self._gravity)
         self._load[:3] = lift
-        mujoco.mju_cross(self._load[3:], lever, lift)
+        mujoco.mju_cross(self._load[3:], hand @ self._lever, lift)
         return np.asarray(self._load @ self._jacobian)
 
     def _update_mass_matrix(self) -> None:
         mujoco.mj_fullM(self._model, self._data, self._full_mass)
         self._mass[:] = self._full_mass[self._dofs, self._dofs]
-        mass, point = self.payload_at()
-        if mass > 0.0:
+        if self.payload.mass_kg > 0.0:
+            centre = self._link_position + self._link_rotation @ self.payload.centre
             at_centre = np.zeros((3, self._model.nv))
-            mujoco.mj_jac(self._model, self._data, at_centre, None, point, self._link)
+            mujoco.mj_jac(self._model, self._data, at_centre, None, centre, self._link)
             jacobian = at_centre[:, self._dofs]
-            self._mass += mass * jacobian.T @ jacobian
+            self._mass += self.payload.mass_kg * jacobian.T @ jacobian
         self._next_mass_time = self._data.time + MASS_MATRIX_PERIOD_S - 1e-9
 
 
@@ -177,12 +178,12 @@ def _root_body(model: Any, body: int, prefix: str) -> int:
 
 def _fixed_tool(model: Any, name: str, gripper: str | None) -> Pose:
     """Return the gripper's own tool centre point, or the flange of an arm without gripper, in the last link's frame."""
-    flange = model.site(part(name, "flange"))
-    in_link = Pose.of(flange.pos, flange.quat)
-    if gripper is None:
-        return in_link
-    tcp = model.site(part(gripper, "tcp"))
-    return in_link @ Pose.of(tcp.pos, tcp.quat)
+    flange = _in_body(model.site(part(name, "flange")))
+    return flange if gripper is None else flange @ _in_body(model.site(part(gripper, "tcp")))
+
+
+def _in_body(site: Any) -> Pose:
+    return Pose.of(site.pos, site.quat)
 
 
 def _limits(model: Any, joints: list[int], actuator: int, facts: ArmFacts) -> ArmLimits:
