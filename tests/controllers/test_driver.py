@@ -302,6 +302,22 @@ def test_taking_hold_of_a_tool_moves_nothing(robot):
     assert np.abs(driver.reference.pose.position - driver.pose.position).max() < 1e-4
 
 
+def test_a_motion_asked_for_right_after_taking_hold_is_made_with_the_tool(robot):
+    bench = Bench(robot)
+    driver = bench.driver
+    driver.hold_position()
+    bench.run(0.1)
+    bench.model.site_pos[bench.model.site("tip").id, 2] += 0.08
+    bench.state_at_rest()
+    start = driver.anchor
+    goal = moved_by(start, 0.0, 0.0, 0.05)
+    driver.move_along(path([start, goal], LIMITS))
+    bench.until_done()
+    bench.run(0.3)
+    assert np.linalg.norm(start.position - bench.log["tool"][0]) < 1e-3
+    assert np.abs(driver.pose.position - goal.position).max() < 1e-3
+
+
 def test_a_blocked_arm_is_noticed_and_can_go_on():
     bench = Bench("ur5e")
     driver = bench.driver

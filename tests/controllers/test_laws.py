@@ -4,12 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from rig import GAINS, Bench, moved_by
+from rig import GAINS, ROBOTS, Bench, moved_by
 
 from skillc_runtime.controllers.controller import ControlError
 from skillc_runtime.controllers.gains import gains
 from skillc_runtime.controllers.impedance import damping_rate
 from skillc_runtime.controllers.nullspace import REGULARISATION, Nullspace
+from skillc_runtime.controllers.virtual_arm import virtual_model
 from skillc_runtime.motion.pose import Pose, exp, log
 from skillc_runtime.motion.reference import Compliance, Reference, at_rest
 from skillc_runtime.robots.laws import laws
@@ -25,7 +26,7 @@ def fresh(robot):
     """A bench and a law that starts from its state."""
     bench = Bench(robot)
     state = replace(bench.state(), wrench=np.zeros(6))
-    model = bench.driver._kinematics._model
+    model = virtual_model(ROBOTS / f"{robot}.xml")
     law = laws(GAINS[robot], bench.limits, model, state, 0.001).tool
     law.reset(state, state.q)
     return bench, state, law
@@ -135,7 +136,7 @@ def test_damping_too_fast_for_the_period_is_refused():
     rate = damping_rate(state, 60.0, 3.0)
     assert 0 < rate < 1000
     with pytest.raises(ValueError, match="too fast"):
-        laws(GAINS["iiwa14"], bench.limits, bench.driver._kinematics._model, state, 1.1 / rate)
+        laws(GAINS["iiwa14"], bench.limits, virtual_model(ROBOTS / "iiwa14.xml"), state, 1.1 / rate)
 
 
 def test_the_log_error_is_the_shortest_turn(robot):

@@ -26,7 +26,7 @@ class SkillFailure(Exception):
 class Primitive:
     """One run of a primitive skill: made with its bound arguments when it starts, never used twice.
 
-    A subclass takes the cell and its parameters by name: `__init__(self, cell, *, arm: str, target: Pose, speed: float)`.
+    A subclass takes the cell and its parameters by name: `__init__(self, cell, *, arm: str, speed: float)`.
     Individuals come as IRIs, quantities in SI units, unset optional parameters as None. Any method may raise
     SkillFailure; from `start` it means that another implementation may be tried.
     """

@@ -10,11 +10,11 @@ from skillc_runtime.motion.pose import Array, Pose
 
 @dataclass(frozen=True, slots=True)
 class ArmState:
-    """What an arm measures at one instant. All Cartesian values in the arm's base frame, reference point the tool centre point.
+    """What an arm measures at one instant, in the arm's base frame; reference point is the tool centre point.
 
     q, dq (nv,): rad, rad/s. tool: tool centre point in base. jacobian (6, nv): [linear; angular]. mass_matrix (nv, nv).
-    bias (nv,): N m, gravity and Coriolis of arm, gripper and payload. wrench (6,): what the environment does to the tool,
-    N and N m, tool weight removed; zeros where the arm has no such sensor.
+    bias (nv,): N m, gravity and Coriolis of arm, gripper and payload. wrench (6,): what the environment does to the
+    tool, N and N m, tool weight removed; zeros where the arm has no such sensor.
     """
 
     q: Array

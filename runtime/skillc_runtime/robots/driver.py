@@ -14,15 +14,14 @@ import numpy as np
 
 from skillc_runtime.controllers.controller import ControlError
 from skillc_runtime.controllers.gains import Gains
-from skillc_runtime.controllers.virtual_arm import VirtualArm
 from skillc_runtime.motion.joint import joint_motion
 from skillc_runtime.motion.joint_guide import JointGuide
 from skillc_runtime.motion.moved import Moved, moved
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
 from skillc_runtime.robots.arm import Arm, ArmLimits, ArmState, Command, JointPosition, Torque
-from skillc_runtime.robots.inverse import inverse
 from skillc_runtime.robots.laws import laws
+from skillc_runtime.robots.reach import Reach
 from skillc_runtime.robots.tool_task import ToolTask
 
 JOINT_RAMP_S = 0.5
@@ -59,24 +58,23 @@ class ArmDriver:
         self._arm, self._base, self.period = arm, base, period
         self._state = arm.state()
         self._laws = laws(gains, limits, virtual, self._state, period)
-        self._kinematics = VirtualArm(virtual)
+        self._reach = Reach(virtual)
         self._tool = ToolTask(gains, self._laws.tool, self._state.tool)
         self._observers: tuple[Observer, ...] = ()
         self._now = 0.0
         self._joints: JointGuide | None = self._joint_guide(self._state.q, np.zeros_like(self._state.q))
 
-    # --- the control loop ---
-
     def step(self, now: float) -> None:
         """Do one control period at `now` s. ControlError when a measurement or a command is not a number."""
         self._now = now
         state = self._arm.state()
-        if not _finite(state.q, state.dq, state.wrench, state.tool.position):
+        if not isfinite(state.q @ state.q + state.dq @ state.dq + state.wrench @ state.wrench + state.tool.position[0]):
             self._arm.command(self._holding())
             raise ControlError("the arm reports something that is not a number")
         self._take_in(state)
         command = self._decide(state)
-        if not _finite(command.tau if isinstance(command, Torque) else command.q):
+        told = command.tau if isinstance(command, Torque) else command.q
+        if not isfinite(told @ told):
             self._arm.command(self._holding())
             raise ControlError("the control law does not yield a number")
         self._arm.command(command)
@@ -121,8 +119,6 @@ class ArmDriver:
         self.stop()
         self._tool.yielding.push_off()
 
-    # --- where the arm is ---
-
     @property
     def pose(self) -> Pose:
         """The measured tool pose."""
@@ -164,7 +160,7 @@ class ArmDriver:
         if self._joints is None:
             return moved(self._tool.reference, self._base())
         reference = self._joints.sample(self._now)
-        tool, jacobian = self._tool_at(reference.q)
+        tool, jacobian = self._reach.tool_at(reference.q, self._state)
         return moved(Reference(tool, jacobian @ reference.dq, jacobian @ reference.ddq), self._base())
 
     @property
@@ -172,12 +168,6 @@ class ArmDriver:
         """Where a new motion of the tool starts: where its reference rests when stopped now."""
         self._move_tool()
         return self._base() @ self._tool.guide.anchor(self._now)
-
-    @property
-    def joint_anchor(self) -> Array:
-        """Where a new joint motion starts (nv,)."""
-        self._move_joints()
-        return self._joints.anchor(self._now) if self._joints else self.q
 
     @property
     def done(self) -> bool:
@@ -196,8 +186,6 @@ class ArmDriver:
         """Tell whether the joints are measured to be at q (nv,)."""
         return bool(np.abs(self._state.q - q).max() < NEAR_JOINT_RAD)
 
-    # --- moving ---
-
     def move_along(self, trajectory: Trajectory) -> None:
         """Move the tool along a trajectory, which must start at `anchor`; ValueError where it does not."""
         self._move_tool()
@@ -205,10 +193,8 @@ class ArmDriver:
 
     def move_joints(self, goal: Array, share: float) -> None:
         """Move the joints to `goal` (nv,) with a share, above 0 to 1, of their greatest speeds."""
-        speed = share * self.limits.velocity
-        start = self.joint_anchor
-        assert self._joints is not None, "moving by joints"
-        self._joints.follow(joint_motion(start, goal, speed, speed / JOINT_RAMP_S), self._now)
+        speed, joints = share * self.limits.velocity, self._move_joints()
+        joints.follow(joint_motion(joints.anchor(self._now), goal, speed, speed / JOINT_RAMP_S), self._now)
 
     def stop(self) -> None:
         """Come to rest within the acceleration limit; compliance, push and overlays stay."""
@@ -238,10 +224,7 @@ class ArmDriver:
 
     def inverse_kinematics(self, target: Pose, seed: Array) -> Array | None:
         """Return joints (nv,) within limits that put the tool at a pose, near `seed` (nv,); None if there are none."""
-        self._kinematics.mount(self._state.q, self._state.tool)
-        return inverse(self._kinematics, self._base().inverse() @ target, seed, self.limits.range)
-
-    # --- yielding and pushing ---
+        return self._reach.joints_for(self._base().inverse() @ target, seed, self.limits.range, self._state)
 
     def release(self, axis: Array, stiffness: float = 0.0) -> None:
         """Let the tool yield along a unit direction (3,), fixed to the reference tool frame from now on.
@@ -284,8 +267,6 @@ class ArmDriver:
         else:
             self._tool.restore_rotation(self._now)
 
-    # --- frames and modes ---
-
     def in_base(self, direction: Array) -> Array:
         """Return a direction (3,) of the world in the arm's base axes."""
         return self._base().rotation.T @ direction
@@ -297,31 +278,21 @@ class ArmDriver:
     def _in_world(self, vector: Array) -> Array:
         return (vector.reshape(2, 3) @ self._base().rotation.T).ravel()
 
-    def _tool_at(self, q: Array) -> tuple[Pose, Array]:
-        """Return the tool in base and the Jacobian (6, nv) at joints q."""
-        self._kinematics.mount(self._state.q, self._state.tool)
-        self._kinematics.move(q)
-        return self._kinematics.tool, self._kinematics.jacobian.copy()
-
     def _move_tool(self) -> None:
         """Hand over from joint to tool control: the tool goes on as the joints moved it."""
         self._take_in(self._arm.state())
         if self._joints is None:
             return
         reference = self._joints.sample(self._now)
-        tool, jacobian = self._tool_at(reference.q)
+        tool, jacobian = self._reach.tool_at(reference.q, self._state)
         self._tool.take_up(self._state, reference.q, tool, jacobian @ reference.dq, self._now)
         self._joints = None
 
-    def _move_joints(self) -> None:
+    def _move_joints(self) -> JointGuide:
         """Hand over from tool to joint control: the joints go on as the tool moved them."""
         if self._joints is None:
             self._joints = self._joint_guide(self._laws.joints_now(self._state), self._state.dq)
+        return self._joints
 
     def _joint_guide(self, q: Array, dq: Array) -> JointGuide:
         return JointGuide(q, dq, float(self.limits.velocity.min()) / JOINT_RAMP_S, self._now)
-
-
-def _finite(*vectors: Array) -> bool:
-    """Tell whether all numbers are finite, by their squares."""
-    return isfinite(sum(float(vector @ vector) for vector in vectors))
