@@ -6,12 +6,13 @@ from functools import cache
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 
-from skillc_compiler.emit.phrases import expression_text, literal_text, quantity_text, type_text
+from skillc_compiler.emit.phrases import expression_text, literal_text
 from skillc_compiler.library.conditions import Literal
 from skillc_compiler.library.reading import walk
 from skillc_compiler.library.skills import Compound, Implementation, Parameter, Skill, SkillLibrary
 from skillc_compiler.library.tree import Call
 from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.library.words import quantity_text, type_text
 
 KINDS = {"in": "required", "opt": "optional", "infer": "inferred", "out": "output"}
 

@@ -16,7 +16,7 @@ from skillc_compiler.emit.owl_words import (
     SKIROS,
     library_base,
 )
-from skillc_compiler.emit.phrases import expression_text, type_text
+from skillc_compiler.emit.phrases import expression_text
 from skillc_compiler.emit.turtle import RDF_TYPE, Anonymous, Iri, Listed, Object
 from skillc_compiler.library.conditions import (
     Compare,
@@ -33,6 +33,7 @@ from skillc_compiler.library.conditions import (
 )
 from skillc_compiler.library.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
 from skillc_compiler.library.vocabulary import ClassType, Position
+from skillc_compiler.library.words import type_text
 
 Statement = tuple[str, str, Object]
 KINDS = {"pre": "PreCondition", "hold": "HoldCondition", "post": "PostCondition"}

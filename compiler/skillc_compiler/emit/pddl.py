@@ -7,7 +7,7 @@ from skillc_compiler.library.pddl.text import domain_text, temporal_text
 from skillc_compiler.library.skills import SkillLibrary
 
 
-class DomainRefused(Exception):  # noqa: N818  (what happened to the domain; the mistake is ours, not the author's)
+class DomainRefused(Exception):
     """An independent parser does not take the domain that was printed: a mistake of this compiler."""
 
 

@@ -1,4 +1,4 @@
-"""Types, values and expressions in the words of the language; quantities in SI units, which the language reads too."""
+"""Values and expressions in the words of the language; quantities in SI units, which the language reads too."""
 
 from __future__ import annotations
 
@@ -13,55 +13,7 @@ from skillc_compiler.library.conditions import (
     PropertyOf,
     Variable,
 )
-from skillc_compiler.library.vocabulary import (
-    ClassType,
-    ListType,
-    NumberType,
-    PlainType,
-    ValueType,
-    VectorType,
-    Vocabulary,
-    local_name,
-)
-
-UNITS = {
-    "Length": "m",
-    "Area": "m2",
-    "Angle": "rad",
-    "Time": "s",
-    "Frequency": "Hz",
-    "Speed": "m/s",
-    "AngularSpeed": "rad/s",
-    "Acceleration": "m/s2",
-    "Mass": "kg",
-    "Force": "N",
-    "Torque": "Nm",
-    "Stiffness": "N/m",
-    "RotationalStiffness": "Nm/rad",
-}
-
-
-def type_text(type_: ValueType, vocabulary: Vocabulary) -> str:
-    """Return the type as it is written in a skill."""
-    match type_:
-        case ClassType(iri=iri):
-            return vocabulary.short(iri)
-        case NumberType(dimension=dimension):
-            return dimension
-        case VectorType():
-            return "Vector"
-        case PlainType(name=name):
-            return name
-        case ListType(element=element):
-            return f"[{type_text(element, vocabulary)}]"
-        case _:
-            assert_never(type_)
-
-
-def quantity_text(value: float, type_: ValueType) -> str:
-    """Return a number with the unit of its type."""
-    unit = UNITS.get(type_.dimension, "") if isinstance(type_, NumberType) else ""
-    return f"{value:g} {unit}".strip()
+from skillc_compiler.library.vocabulary import Vocabulary, local_name
 
 
 def literal_text(value: bool | int | float | str) -> str:

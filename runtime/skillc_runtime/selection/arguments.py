@@ -18,8 +18,9 @@ from skillc_compiler.library.vocabulary import (
     Vocabulary,
     local_name,
 )
+from skillc_compiler.library.words import type_text
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.selection.describe import name_of, text_of
+from skillc_runtime.selection.describe import text_of
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value, finite
 
@@ -81,4 +82,4 @@ def _most_specific(individual: str, state: WorldState) -> list[str]:
 
 
 def _wanted(type_: ValueType, vocabulary: Vocabulary) -> str:
-    return local_name(type_.iri) if isinstance(type_, ClassType) else name_of(type_, vocabulary)
+    return local_name(type_.iri) if isinstance(type_, ClassType) else type_text(type_, vocabulary)

@@ -47,7 +47,7 @@ from skillc_compiler.library.pddl.symbols import Symbols
 from skillc_compiler.library.reading import terms_read
 
 
-class Untranslatable(Exception):  # noqa: N818  (an answer about a skill, not an accident)
+class Untranslatable(Exception):
     """Something a classical planner cannot reason about; the message says what, to end a sentence about the skill."""
 
 
