@@ -29,8 +29,9 @@ class Grasp(Primitive):
         """Take hold; SkillFailure when the fingers do not touch the thing from both sides."""
         gripper, state = self.cell.gripper(self._gripper), self.cell.world.snapshot()
         if not gripper.touches(self._object):
+            hand, thing = map(state.vocabulary.short, (self._gripper, self._object))
             raise SkillFailure(
-                f"the fingers of {self._gripper} do not touch {self._object} from both sides: "
+                f"the fingers of {hand} do not touch {thing} from both sides: "
                 f"they stand {1000 * gripper.opening_m:.0f} mm open"
             )
         in_hand = pose(state, self._grasp).inverse() @ pose(state, self._object)
@@ -51,9 +52,10 @@ class Release(Primitive):
 
     def start(self) -> None:
         """Let go and begin to open; SkillFailure when something else or nothing is held."""
-        if self._gripper.holding != self._object:
-            raise SkillFailure(f"the gripper holds {self._gripper.holding or 'nothing'}, not {self._object}")
         state = self.cell.world.snapshot()
+        held, short = self._gripper.holding, state.vocabulary.short
+        if held != self._object:
+            raise SkillFailure(f"the gripper holds {short(held) if held else 'nothing'}, not {short(self._object)}")
         self._left_at = self._arm.pose @ working_face(size(state, self._object)).inverse()
         self._gripper.detach()
         width = state.value(self._object, GRASP_WIDTH)
