@@ -19,8 +19,9 @@ class Inspect(Primitive):
 
     def start(self) -> None:
         """SkillFailure when the world model does not say from which share on the surface is clean."""
+        short = self.cell.world.snapshot().vocabulary.short
         if not isinstance(self._threshold(), float):
-            raise SkillFailure(f"the world model has no wiping:cleanThreshold for {self._surface}")
+            raise SkillFailure(f"the world model has no wiping:cleanThreshold for {short(self._surface)}")
 
     def tick(self) -> Status:
         """Look, and note coverage and cleanness."""
