@@ -38,7 +38,7 @@ class SimulatedGripper:
         self._actuator = model.actuator(part(self._name, "opening")).id
         self._length = data.actuator_length[self._actuator : self._actuator + 1]
         self._speed = data.actuator_velocity[self._actuator : self._actuator + 1]
-        self._pads = frozenset(_pads(model, self._name))
+        self.pads = frozenset(_pads(model, self._name))
         self._set_opening(facts.max_opening_m / 2)
         self._still_since, self._holding, self._idle = 0.0, "", True
 
@@ -163,9 +163,9 @@ class SimulatedGripper:
         for index in range(self._data.ncon):
             one, other = contacts.geom[index]
             normal = contacts.frame[index, :3]
-            if one in self._pads and other == handle:
+            if one in self.pads and other == handle:
                 found.append(normal.copy())
-            elif other in self._pads and one == handle:
+            elif other in self.pads and one == handle:
                 found.append(-normal)
         return found
 

@@ -1,0 +1,81 @@
+"""Cells of the shipped scenes, and what the tests do in them."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.vocabulary.load import load
+from skillc_dsl.source import Source
+from skillc_ontology import catalogue
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.primitives.grasp import Grasp
+from skillc_runtime.primitives.gripper import ParallelGripper, ThreeFingerGripper
+from skillc_runtime.primitives.move import MoveJoints, MoveLinear
+from skillc_runtime.primitives.primitive import Primitive, Status
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.world.frames import pose
+from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.scene import load_scene
+from skillc_runtime.world.state import WorldState
+
+LAB = "http://example.org/lab#"
+ERASER = LAB + "Eraser-1"
+SCENES = ("iiwa_table", "ur5e_whiteboard")
+ARM = {"iiwa_table": LAB + "Iiwa-1", "ur5e_whiteboard": LAB + "Ur5e-1"}
+GRIPPER = {"iiwa_table": LAB + "Robotiq-1", "ur5e_whiteboard": LAB + "Wsg-1"}
+SURFACE = {"iiwa_table": LAB + "Table-1", "ur5e_whiteboard": LAB + "Whiteboard-1"}
+FINGERS = {"iiwa_table": ThreeFingerGripper, "ur5e_whiteboard": ParallelGripper}
+
+
+@cache
+def vocabulary() -> Vocabulary:
+    return load([Source(path, text) for path, text in catalogue.vocabulary_files()]).value
+
+
+@cache
+def world(scene: str) -> WorldState:
+    return load_scene(catalogue.scene(scene), vocabulary())
+
+
+def cell(scene: str, seed: int = 0) -> SimulatedCell:
+    return SimulatedCell(WorldModel(world(scene)), seed)
+
+
+def run(cell: SimulatedCell, primitive: Primitive, limit_s: float = 30.0) -> None:
+    primitive.start()
+    for _ in range(round(limit_s / 0.02)):
+        if primitive.tick() is Status.SUCCESS:
+            return
+        cell.advance(0.02)
+    raise AssertionError(f"{type(primitive).__name__} does not end within {limit_s} s")
+
+
+def move_fingers(cell: SimulatedCell, scene: str, opening: float, force: float = 30.0) -> None:
+    run(cell, FINGERS[scene](cell, gripper=GRIPPER[scene], opening=opening, force=force))
+
+
+def reach_for_eraser(cell: SimulatedCell, scene: str) -> None:
+    """Put the open gripper around the handle and close it."""
+    state = cell.world.snapshot()
+    move_fingers(cell, scene, 0.065)
+    run(cell, MoveJoints(cell, arm=ARM[scene], target=pose(state, ERASER + "-approach"), pace=0.8))
+    run(cell, MoveLinear(cell, arm=ARM[scene], target=pose(state, ERASER + "-grasp"), speed=0.2))
+    move_fingers(cell, scene, 0.0)
+
+
+def grasp(cell: SimulatedCell, scene: str) -> None:
+    run(cell, Grasp(cell, gripper=GRIPPER[scene], object=ERASER, grasp=ERASER + "-grasp"))
+
+
+def lift(cell: SimulatedCell, scene: str) -> None:
+    """Go straight up by 10 cm."""
+    target = cell.arm(ARM[scene]).anchor
+    raised = Pose(target.position + np.array([0.0, 0.0, 0.1]), target.rotation)
+    run(cell, MoveLinear(cell, arm=ARM[scene], target=raised, speed=0.2))
+
+
+def eraser_height(cell: SimulatedCell) -> float:
+    return float(cell.data.body(cell.facts.names[ERASER] + "/block").xpos[2])

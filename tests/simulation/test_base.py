@@ -1,0 +1,78 @@
+"""A base drives within its limits, ends where it shall, and brakes when stopped."""
+
+import numpy as np
+import pytest
+from cells import ARM, LAB, cell, run
+
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.primitives.drive import DriveBase
+from skillc_runtime.simulation.base import SimulatedBase
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.simulation.facts import BaseFacts
+from skillc_runtime.world.frames import pose
+
+HERON = LAB + "Heron-1"
+
+
+def base_facts(there: SimulatedCell) -> BaseFacts:
+    return there.facts.bases[0]
+
+
+def driven(base: SimulatedBase, period: float = 0.001) -> np.ndarray:
+    """Return x, y and heading of every step until the base is done."""
+    rows = []
+    while not base.done:
+        base.step(period)
+        turned = base.pose.rotation
+        rows.append([*base.pose.position[:2], np.arctan2(turned[1, 0], turned[0, 0])])
+    return np.array(rows)
+
+
+@pytest.mark.parametrize("goal", [(1.5, -1.2, -1.57), (-0.5, 0.1, 3.0), (0.0, 0.0, 0.5), (0.03, 0.0, 0.0)])
+def test_speed_and_acceleration_stay_within_the_data_sheet(goal: tuple[float, float, float]) -> None:
+    there = cell("ur5e_whiteboard")
+    base, facts = there.base(HERON), base_facts(there)
+    x, y, heading = goal
+    half = heading / 2
+    base.drive_to(Pose.of((x, y, 0.0), (np.cos(half), 0.0, 0.0, np.sin(half))))
+    rows = driven(base)
+    np.testing.assert_allclose(rows[-1], goal, atol=2e-3)
+    velocity = np.diff(np.unwrap(rows, axis=0), axis=0) / 0.001
+    speed, turn = np.hypot(velocity[:, 0], velocity[:, 1]), velocity[:, 2]
+    assert speed.max() <= facts.speed * 1.001
+    assert np.abs(turn).max() <= facts.turn_speed * 1.001
+    assert np.abs(np.diff(speed)).max() / 0.001 <= facts.acceleration * 1.05
+    assert np.abs(np.diff(turn)).max() / 0.001 <= facts.turn_acceleration * 1.05
+
+
+def test_a_goal_where_the_base_stands_is_reached_at_once() -> None:
+    base = cell("ur5e_whiteboard").base(HERON)
+    base.drive_to(base.pose)
+    assert base.done
+
+
+def test_a_stopped_base_brakes_and_is_not_done() -> None:
+    there = cell("ur5e_whiteboard")
+    base, facts = there.base(HERON), base_facts(there)
+    base.drive_to(Pose.of((2.0, 0.0, 0.0)))
+    for _ in range(1500):
+        base.step(0.001)
+    before = base.pose.position[0]
+    base.stop()
+    for _ in range(5000):
+        base.step(0.001)
+    braking = facts.speed**2 / (2 * facts.acceleration)
+    assert base.pose.position[0] - before <= braking + 1e-3
+    assert base.step(0.001) is None
+    assert not base.done
+
+
+def test_the_arm_rides_along_in_its_posture() -> None:
+    there = cell("ur5e_whiteboard")
+    arm, before = there.arm(ARM["ur5e_whiteboard"]), there.arm(ARM["ur5e_whiteboard"]).q
+    run(there, DriveBase(there, robot=HERON, to=LAB + "Store"))
+    store = pose(there.world.snapshot(), LAB + "Store")
+    np.testing.assert_allclose(there.base(HERON).pose.position, store.position, atol=1e-3)
+    np.testing.assert_allclose(arm.q, before, atol=1e-3)
+    relative = there.base(HERON).pose.inverse() @ arm.pose
+    assert np.linalg.norm(relative.position[:2]) < 1.0

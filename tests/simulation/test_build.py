@@ -1,0 +1,85 @@
+"""A model follows from the facts of a scene, as reality has them."""
+
+import numpy as np
+import pytest
+from cells import ARM, ERASER, SCENES, SURFACE, cell, world
+
+from skillc_runtime.simulation.build import build
+from skillc_runtime.simulation.facts import read_scene
+from skillc_runtime.simulation.sheet import SheetError
+from skillc_runtime.simulation.variation import draw
+from skillc_runtime.world.changes import ClearProperty, RemoveRelation, SetProperty
+from skillc_runtime.world.frames import pose
+
+SKIROS = "http://rvmi.aau.dk/ontologies/skiros.owl#"
+SKILLC = "https://w3id.org/skillc/core#"
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_everything_is_where_it_belongs(scene: str) -> None:
+    built = cell(scene, seed=3)
+    state, names = world(scene), built.facts.names
+    arm, root = ARM[scene], {"iiwa_table": "base", "ur5e_whiteboard": "base_link"}[scene]
+    np.testing.assert_allclose(built.data.body(f"{names[arm]}/{root}").xpos, pose(state, arm).position, atol=1e-9)
+    for piece in built.facts.furniture:
+        top = built.data.body(names[piece.individual])
+        np.testing.assert_allclose(top.xpos, pose(state, piece.individual).position, atol=1e-9)
+    surface = built.facts.surfaces[0]
+    true, body = built.true_pose(surface), built.data.body(names[surface.individual])
+    np.testing.assert_allclose(body.xpos, true.position, atol=1e-9)
+    np.testing.assert_allclose(body.xmat.reshape(3, 3), true.rotation, atol=1e-9)
+    friction = built.model.geom(f"{names[surface.individual]}/box").friction[0]
+    assert friction == built.variation.of(surface.individual).friction
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_the_arm_holds_its_posture_and_the_eraser_lies_still(scene: str) -> None:
+    built = cell(scene)
+    before = built.arm(ARM[scene]).q
+    built.advance(0.5)
+    np.testing.assert_allclose(built.arm(ARM[scene]).q, before, atol=1e-4)
+    block = built.data.body(built.facts.names[ERASER] + "/block")
+    np.testing.assert_allclose(block.xpos, pose(world(scene), ERASER).position, atol=2e-3)
+
+
+def test_the_felt_yields_as_its_data_sheet_says() -> None:
+    built = cell("iiwa_table")
+    joint = built.model.joint(built.facts.names[ERASER] + "/press")
+    assert joint.stiffness[0] == built.facts.tools[0].sheet.number("padStiffness")
+    weight = 9.81 * built.facts.tools[0].mass_kg
+    built.advance(1.0)
+    assert built.recording(ERASER).force.size == 0, "nothing is recorded of a tool that nobody holds"
+    touch = built.data.sensor(built.facts.names[ERASER] + "/face/touch").data[0]
+    assert touch == pytest.approx(weight, rel=0.01)
+
+
+def test_a_missing_fact_is_named() -> None:
+    state = world("iiwa_table").changed([ClearProperty(ERASER, SKIROS + "Weight")])
+    with pytest.raises(SheetError, match=r"Eraser-1 has no number skiros:Weight"):
+        read_scene(state)
+
+
+def test_a_device_without_data_sheet_is_named() -> None:
+    arm = ARM["iiwa_table"]
+    state = world("iiwa_table").changed([RemoveRelation(arm, SKILLC + "hasSheet", SKILLC + "iiwa14-sheet")])
+    with pytest.raises(SheetError, match="Iiwa-1 has no data sheet"):
+        read_scene(state)
+
+
+def test_facts_that_contradict_a_model_are_refused() -> None:
+    facts = read_scene(world("iiwa_table").changed([SetProperty(ERASER, SKIROS + "SizeX", 0.2)]))
+    with pytest.raises(ValueError, match=r"the face of .*Eraser-1 is"):
+        build(facts, draw(facts.surfaces, 0))
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_reality_differs_within_the_ranges_of_the_facts(scene: str) -> None:
+    (surface,) = read_scene(world(scene)).surfaces
+    drawn = [draw([surface], seed).of(SURFACE[scene]) for seed in range(200)]
+    offsets = np.array([one.offset_m for one in drawn])
+    tilts = np.array([one.tilt_rad for one in drawn])
+    frictions = np.array([one.friction for one in drawn])
+    assert 0.9 * surface.offset_range_m < np.abs(offsets).max() <= surface.offset_range_m
+    assert 0.9 * surface.tilt_range_rad < np.abs(tilts).max() <= surface.tilt_range_rad
+    assert surface.friction[0] <= frictions.min() < frictions.max() <= surface.friction[1]
+    assert draw([surface], 7) == draw([surface], 7)

@@ -1,0 +1,132 @@
+"""Fingers close on a thing, contact from both sides makes a grasp, and the arm knows what it carries."""
+
+import numpy as np
+import pytest
+from cells import (
+    ARM,
+    ERASER,
+    GRIPPER,
+    LAB,
+    SCENES,
+    cell,
+    eraser_height,
+    grasp,
+    lift,
+    move_fingers,
+    reach_for_eraser,
+    run,
+    world,
+)
+
+from skillc_runtime.primitives.grasp import Release
+from skillc_runtime.primitives.gripper import ParallelGripper
+from skillc_runtime.primitives.primitive import SkillFailure
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.world.changes import AddRelation
+from skillc_runtime.world.frames import AT, pose
+from skillc_runtime.world.model import WorldModel
+
+
+def at_the_eraser(scene: str, seed: int = 0) -> SimulatedCell:
+    moved = [AddRelation(LAB + "Heron-1", AT, LAB + "Store")] if scene == "ur5e_whiteboard" else []
+    return SimulatedCell(WorldModel(world(scene).changed(moved)), seed)
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_a_grasped_eraser_is_lifted_and_let_go(scene: str) -> None:
+    there = at_the_eraser(scene)
+    lying = eraser_height(there)
+    reach_for_eraser(there, scene)
+    assert there.gripper(GRIPPER[scene]).touches(ERASER)
+    assert there.gripper(GRIPPER[scene]).opening_m == pytest.approx(0.025, abs=0.003)
+    grasp(there, scene)
+    assert there.gripper(GRIPPER[scene]).holding == ERASER
+    lift(there, scene)
+    assert eraser_height(there) == pytest.approx(lying + 0.1, abs=0.002)
+    run(there, Release(there, arm=ARM[scene], gripper=GRIPPER[scene], object=ERASER))
+    believed = pose(there.world.snapshot(), ERASER).position
+    assert believed[2] == pytest.approx(lying + 0.1, abs=0.002)
+    there.advance(0.5)
+    assert there.gripper(GRIPPER[scene]).holding is None
+    assert eraser_height(there) < lying + 0.02
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_the_tool_centre_point_becomes_the_felt_and_the_weight_is_known(scene: str) -> None:
+    there = at_the_eraser(scene)
+    reach_for_eraser(there, scene)
+    grasp(there, scene)
+    lift(there, scene)
+    there.advance(0.5)
+    arm = there.arm(ARM[scene])
+    felt = there.data.site(there.facts.names[ERASER] + "/face")
+    np.testing.assert_allclose(arm.pose.position, felt.xpos, atol=0.002)
+    np.testing.assert_allclose(arm.pose.rotation, felt.xmat.reshape(3, 3), atol=0.01)
+    assert np.linalg.norm(arm.wrench[:3]) < 0.3, "the weight of hand and eraser must not look like a contact"
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_nothing_is_grasped_where_no_eraser_is(scene: str) -> None:
+    there = at_the_eraser(scene)
+    joint = there.model.joint(there.facts.names[ERASER] + "/free").qposadr[0]
+    there.data.qpos[joint] += 0.2
+    reach_for_eraser(there, scene)
+    assert not there.gripper(GRIPPER[scene]).touches(ERASER)
+    with pytest.raises(SkillFailure, match=r"do not touch .*Eraser-1 from both sides"):
+        grasp(there, scene)
+    with pytest.raises(RuntimeError):
+        there.gripper(GRIPPER[scene]).attach(ERASER, pose(there.world.snapshot(), ERASER))
+    assert there.gripper(GRIPPER[scene]).holding is None
+
+
+def test_one_finger_is_no_grasp() -> None:
+    there = cell("iiwa_table")
+    reach_for_eraser(there, "iiwa_table")
+    hand = there.gripper(GRIPPER["iiwa_table"])
+    pads = sorted(hand.pads)
+    assert len(pads) == 3
+    there.model.geom_contype[pads[0]] = there.model.geom_conaffinity[pads[0]] = 0
+    there.advance(0.3)
+    assert not hand.touches(ERASER), "the thumb touches nothing any more"
+
+
+def test_fingers_stop_with_the_force_they_were_given() -> None:
+    scene = "ur5e_whiteboard"
+    there = at_the_eraser(scene)
+    reach_for_eraser(there, scene)
+    move_fingers(there, scene, 0.0, force=12.0)
+    there.advance(0.3)
+    name = there.facts.names[GRIPPER[scene]]
+    assert abs(there.data.actuator(f"{name}/opening").force[0]) == pytest.approx(12.0, rel=0.01)
+
+
+def test_a_gripper_refuses_to_open_too_wide() -> None:
+    there = cell("ur5e_whiteboard")
+    with pytest.raises(SkillFailure, match="opens to 110 mm, not to 150 mm"):
+        ParallelGripper(there, gripper=GRIPPER["ur5e_whiteboard"], opening=0.15, force=20.0).start()
+
+
+def test_three_fingers_take_counts() -> None:
+    there = cell("iiwa_table")
+    move_fingers(there, "iiwa_table", 0.1)
+    count = round(0.1 / 0.155 * 255) * 0.155 / 255
+    assert there.gripper(GRIPPER["iiwa_table"]).opening_m == pytest.approx(count, abs=2e-4)
+
+
+def test_releasing_what_is_not_held_fails() -> None:
+    there = cell("iiwa_table")
+    with pytest.raises(SkillFailure, match="holds nothing"):
+        Release(there, arm=ARM["iiwa_table"], gripper=GRIPPER["iiwa_table"], object=ERASER).start()
+
+
+def test_the_same_seed_gives_the_same_recording() -> None:
+    def recorded(seed: int) -> bytes:
+        there = at_the_eraser("iiwa_table", seed)
+        reach_for_eraser(there, "iiwa_table")
+        grasp(there, "iiwa_table")
+        lift(there, "iiwa_table")
+        rows = there.recording(ERASER).rows
+        assert len(rows) > 500
+        return rows.tobytes()
+
+    assert recorded(5) == recorded(5)
