@@ -146,8 +146,8 @@ class ArmDriver:
 
     @property
     def commanded_wrench(self) -> Array:
-        """The wrench (6,) that the tool now exerts along the axes of the compliance frame, N and N m."""
-        return self._tool.yielding.compliance.wrench.copy()
+        """The wrench (6,) that skills want exerted along the axes of the compliance frame, N and N m."""
+        return np.concatenate([self._tool.yielding.wanted.force, np.zeros(3)])
 
     @property
     def q(self) -> Array:
