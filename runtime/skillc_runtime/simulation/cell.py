@@ -93,7 +93,7 @@ class SimulatedCell:
         return self._observers[tool].recorder.recording()
 
     def advance(self, seconds: float) -> None:
-        """Let time pass: controllers, devices and physics, step by step. ControlFault when a controller gives up."""
+        """Let time pass: controllers, devices and physics, step by step. ControlError when a controller gives up."""
         for _ in range(round(seconds / self._timestep)):
             self._advance_one()
 
@@ -120,7 +120,7 @@ class SimulatedCell:
     def _observe(self, now: float) -> None:
         for arm, gripper in self._hands.items():
             if gripper.holding is not None:
-                self._observers[gripper.holding].sample(now, self._drivers[arm].reference)
+                self._observers[gripper.holding].sample(now, self._drivers[arm])
 
     def _carry_along(self, robot: str, motion: Pose) -> None:
         """Move what the arms of a driving robot hold along with it."""

@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 
 from skillc_runtime.motion.pose import rotation_of
-from skillc_runtime.motion.reference import Reference
+from skillc_runtime.robots.driver import ArmDriver
 from skillc_runtime.simulation.coverage import PRESSED_N, CoverageMap
 from skillc_runtime.simulation.facts import ToolFacts
 from skillc_runtime.simulation.names import face_sensor
 from skillc_runtime.simulation.recorder import Recorder
 
 STEPS_PER_UPDATE = 10
-"""The coverage is updated every so many steps: at 100 Hz with steps of 1 ms."""
+"""Coverage and reference are looked at every so many steps: at 100 Hz with steps of 1 ms."""
 
 
 class ToolObserver:
@@ -30,12 +30,14 @@ class ToolObserver:
         self._steps = 0
         self.recorder = Recorder(self._truth)
 
-    def sample(self, time: float, reference: Reference) -> None:
-        """Take in one step that began at `time` s; `reference` is what the arm was asked for, in the world."""
-        self.recorder.sample(time, reference)
+    def sample(self, time: float, driver: ArmDriver) -> None:
+        """Take in one step that began at `time` s, in which `driver` moved the tool."""
+        self.recorder.sample(time)
+        if self._steps % STEPS_PER_UPDATE == 0:
+            self.recorder.sample_reference(time, driver.reference)
+            if self._truth[0] > PRESSED_N:
+                self._cover()
         self._steps += 1
-        if self._steps % STEPS_PER_UPDATE == 0 and self._truth[0] > PRESSED_N:
-            self._cover()
 
     def _cover(self) -> None:
         position, rotation = self._truth[1:4], rotation_of(self._truth[4:8])

@@ -9,8 +9,11 @@ import numpy as np
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import Reference
 
+MEASURED = 12
+"""time; normal force; face position 3, quaternion 4, velocity 3."""
+
 COLUMNS = 18
-"""time; normal force; face position 3, quaternion 4, velocity 3; reference position 3, reference velocity 3."""
+"""Those, then reference position 3, reference velocity 3."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,25 +69,35 @@ class Recording:
 
 
 class Recorder:
-    """Takes one row a step for one tool."""
+    """Takes one row a step for one tool, and the reference, which is smooth, every so often."""
 
     def __init__(self, truth: Array, expected_steps: int = 1 << 16) -> None:
         """`truth` (11,) is the view of the tool's sensors: force, position 3, quaternion 4, velocity 3."""
         self._truth = truth
-        self._rows = np.empty((expected_steps, COLUMNS))
+        self._rows = np.empty((expected_steps, MEASURED))
         self._count = 0
+        self._references: list[tuple[float, Array, Array]] = []
 
-    def sample(self, time: float, reference: Reference) -> None:
-        """Take the row of one step that began at `time` s; the reference is in the world."""
+    def sample(self, time: float) -> None:
+        """Take the row of one step that began at `time` s."""
         if self._count == len(self._rows):
             self._rows = np.concatenate([self._rows, np.empty_like(self._rows)])
         row = self._rows[self._count]
-        row[0], row[1:12] = time, self._truth
-        row[12:15], row[15:18] = reference.pose.position, reference.twist[:3]
+        row[0], row[1:] = time, self._truth
         self._count += 1
 
+    def sample_reference(self, time: float, reference: Reference) -> None:
+        """Take what the arm is asked for at `time` s, in the world."""
+        self._references.append((time, reference.pose.position, reference.twist[:3]))
+
     def recording(self) -> Recording:
-        """Return what was taken so far, as a read-only copy."""
-        rows = self._rows[: self._count].copy()
+        """Return what was taken so far, as a read-only copy; between two samples a reference is interpolated."""
+        rows = np.empty((self._count, COLUMNS))
+        rows[:, :MEASURED] = self._rows[: self._count]
+        if self._references:
+            times = np.array([time for time, _, _ in self._references])
+            asked = np.array([[*position, *velocity] for _, position, velocity in self._references])
+            for column, values in enumerate(asked.T, start=MEASURED):
+                rows[:, column] = np.interp(rows[:, 0], times, values)
         rows.flags.writeable = False
         return Recording(rows)
