@@ -1,4 +1,5 @@
 # Every target sets up what it needs: uv beside the checkout, an environment in .venv, pinned versions from constraints.txt.
+UV_VERSION := 0.13.8
 UV := .tools/bin/uv
 BIN := .venv/bin
 INSTALL := $(UV) pip install -q --python .venv --constraint constraints.txt
@@ -39,8 +40,8 @@ lock: .tools/.uv ## pin every version anew
 clean:           ## remove the environment and all output
 	rm -rf .venv .tools build dist out
 
-.tools/.uv:
-	python3 -m pip install -q --disable-pip-version-check --root-user-action ignore --target .tools uv==0.13.8
+.tools/.uv: Makefile
+	python3 -m pip install -q --disable-pip-version-check --root-user-action ignore --upgrade --target .tools uv==$(UV_VERSION)
 	@touch $@
 
 .venv/.created: .tools/.uv

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from time import perf_counter
+from typing import assert_never
 
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.tree import Node
-from skillc_runtime.controllers.controller import ControlError
 from skillc_runtime.planning.plan import Solved
 from skillc_runtime.planning.problem import GoalError
 from skillc_runtime.planning.solve import solve
@@ -30,13 +30,26 @@ SETTLE_S = 0.5
 
 
 @dataclass(frozen=True, slots=True)
+class Reach:
+    """A goal to plan for."""
+
+    goal: Condition
+
+
+@dataclass(frozen=True, slots=True)
+class Perform:
+    """A body to run as it stands."""
+
+    body: Node
+
+
+@dataclass(frozen=True, slots=True)
 class Assignment:
-    """What is to be done in a world: reach a goal, or run a body as it stands; one of the two is None."""
+    """What is to be done in a world."""
 
     name: str
     state: WorldState
-    goal: Condition | None = None
-    body: Node | None = None
+    aim: Reach | Perform
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,23 +82,28 @@ class Execution:
 
 def prepare(assignment: Assignment, library: SkillLibrary) -> Prepared | Refused:
     """Plan if there is a goal, and look for everything that would keep the body from running, before anything moves."""
-    solved: Solved | None = None
-    body = assignment.body
-    if assignment.goal is not None:
-        try:
-            answer = solve(library, assignment.state, assignment.goal)
-        except GoalError as error:
-            return Refused(str(error))
-        if not isinstance(answer, Solved):
-            return Refused(answer.why)
-        solved = answer
-        body = plan_body([(step.skill, step.arguments) for step in solved.plan.steps], library)
-    if body is None:
-        return Refused(f"{assignment.name} has neither a goal nor a body")
-    refusals = preflight(body, library, assignment.state)
-    if refusals:
-        return Refused("\n".join(map(str, refusals)))
-    return Prepared(assignment, body, solved)
+    match assignment.aim:
+        case Reach(goal):
+            prepared = _planned(assignment, goal, library)
+        case Perform(body):
+            prepared = Prepared(assignment, body, None)
+        case _:
+            assert_never(assignment.aim)
+    if isinstance(prepared, Refused):
+        return prepared
+    refusals = preflight(prepared.body, library, assignment.state)
+    return Refused("\n".join(map(str, refusals))) if refusals else prepared
+
+
+def _planned(assignment: Assignment, goal: Condition, library: SkillLibrary) -> Prepared | Refused:
+    try:
+        answer = solve(library, assignment.state, goal)
+    except GoalError as error:
+        return Refused(str(error))
+    if not isinstance(answer, Solved):
+        return Refused(answer.why)
+    body = plan_body([(step.skill, step.arguments) for step in answer.plan.steps], library)
+    return Prepared(assignment, body, answer)
 
 
 def execute(
@@ -116,11 +134,11 @@ def execute(
 
 
 def _advance(cell: SimulatedCell, seconds: float, run: Run) -> None:
-    """Let time pass; a controller that gives up ends the run, which halts everything that runs."""
+    """Let time pass; whatever breaks in the cell fails the run, which halts everything that runs."""
     try:
         cell.advance(seconds)
-    except ControlError as error:
-        run.halt(str(error))
+    except Exception as error:  # noqa: BLE001  the task's boundary: it reports, halts and ends
+        run.abort(error)
 
 
 def _tell(listeners: Sequence[Listener], prepared: Prepared, library: SkillLibrary, cell: SimulatedCell) -> None:

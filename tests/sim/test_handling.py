@@ -11,7 +11,7 @@ from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.task import Assignment, Prepared, execute, prepare
+from skillc_runtime.task import Assignment, Perform, Prepared, execute, prepare
 from skillc_runtime.world.frames import pose
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
@@ -49,7 +49,9 @@ def test_pick_and_place_moves_the_object_and_the_world_model_knows(tmp_path: Pat
     outcome = _library.compile_library(_library.find(tmp_path))
     assert outcome.ok, outcome.diagnostics
     state = load_scene(scene, outcome.value.vocabulary)
-    prepared = prepare(Assignment("tidy_up", state, body=outcome.value.tasks["tidy_up"].body), outcome.value)
+    body = outcome.value.tasks["tidy_up"].body
+    assert body is not None
+    prepared = prepare(Assignment("tidy_up", state, Perform(body)), outcome.value)
     assert isinstance(prepared, Prepared), prepared
     cell = SimulatedCell(WorldModel(state))
     execution = execute(prepared, outcome.value, cell)

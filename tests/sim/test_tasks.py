@@ -17,8 +17,9 @@ from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.report.summary import Choices, summarise
+from skillc_runtime.report.wiping import find_wiping
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.task import Assignment, Execution, Prepared, execute, prepare
+from skillc_runtime.task import Assignment, Execution, Prepared, Reach, execute, prepare
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
 
@@ -38,8 +39,9 @@ def library() -> SkillLibrary:
 def start(name: str, seed: int) -> tuple[Prepared, SimulatedCell]:
     task = library().tasks[name]
     assert task.scene is not None
+    assert task.goal is not None
     state = load_scene(catalogue.scene(task.scene), library().vocabulary)
-    prepared = prepare(Assignment(name, state, task.goal, task.body), library())
+    prepared = prepare(Assignment(name, state, Reach(task.goal)), library())
     assert isinstance(prepared, Prepared), prepared
     return prepared, SimulatedCell(WorldModel(state), seed)
 
@@ -57,7 +59,7 @@ def test_the_goal_is_reached_and_the_surface_is_wiped_well(name: str, seed: int)
     prepared, cell = start(name, seed)
     choices = Choices()
     execution = execute(prepared, library(), cell, [choices])
-    result = summarise(execution, choices, library())
+    result = summarise(execution, choices, library(), find_wiping(execution.tree, choices, cell))
     assert result.status == "success", result.failure
     assert result.plan_optimal
     assert result.wiping is not None

@@ -12,6 +12,7 @@ import click
 
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.lexing import decode
 from skillc_dsl.rendering.concise import render as concise
 from skillc_dsl.rendering.full import render as full
 from skillc_dsl.rendering.json import render as as_json
@@ -61,7 +62,7 @@ def of_problems(problems: Iterable[SceneProblem]) -> list[Diagnostic]:
 
 def scene_text(scene: Path) -> dict[str, Source]:
     """Return the scene's text by its path, for excerpts."""
-    return {str(scene): Source(str(scene), scene.read_text(encoding="utf-8"))} if scene.is_file() else {}
+    return {str(scene): decode(str(scene), scene.read_bytes())} if scene.is_file() else {}
 
 
 def _colour(stream: TextIO) -> bool:

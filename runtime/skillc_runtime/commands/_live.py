@@ -23,7 +23,7 @@ class Live:
         self._title, self._quiet, self._real_time = title, quiet, real_time
         self._calls: dict[int, str] = {}
         self._spinner: Spinner | None = None
-        self._began = time.monotonic()
+        self._began: float | None = None
 
     def __enter__(self) -> Live:
         if not self._quiet and sys.stderr.isatty():
@@ -59,6 +59,7 @@ class Live:
     def pace(self, now: float) -> None:
         """Wait until the clock has caught up with simulated time, where that is wanted."""
         if self._real_time:
+            self._began = time.monotonic() - now if self._began is None else self._began
             time.sleep(max(0.0, self._began + now - time.monotonic()))
 
     def _show(self, now: float) -> None:

@@ -15,7 +15,7 @@ from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _diagnostics, _library
-from skillc_runtime.task import Assignment
+from skillc_runtime.task import Assignment, Perform, Reach
 from skillc_runtime.world.documents import SceneError
 from skillc_runtime.world.scene import load_scene
 from skillc_runtime.world.state import WorldState
@@ -37,7 +37,11 @@ def of_task(reference: str) -> Mission:
     if task.scene is None:
         raise click.UsageError(f"the task `{name}` has no scene; run it with --scene FILE and --goal or --skill")
     state = loaded(_task_scene(files, task.source.path, task.scene), library)
-    return Mission(library, Assignment(name, state, task.goal, task.body))
+    if task.goal is not None:
+        return Mission(library, Assignment(name, state, Reach(task.goal)))
+    if task.body is not None:
+        return Mission(library, Assignment(name, state, Perform(task.body)))
+    raise click.UsageError(f"the task `{name}` has neither a goal nor a body")
 
 
 def of_scene(scene: Path, goal: str | None, skill: str | None, library_path: Path | None) -> Mission:
@@ -50,10 +54,10 @@ def of_scene(scene: Path, goal: str | None, skill: str | None, library_path: Pat
     prefixes = state.vocabulary.prefixes
     if goal is not None:
         asked = parse_goal(goal, library.vocabulary, individuals, prefixes)
-        return Mission(library, Assignment("goal", state, goal=_understood(asked, goal)))
+        return Mission(library, Assignment("goal", state, Reach(_understood(asked, goal))))
     assert skill is not None
     call = _understood(parse_call(skill, library, individuals, prefixes), skill)
-    return Mission(library, Assignment(call.skill, state, body=call))
+    return Mission(library, Assignment(call.skill, state, Perform(call)))
 
 
 def compiled(files: _library.LibraryFiles) -> SkillLibrary:

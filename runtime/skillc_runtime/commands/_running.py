@@ -16,7 +16,7 @@ from skillc_runtime.commands._live import Live
 from skillc_runtime.commands._mission import Mission
 from skillc_runtime.report.result import TaskResult
 from skillc_runtime.report.summary import Choices, summarise
-from skillc_runtime.report.wiping import find_wiping
+from skillc_runtime.report.wiping import Wiping, find_wiping
 from skillc_runtime.report.write import write_report
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.film import Film, FilmError
@@ -50,8 +50,9 @@ def run(mission: Mission, options: Options) -> TaskResult:
         live.say("building the simulation")
         try:
             cell = SimulatedCell(WorldModel(mission.assignment.state), options.seed)
-        except (SheetError, FrameError, KeyError, ValueError) as error:
-            return TaskResult(task=name, status="refused", seed=options.seed, failure=f"no simulation: {error}")
+        except (SheetError, FrameError) as error:
+            failure = f"the scene cannot be simulated: {error}"
+            return TaskResult(task=name, status="refused", seed=options.seed, failure=failure)
         return _run(prepared, mission, cell, options, live)
 
 
@@ -69,15 +70,17 @@ def _run(prepared: Prepared, mission: Mission, cell: SimulatedCell, options: Opt
         if trace is not None:
             listeners.append(trace)
         execution = execute(prepared, mission.library, cell, listeners, watch, lambda: interruption.wanted)
-    result = summarise(execution, choices, mission.library)
+    wiping = find_wiping(execution.tree, choices, cell)
+    result = summarise(execution, choices, mission.library, wiping)
     if options.out is not None:
         live.say("writing the report")
-        _report(options.out, result, execution, choices, film)
+        _report(options.out, result, execution, wiping, film)
     return result
 
 
-def _report(directory: Path, result: TaskResult, execution: Execution, choices: Choices, film: Film | None) -> None:
-    wiping = find_wiping(execution.tree, choices, execution.cell)
+def _report(
+    directory: Path, result: TaskResult, execution: Execution, wiping: Wiping | None, film: Film | None
+) -> None:
     with _writing(directory):
         filmed = None
         if film is not None:

@@ -19,10 +19,11 @@ def command(paths: tuple[Path, ...], scene: Path | None, form: str) -> None:
     """Check the libraries or files at PATHS."""
     from skillc_dsl.diagnostics import Diagnostic
     from skillc_dsl.source import Source
-    from skillc_runtime.commands import _diagnostics, _library
+    from skillc_runtime.commands import _diagnostics, _library, _mission
 
     found: list[Diagnostic] = []
     texts: dict[str, Source] = {}
+    scene = None if scene is None else _mission.scene_path(scene)
     for path in paths:
         library = _library.find(path)
         outcome = _library.compile_library(library)

@@ -28,15 +28,16 @@ def command(
     from skillc_runtime.planning.plan import Solved, Unsolvable
     from skillc_runtime.planning.problem import GoalError
     from skillc_runtime.planning.solve import solve
+    from skillc_runtime.task import Reach
 
     if (task is None) == (scene is None):
         raise click.UsageError("say either a TASK or --scene FILE with --goal TEXT")
     mission = _mission.of_task(task) if task else _mission.of_scene(scene or Path(), goal, None, library)
     assignment = mission.assignment
-    if assignment.goal is None:
+    if not isinstance(assignment.aim, Reach):
         raise click.UsageError(f"the task `{assignment.name}` has no goal to plan for: it says itself what to do")
     try:
-        answer = solve(mission.library, assignment.state, assignment.goal, deadline_s=deadline)
+        answer = solve(mission.library, assignment.state, assignment.aim.goal, deadline_s=deadline)
     except GoalError as error:
         answer = Unsolvable(str(error))
     click.echo(_plans.as_json(answer, mission) if as_json else _plans.as_text(answer, mission))

@@ -10,7 +10,7 @@ import numpy as np
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.report.result import StepResult, TaskResult
-from skillc_runtime.report.wiping import find_wiping, judge
+from skillc_runtime.report.wiping import Wiping, judge
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import Execution
 from skillc_runtime.trace.events import Event, ImplementationChosen
@@ -35,11 +35,12 @@ class Choices(dict[int, ImplementationChosen]):
             self[event.node] = event
 
 
-def summarise(execution: Execution, choices: Mapping[int, ImplementationChosen], library: SkillLibrary) -> TaskResult:
-    """Return everything that reports, tables and JSON say of a task that ran."""
+def summarise(
+    execution: Execution, choices: Mapping[int, ImplementationChosen], library: SkillLibrary, wiping: Wiping | None
+) -> TaskResult:
+    """Return everything that reports, tables and JSON say of a task that ran; `wiping` is the one in it, if any."""
     cell, solved = execution.cell, execution.prepared.solved
     short = cell.world.snapshot().vocabulary.short
-    wiping = find_wiping(execution.tree, choices, cell)
     robots = sorted({short(arm.robot or arm.individual) for arm in cell.facts.arms})
     wall = execution.wall_time_s
     return TaskResult(

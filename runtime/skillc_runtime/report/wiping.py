@@ -11,46 +11,46 @@ from skillc_runtime.simulation.metrics import Wiped, wiping_metrics
 from skillc_runtime.trace.events import ImplementationChosen
 from skillc_runtime.trace.outcome import Outcome
 from skillc_runtime.world.frames import size
+from skillc_runtime.world.state import WorldState
 
-NORMAL_FORCE = "https://w3id.org/skillc/wiping#normalForce"
-PATH_SKILL = "FollowPath"
+SKILLC = "https://w3id.org/skillc/core#"
+SURFACE, TOOL = SKILLC + "Surface", SKILLC + "Tool"
+PATH_SKILL, PUSH_SKILL = "FollowPath", "Push"
+"""The standard skills between which a surface is wiped: a path is followed while the tool is pushed."""
 
 
 @dataclass(frozen=True, slots=True)
 class Wiping:
-    """A tool followed a path on a surface from `start` to `end`, in a skill that `began` before; IRIs, s."""
+    """A tool, pushed with `force_n`, followed a path on a surface from `start` to `end`; the skill `began` before."""
 
     surface: str
     tool: str
+    force_n: float
     began: float
     start: float
     end: float
 
 
 def find_wiping(tree: Outcome, choices: Mapping[int, ImplementationChosen], cell: SimulatedCell) -> Wiping | None:
-    """Return the last call with a surface and a tool below which a path was followed to its end; None without one."""
-    expand = cell.world.snapshot().vocabulary.expand
-    found: Wiping | None = None
+    """Return the last call about a surface and a tool below which, pushing, a path was followed to its end."""
+    state, found = cell.world.snapshot(), None
     for node in _nodes(tree):
-        bindings = choices[node.id].bindings if node.id in choices else {}
-        if "surface" not in bindings or "tool" not in bindings:
-            continue
-        for start, end in _paths(node, choices):
-            found = Wiping(expand(bindings["surface"]), expand(bindings["tool"]), node.started or 0.0, start, end)
+        individuals = _individuals(choices.get(node.id), state)
+        surfaces = [each for each in individuals if state.is_a(each, SURFACE)]
+        tools = [each for each in individuals if state.is_a(each, TOOL)]
+        pushes = [choice.bindings["force"] for choice, _ in _done(node, choices, PUSH_SKILL)]
+        for _, path in _done(node, choices, PATH_SKILL):
+            if surfaces and tools and pushes and path.started is not None and path.ended is not None:
+                force, began = float(pushes[-1].split()[0]), node.started or 0.0
+                found = Wiping(surfaces[0], tools[0], force, began, path.started, path.ended)
     return found
 
 
 def described(wiping: Wiping, cell: SimulatedCell) -> Wiped:
     """Return what was wiped with what, as it really was."""
-    state = cell.world.snapshot()
     surface = next(each for each in cell.facts.surfaces if each.individual == wiping.surface)
-    force = state.value(wiping.surface, NORMAL_FORCE)
-    return Wiped(
-        surface=cell.true_pose(surface),
-        extent=surface.size[:2],
-        tool=size(state, wiping.tool)[:2],
-        force_command_n=float(force) if isinstance(force, int | float) else 0.0,
-    )
+    tool = size(cell.world.snapshot(), wiping.tool)[:2]
+    return Wiped(cell.true_pose(surface), surface.size[:2], tool, wiping.force_n)
 
 
 def judge(wiping: Wiping, cell: SimulatedCell) -> WipingResult:
@@ -70,13 +70,22 @@ def judge(wiping: Wiping, cell: SimulatedCell) -> WipingResult:
     )
 
 
-def _paths(node: Outcome, choices: Mapping[int, ImplementationChosen]) -> Iterator[tuple[float, float]]:
-    """Yield when each path below a node that was followed to its end began and ended."""
+def _individuals(choice: ImplementationChosen | None, state: WorldState) -> list[str]:
+    """Return the individuals that a call was bound to."""
+    if choice is None:
+        return []
+    names = {state.vocabulary.short(iri): iri for iri in state.individuals}
+    return [names[value] for value in choice.bindings.values() if value in names]
+
+
+def _done(
+    node: Outcome, choices: Mapping[int, ImplementationChosen], skill: str
+) -> Iterator[tuple[ImplementationChosen, Outcome]]:
+    """Yield the calls of a skill below a node that succeeded."""
     for each in _nodes(node):
         choice = choices.get(each.id)
-        followed = choice is not None and choice.skill == PATH_SKILL and each.status == "success"
-        if followed and each.started is not None and each.ended is not None:
-            yield each.started, each.ended
+        if choice is not None and choice.skill == skill and each.status == "success":
+            yield choice, each
 
 
 def _nodes(node: Outcome) -> Iterator[Outcome]:

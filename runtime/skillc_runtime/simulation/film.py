@@ -39,18 +39,26 @@ class Film:
             self._frames.append((data.qpos.copy(), data.mocap_pos.copy(), data.mocap_quat.copy()))
 
     def write(self, path: Path) -> Path:
-        """Draw all frames and write them as MP4; FilmError or RenderingError where that is not possible."""
+        """Draw all frames and write them as MP4, whole or not at all.
+
+        FilmError or RenderingError where that is not possible, OSError where the path cannot be written.
+        """
         try:
             import av
         except ImportError as error:
             raise FilmError("films need PyAV: pip install 'skillc[video]'") from error
-        with av.open(str(path), "w", format="mp4") as container:
-            stream: Any = container.add_stream("libx264", rate=FRAMES_PER_S)
-            stream.width, stream.height, stream.pix_fmt = WIDTH, HEIGHT, "yuv420p"
-            for picture in self.pictures():
-                container.mux(stream.encode(av.VideoFrame.from_ndarray(np.ascontiguousarray(picture), format="rgb24")))
-            container.mux(stream.encode())
-        return path
+        partial = path.with_suffix(".part")
+        try:
+            with av.open(str(partial), "w", format="mp4") as container:
+                stream: Any = container.add_stream("libx264", rate=FRAMES_PER_S)
+                stream.width, stream.height, stream.pix_fmt = WIDTH, HEIGHT, "yuv420p"
+                for picture in self.pictures():
+                    frame = av.VideoFrame.from_ndarray(np.ascontiguousarray(picture), format="rgb24")
+                    container.mux(stream.encode(frame))
+                container.mux(stream.encode())
+            return partial.replace(path)
+        finally:
+            partial.unlink(missing_ok=True)
 
     def pictures(self) -> Iterator[Picture]:
         """Draw the frames, one after the other."""

@@ -96,7 +96,8 @@ class Run:
             if status is RUNNING or self._strand.climb(status) is RUNNING:
                 return RUNNING
         except Exception as error:  # noqa: BLE001  the task's boundary: it reports, halts and ends
-            return self._abort(error)
+            self.abort(error)
+            return self.status
         return self._ended(self._root.status, self._root.failure)
 
     def halt(self, reason: str) -> None:
@@ -105,6 +106,13 @@ class Run:
             self._context.begin_tick()
             self._root.halt(reason)
             self._ended(Status.HALTED, Failure(kind="halted", message=reason, source=self._root.source))
+
+    def abort(self, error: Exception) -> None:
+        """Fail because of an error, of the cell say: halt everything that runs, undo what must be undone, and end."""
+        if self.status in (Status.IDLE, RUNNING):
+            message = told(error)
+            self._root.halt(message)
+            self._ended(Status.FAILURE, Failure(kind="error", message=message, source=self._root.source))
 
     def pause(self) -> None:
         """Let everything that runs hold still; the run's time stands still too."""
@@ -115,7 +123,7 @@ class Run:
         try:
             self._root.pause()
         except Exception as error:  # noqa: BLE001  the task's boundary: it reports, halts and ends
-            self._abort(error)
+            self.abort(error)
 
     def resume(self) -> None:
         """Go on after `pause`."""
@@ -127,16 +135,11 @@ class Run:
         try:
             self._root.resume()
         except Exception as error:  # noqa: BLE001  the task's boundary: it reports, halts and ends
-            self._abort(error)
+            self.abort(error)
 
     def _start(self) -> Status:
         self.status = RUNNING
         return self._strand.start()
-
-    def _abort(self, error: Exception) -> Status:
-        message = told(error)
-        self._root.halt(message)
-        return self._ended(Status.FAILURE, Failure(kind="error", message=message, source=self._root.source))
 
     def _ended(self, status: Status, failure: Failure | None) -> Status:
         for problem in self._undo.unwind():
