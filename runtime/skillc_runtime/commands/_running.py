@@ -78,17 +78,20 @@ def _run(prepared: Prepared, mission: Mission, cell: SimulatedCell, options: Opt
     return result
 
 
-def _report(
-    directory: Path, result: TaskResult, execution: Execution, wiping: Wiping | None, film: Film | None
-) -> None:
-    with _writing(directory):
-        filmed = None
-        if film is not None:
-            try:
-                filmed = film.write(directory / "film.mp4").name
-            except (FilmError, RenderingError) as error:
-                click.echo(f"no film: {error}", err=True)
-        write_report(directory, result, execution, wiping, filmed)
+def _report(out: Path, result: TaskResult, execution: Execution, wiping: Wiping | None, film: Film | None) -> None:
+    with _writing(out):
+        write_report(out, result, execution, wiping, _filmed(out / "film.mp4", film))
+
+
+def _filmed(path: Path, film: Film | None) -> str | None:
+    """Write the film and return its name; say so where there can be none."""
+    if film is None:
+        return None
+    try:
+        return film.write(path).name
+    except (FilmError, RenderingError) as error:
+        click.echo(f"no film: {error}", err=True)
+        return None
 
 
 class _Interruption:
