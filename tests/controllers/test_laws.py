@@ -4,16 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from rig import GAINS, ROBOTS, Bench, moved_by
+from rig import GAINS, ROBOTS, SHEETS, Bench, moved_by
 
+from skillc_runtime import controllers
 from skillc_runtime.controllers.controller import ControlError
-from skillc_runtime.controllers.gains import gains
+from skillc_runtime.controllers.gains import UnknownController, gains
 from skillc_runtime.controllers.impedance import damping_rate
 from skillc_runtime.controllers.nullspace import REGULARISATION, Nullspace
 from skillc_runtime.controllers.virtual_arm import virtual_model
 from skillc_runtime.motion.pose import Pose, exp, log
 from skillc_runtime.motion.reference import Compliance, Reference, at_rest
-from skillc_runtime.robots.laws import laws
 
 
 def stiff(robot, frame=None, scale=1.0):
@@ -27,7 +27,7 @@ def fresh(robot):
     bench = Bench(robot)
     state = replace(bench.state(), wrench=np.zeros(6))
     model = virtual_model(ROBOTS / f"{robot}.xml")
-    law = laws(GAINS[robot], bench.limits, model, state, 0.001).tool
+    law = GAINS[robot].law.laws(GAINS[robot], bench.limits, model, state, 0.001).tool
     law.reset(state, state.q)
     return bench, state, law
 
@@ -135,8 +135,9 @@ def test_damping_too_fast_for_the_period_is_refused():
     state = bench.state()
     rate = damping_rate(state, 60.0, 3.0)
     assert 0 < rate < 1000
+    gains, model = GAINS["iiwa14"], virtual_model(ROBOTS / "iiwa14.xml")
     with pytest.raises(ValueError, match="too fast"):
-        laws(GAINS["iiwa14"], bench.limits, virtual_model(ROBOTS / "iiwa14.xml"), state, 1.1 / rate)
+        gains.law.laws(gains, bench.limits, model, state, 1.1 / rate)
 
 
 def test_the_log_error_is_the_shortest_turn(robot):
@@ -148,10 +149,21 @@ def test_the_log_error_is_the_shortest_turn(robot):
 
 
 def test_unknown_controllers_and_missing_numbers_are_named():
-    with pytest.raises(KeyError, match=r"admittance.*forward_dynamics, impedance"):
+    with pytest.raises(UnknownController, match=r"no controller 'admittance'; there are: forward_dynamics, impedance"):
         gains("admittance", {}.__getitem__)
     with pytest.raises(KeyError, match="dampingFloor"):
         gains("impedance", {}.__getitem__)
+
+
+def test_a_file_in_the_folder_is_a_controller(tmp_path, monkeypatch):
+    """Nothing else is edited to add one."""
+    copied = "from skillc_runtime.controllers.impedance import from_sheet\n"
+    (tmp_path / "brand_new.py").write_text(copied)
+    (tmp_path / "helper.py").write_text('"""Offers no `from_sheet`, so it is no controller."""\n')
+    monkeypatch.setattr(controllers, "__path__", [*controllers.__path__, str(tmp_path)])
+    assert gains("brand_new", SHEETS["iiwa14"].__getitem__) == GAINS["iiwa14"]
+    with pytest.raises(UnknownController, match=r"brand_new, forward_dynamics, impedance$"):
+        gains("helper", SHEETS["iiwa14"].__getitem__)
 
 
 def test_something_that_is_no_number_stops_the_arm(robot):

@@ -5,11 +5,13 @@ import pytest
 from cells import ARM, ERASER, SCENES, SURFACE, cell, world
 
 from skillc_runtime.simulation.build import build
+from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.facts import read_scene
 from skillc_runtime.simulation.sheet import SheetError
 from skillc_runtime.simulation.variation import draw
 from skillc_runtime.world.changes import ClearProperty, RemoveRelation, SetProperty
 from skillc_runtime.world.frames import pose
+from skillc_runtime.world.model import WorldModel
 
 SKIROS = "http://rvmi.aau.dk/ontologies/skiros.owl#"
 SKILLC = "https://w3id.org/skillc/core#"
@@ -64,6 +66,12 @@ def test_a_device_without_data_sheet_is_named() -> None:
     state = world("iiwa_table").changed([RemoveRelation(arm, SKILLC + "hasSheet", SKILLC + "iiwa14-sheet")])
     with pytest.raises(SheetError, match="Iiwa-1 has no data sheet"):
         read_scene(state)
+
+
+def test_an_unknown_controller_is_named_with_those_there_are() -> None:
+    state = world("iiwa_table").changed([SetProperty(ARM["iiwa_table"], SKIROS + "CompliantController", "impedence")])
+    with pytest.raises(SheetError, match=r"Iiwa-1: there is no controller 'impedence'; .*forward_dynamics, impedance"):
+        SimulatedCell(WorldModel(state))
 
 
 def test_facts_that_contradict_a_model_are_refused() -> None:

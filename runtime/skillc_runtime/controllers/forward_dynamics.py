@@ -7,18 +7,48 @@ Scherzinger, Roennau, Dillmann 2017; gains per second and feed-forward along sti
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import exp
 
 import mujoco
 import numpy as np
 
-from skillc_runtime.controllers.gains import ForwardDynamicsGains, Gains
+from skillc_runtime.controllers.gains import Gains, Number
+from skillc_runtime.controllers.joint_position import JointServo
 from skillc_runtime.controllers.limits import JointLimit
 from skillc_runtime.controllers.task_error import TaskError
 from skillc_runtime.controllers.virtual_arm import VirtualArm
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
-from skillc_runtime.robots.arm import ArmState, JointPosition
+from skillc_runtime.robots.arm import ArmLimits, ArmState, JointPosition
+from skillc_runtime.robots.laws import Laws
+
+
+@dataclass(frozen=True, slots=True)
+class ForwardDynamicsGains:
+    """For a position-controlled arm with a force/torque sensor.
+
+    admittance m/(s N), rotational_admittance rad/(s N m): steady tool velocity per wrench; admittance_time s: its lag.
+    """
+
+    admittance: float
+    rotational_admittance: float
+    admittance_time: float
+
+    @property
+    def release_damping(self) -> float:
+        """Force per speed of a released axis, N s/m."""
+        return 1 / self.admittance
+
+    def laws(self, gains: Gains, limits: ArmLimits, virtual: mujoco.MjModel, state: ArmState, period: float) -> Laws:
+        """Make the laws of one arm."""
+        limit = JointLimit(limits, state.q)
+        return Laws(ForwardDynamics(gains, self, limit, VirtualArm(virtual)), JointServo(limit), limit)
+
+
+def from_sheet(number: Number) -> ForwardDynamicsGains:
+    """Read the gains from an arm's data sheet."""
+    return ForwardDynamicsGains(number("admittance"), number("rotationalAdmittance"), number("admittanceTime"))
 
 
 class ForwardDynamics:

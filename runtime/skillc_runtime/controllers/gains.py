@@ -1,39 +1,41 @@
-"""The numbers of the control laws, which the data sheet of an arm states; SI units throughout."""
+"""The gains of an arm's controller, read from its data sheet; SI units. A controller is a file in this folder.
+
+Such a module offers one function, `from_sheet(number: Number) -> LawGains`; the world model names the module.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypeAlias
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import Protocol, TypeAlias
+
+import mujoco
+
+from skillc_runtime import controllers
+from skillc_runtime.robots.arm import ArmLimits, ArmState
+from skillc_runtime.robots.laws import Laws
 
 Number: TypeAlias = Callable[[str], float]
-"""Returns a number of a data sheet by its name there; raises KeyError where the sheet lacks it."""
+"""Returns a number of a data sheet by its name there; raises an error that names it where the sheet lacks it."""
 
 
-@dataclass(frozen=True, slots=True)
-class ImpedanceGains:
-    """For a torque-controlled arm. Names as in the data sheet vocabulary.
-
-    damping_floor N s/m, rotational_damping_floor N m s/rad: least damping, which is all that a released axis has;
-    nullspace_stiffness N m/rad: pull towards the rest posture; torque_rate N m/s: greatest change of a joint torque.
-    """
-
-    damping_floor: float
-    rotational_damping_floor: float
-    nullspace_stiffness: float
-    torque_rate: float
+class UnknownController(ValueError):
+    """There is no controller of that name; the message lists those there are."""
 
 
-@dataclass(frozen=True, slots=True)
-class ForwardDynamicsGains:
-    """For a position-controlled arm with a force/torque sensor.
+class LawGains(Protocol):
+    """What one controller alone reads from a data sheet, and the laws it makes of it."""
 
-    admittance m/(s N), rotational_admittance rad/(s N m): steady tool velocity per wrench; admittance_time s: its lag.
-    """
+    @property
+    def release_damping(self) -> float:
+        """Force per speed, N s/m, with which a released axis moves when pushed: F = release_damping * v."""
+        ...
 
-    admittance: float
-    rotational_admittance: float
-    admittance_time: float
+    def laws(self, gains: Gains, limits: ArmLimits, virtual: mujoco.MjModel, state: ArmState, period: float) -> Laws:
+        """Make the laws of one arm; ValueError where they cannot be stable at the control period in s."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +47,7 @@ class Gains:
     may ask for.
     """
 
-    law: ImpedanceGains | ForwardDynamicsGains
+    law: LawGains
     linear_stiffness: float
     rotational_stiffness: float
     damping_ratio: float
@@ -57,35 +59,16 @@ class Gains:
     @property
     def release_damping(self) -> float:
         """Force per speed, N s/m, with which a released axis moves when pushed: F = release_damping * v."""
-        match self.law:
-            case ImpedanceGains(damping_floor=floor):
-                return floor
-            case ForwardDynamicsGains(admittance=admittance):
-                return 1 / admittance
-
-
-def _impedance(number: Number) -> ImpedanceGains:
-    floors = number("dampingFloor"), number("rotationalDampingFloor")
-    return ImpedanceGains(*floors, number("nullspaceStiffness"), number("torqueRate"))
-
-
-def _forward_dynamics(number: Number) -> ForwardDynamicsGains:
-    return ForwardDynamicsGains(number("admittance"), number("rotationalAdmittance"), number("admittanceTime"))
-
-
-LAWS: dict[str, Callable[[Number], ImpedanceGains | ForwardDynamicsGains]] = {
-    "impedance": _impedance,
-    "forward_dynamics": _forward_dynamics,
-}
-"""The laws by the names that the world model gives controllers."""
+        return self.law.release_damping
 
 
 def gains(controller: str, number: Number) -> Gains:
-    """Return the gains that a data sheet states for the controller of that name; KeyError names what is unknown."""
-    if controller not in LAWS:
-        raise KeyError(f"there is no controller {controller!r}; there are: {', '.join(sorted(LAWS))}")
+    """Return the gains that a data sheet states for the controller of that name; UnknownController if there is none."""
+    known = _controllers()
+    if controller not in known:
+        raise UnknownController(f"there is no controller {controller!r}; there are: {', '.join(known)}")
     return Gains(
-        LAWS[controller](number),
+        known[controller](number),
         number("linearStiffness"),
         number("rotationalStiffness"),
         number("dampingRatio"),
@@ -94,3 +77,10 @@ def gains(controller: str, number: Number) -> Gains:
         number("speedLimit"),
         number("accelerationLimit"),
     )
+
+
+def _controllers() -> dict[str, Callable[[Number], LawGains]]:
+    """Return what reads the gains of each controller: the modules of the folder that offer it, by their names."""
+    names = sorted(module.name for module in iter_modules(controllers.__path__))
+    modules = {name: import_module(f"{controllers.__name__}.{name}") for name in names}
+    return {name: module.from_sheet for name, module in modules.items() if hasattr(module, "from_sheet")}

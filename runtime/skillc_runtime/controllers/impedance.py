@@ -6,22 +6,60 @@ Albu-Schaeffer et al. 2003, Mayr and Salt-Ducaju 2022; with velocity and acceler
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
+import mujoco
 import numpy as np
 
 from skillc_runtime.controllers.filters import Lag
-from skillc_runtime.controllers.gains import Gains, ImpedanceGains
+from skillc_runtime.controllers.gains import Gains, Number
+from skillc_runtime.controllers.joint_position import ComputedTorque
 from skillc_runtime.controllers.limits import TorqueLimit
 from skillc_runtime.controllers.nullspace import Nullspace
 from skillc_runtime.controllers.task_error import TaskError
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
-from skillc_runtime.robots.arm import ArmState, Torque
+from skillc_runtime.robots.arm import ArmLimits, ArmState, Torque
+from skillc_runtime.robots.laws import Laws
 
 INERTIA_PERIOD_S = 0.01
 """Inertia and damping change slowly; they are computed this often."""
 
 LEAST_MOBILITY = 1e-3
 """Added to the tool's inverse inertia, 1/kg and 1/(kg m^2): at a singularity the tool seems heavy, not immovable."""
+
+
+@dataclass(frozen=True, slots=True)
+class ImpedanceGains:
+    """For a torque-controlled arm. Names as in the data sheet vocabulary.
+
+    damping_floor N s/m, rotational_damping_floor N m s/rad: least damping, which is all that a released axis has;
+    nullspace_stiffness N m/rad: pull towards the rest posture; torque_rate N m/s: greatest change of a joint torque.
+    """
+
+    damping_floor: float
+    rotational_damping_floor: float
+    nullspace_stiffness: float
+    torque_rate: float
+
+    @property
+    def release_damping(self) -> float:
+        """Force per speed of a released axis, N s/m: nothing but the least damping holds it back."""
+        return self.damping_floor
+
+    def laws(self, gains: Gains, limits: ArmLimits, virtual: mujoco.MjModel, state: ArmState, period: float) -> Laws:
+        """Make the laws of one arm; ValueError where their damping cannot be stable at the control period in s."""
+        rate = damping_rate(state, self.damping_floor, self.rotational_damping_floor)
+        if rate * period > 1:
+            raise ValueError(f"the damping decays with {rate:.0f}/s: too fast for a control period of {period} s")
+        limit, joints = TorqueLimit(limits, self.torque_rate), state.q.size
+        return Laws(Impedance(gains, self, limit, joints), ComputedTorque(limit, joints), limit)
+
+
+def from_sheet(number: Number) -> ImpedanceGains:
+    """Read the gains from an arm's data sheet."""
+    floors = number("dampingFloor"), number("rotationalDampingFloor")
+    return ImpedanceGains(*floors, number("nullspaceStiffness"), number("torqueRate"))
 
 
 class Impedance:

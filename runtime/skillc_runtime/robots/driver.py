@@ -20,7 +20,6 @@ from skillc_runtime.motion.moved import Moved, moved
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
 from skillc_runtime.robots.arm import Arm, ArmLimits, ArmState, Command, JointPosition, Torque
-from skillc_runtime.robots.laws import laws
 from skillc_runtime.robots.reach import Reach
 from skillc_runtime.robots.tool_task import ToolTask
 
@@ -57,7 +56,7 @@ class ArmDriver:
         self.fault: str | None = None
         self._arm, self._base, self.period = arm, base, period
         self._state = arm.state()
-        self._laws = laws(gains, limits, virtual, self._state, period)
+        self._laws = gains.law.laws(gains, limits, virtual, self._state, period)
         self._reach = Reach(virtual)
         self._tool = ToolTask(gains, self._laws.tool, self._state.tool)
         self._observers: tuple[Observer, ...] = ()

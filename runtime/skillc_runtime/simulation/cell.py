@@ -32,7 +32,7 @@ class SimulatedCell:
     def __init__(self, world: WorldModel, seed: int = 0, timestep_s: float = 0.001, steps_per_command: int = 1) -> None:
         """Build the cell; controllers run every `steps_per_command` steps.
 
-        SheetError, FrameError, KeyError or ValueError when facts are missing or contradict the models.
+        SheetError, FrameError or ValueError when facts are missing or contradict the models.
         """
         self._world = world
         self.facts: SceneFacts = read_scene(world.snapshot())
