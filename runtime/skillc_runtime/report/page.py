@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from skillc_runtime.report.result import TaskResult
-from skillc_runtime.report.table import rows, why
+from skillc_runtime.report.table import reason_of, rows
 from skillc_runtime.trace.outcome import Outcome
 
 
@@ -32,7 +32,7 @@ def render(result: TaskResult, tree: Outcome | None, pictures: list[Picture], fi
     return environment.get_template("page.html.j2").render(
         result=result,
         rows=rows(result) if result.sim_time_s else [],
-        why=why,
+        reason_of=reason_of,
         tree=tree,
         pictures=[(picture.title, b64encode(picture.png).decode()) for picture in pictures],
         film=film,

@@ -22,6 +22,14 @@ class StepResult(msgspec.Struct, frozen=True, kw_only=True):
     rejected: tuple[Rejected, ...] = ()
 
 
+class ChoiceResult(msgspec.Struct, frozen=True, kw_only=True):
+    """Which of several implementations a skill got somewhere in a task, and which were not taken."""
+
+    skill: str
+    implementation: str
+    rejected: tuple[Rejected, ...] = ()
+
+
 class WipingResult(msgspec.Struct, frozen=True, kw_only=True):
     """How well a surface was wiped, measured by the simulator and not by the controller."""
 
@@ -42,6 +50,7 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     task: str
     status: Literal["success", "failure", "halted", "refused"]
     plan: tuple[StepResult, ...] = ()
+    choices: tuple[ChoiceResult, ...] = ()
     plan_optimal: bool | None = None
     planner: str = ""
     robot: str = ""

@@ -9,7 +9,7 @@ import numpy as np
 
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.report.result import StepResult, TaskResult
+from skillc_runtime.report.result import ChoiceResult, StepResult, TaskResult
 from skillc_runtime.report.wiping import Wiping, judge
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import Execution
@@ -47,6 +47,7 @@ def summarise(
         task=execution.prepared.assignment.name,
         status=ENDED[execution.status],
         plan=_steps(execution.tree, choices, library),
+        choices=_choices(choices, library),
         plan_optimal=None if solved is None else solved.optimal == "proven",
         planner="" if solved is None else solved.planner,
         robot=", ".join(robots),
@@ -78,6 +79,18 @@ def _step(call: Outcome, choice: ImplementationChosen | None, library: SkillLibr
         source=str(choice.source if choice else call.source),
         rejected=call.rejected,
     )
+
+
+def _choices(choices: Mapping[int, ImplementationChosen], library: SkillLibrary) -> tuple[ChoiceResult, ...]:
+    """Return each choice between several implementations once."""
+    found = {
+        (choice.skill, choice.implementation): ChoiceResult(
+            skill=choice.skill, implementation=choice.implementation, rejected=choice.rejected
+        )
+        for choice in choices.values()
+        if len(library.skills[choice.skill].implementations) > 1
+    }
+    return tuple(found[key] for key in sorted(found))
 
 
 def _controllers(cell: SimulatedCell) -> list[str]:

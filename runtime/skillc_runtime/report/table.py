@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from skillc_runtime.report.result import StepResult, TaskResult, WipingResult
+from skillc_runtime.report.result import TaskResult, WipingResult
+from skillc_runtime.trace.failure import Rejected
 
 STYLES = {"success": "bold green", "failure": "bold red", "refused": "bold red", "halted": "bold yellow"}
 
@@ -30,17 +33,16 @@ def _plan(result: TaskResult) -> Table:
         table.add_column(heading, overflow="fold")
     for number, step in enumerate(result.plan, 1):
         arguments = ", ".join(f"{name}: {value}" for name, value in step.arguments.items())
-        table.add_row(f"{number} {step.skill}", step.implementation, arguments, why(step))
+        why = reason_of(step.rejected) if step.implementation else "did not start"
+        table.add_row(f"{number} {step.skill}", step.implementation, arguments, why)
+    for choice in result.choices:
+        table.add_row(f"  {choice.skill}", choice.implementation, "", reason_of(choice.rejected))
     return table
 
 
-def why(step: StepResult) -> str:
-    """Say why a step's implementation was taken."""
-    if not step.implementation:
-        return "did not start"
-    if not step.rejected:
-        return "the first that fits"
-    return "; ".join(f"not {r.implementation}: {r.reason}" for r in step.rejected)
+def reason_of(rejected: Sequence[Rejected]) -> str:
+    """Say why an implementation was taken, from those that were not."""
+    return "; ".join(f"not {each.implementation}: {each.reason}" for each in rejected) or "the first that fits"
 
 
 def _numbers(result: TaskResult) -> Table:

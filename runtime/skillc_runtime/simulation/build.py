@@ -56,11 +56,19 @@ def _empty(timestep_s: float) -> Any:
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     spec.visual.global_.offwidth, spec.visual.global_.offheight = 1280, 720
     spec.visual.headlight.ambient = [0.4, 0.4, 0.4]
+    _add_sky(spec)
     spec.worldbody.add_light(pos=[1.0, -2.0, 4.0], dir=[-0.2, 0.4, -1.0])
     floor = spec.worldbody.add_geom(name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[10.0, 10.0, 0.1])
     floor.rgba = [0.82, 0.84, 0.86, 1.0]
     _carry(floor, FURNITURE_FRICTION)
     return spec
+
+
+def _add_sky(spec: mujoco.MjSpec) -> None:
+    """Give films a light background."""
+    sky = spec.add_texture(name="sky", type=mujoco.mjtTexture.mjTEXTURE_SKYBOX, width=64, height=384)
+    sky.builtin = mujoco.mjtBuiltin.mjBUILTIN_GRADIENT
+    sky.rgb1, sky.rgb2 = [0.93, 0.95, 0.97], [0.70, 0.75, 0.80]
 
 
 def _carry(geom: Any, friction: float) -> None:

@@ -18,7 +18,8 @@ SPEED_UP = 4
 """How much faster than the run the film is."""
 
 WIDTH, HEIGHT = 480, 360
-AZIMUTH_DEG, ELEVATION_DEG, DISTANCE_M = 130.0, -20.0, 2.4
+AZIMUTH_DEG, ELEVATION_DEG, DISTANCE_M = 50.0, -20.0, 2.2
+"""The camera looks over the robot's right shoulder: the azimuth counts from where the first arm's base points."""
 
 
 class FilmError(RuntimeError):
@@ -31,6 +32,8 @@ class Film:
     def __init__(self, cell: SimulatedCell) -> None:
         self._cell = cell
         self._frames: list[tuple[Array, Array, Array]] = []
+        arm = cell.data.xmat[self._arm_body()].reshape(3, 3)
+        self._forward = arm.T @ cell.facts.arms[0].base.rotation[:, 0]
 
     def sample(self) -> None:
         """Take a frame if it is time for one."""
@@ -68,7 +71,9 @@ class Film:
         try:
             for data.qpos[:], data.mocap_pos[:], data.mocap_quat[:] in self._frames:
                 mujoco.mj_forward(model, data)
-                renderer.look_at(data.xpos[arm] + np.array([0.0, 0.0, 0.2]), DISTANCE_M, AZIMUTH_DEG, ELEVATION_DEG)
+                focus = data.xpos[arm] + np.array([0.0, 0.0, 0.2])
+                azimuth = _heading_deg(data.xmat[arm].reshape(3, 3) @ self._forward) + AZIMUTH_DEG
+                renderer.look_at(focus, DISTANCE_M, azimuth, ELEVATION_DEG)
                 yield renderer.picture(data)
         finally:
             renderer.close()
@@ -78,3 +83,8 @@ class Film:
         first = self._cell.model.body_parentid
         joint = self._cell.model.jnt_bodyid[0]
         return int(first[joint])
+
+
+def _heading_deg(direction: Array) -> float:
+    """Return the angle of a direction (3,) about the vertical, from the world's x axis."""
+    return float(np.degrees(np.arctan2(direction[1], direction[0])))
