@@ -60,13 +60,17 @@ class OneArm:
         return self.bench.driver
 
     def run(self, primitive, limit=20.0, beside=()):
-        """Start and tick every 10 ms until it succeeds; SkillFailure comes out."""
+        """Start and tick every 10 ms until it succeeds; SkillFailure comes out, from a tick after the halt."""
         end = self.now + limit
         primitive.start()
-        while primitive.tick() is Status.RUNNING:
-            assert self.now < end, "it does not end"
-            assert all(other.tick() is Status.RUNNING for other in beside)
-            self.bench.run(0.01)
+        try:
+            while primitive.tick() is Status.RUNNING:
+                assert self.now < end, "it does not end"
+                assert all(other.tick() is Status.RUNNING for other in beside)
+                self.bench.run(0.01)
+        except SkillFailure as failure:
+            primitive.halt(str(failure))
+            raise
         return primitive
 
 
@@ -100,6 +104,39 @@ def test_out_of_reach_is_said_before_anything_moves(cell):
         cell.run(MoveLinear(cell, arm=ARM, target=cell.arm(ARM).pose, speed=0.6))
     cell.bench.run(0.1)
     assert cell.arm(ARM).at_joints(q)
+
+
+def test_a_fault_left_over_is_told_before_anything_moves(cell):
+    driver, q = cell.arm(ARM), cell.arm(ARM).q
+    target = moved_by(driver.pose, 0.0, 0.0, 0.1)
+    along = -driver.pose.rotation[:, 2]
+    for motion in (
+        MoveJoints(cell, arm=ARM, target=target, pace=0.5),
+        MoveLinear(cell, arm=ARM, target=target, speed=0.1),
+        FollowPath(cell, arm=ARM, path=[target], speed=0.1, blend=0.0),
+        TakePosture(cell, arm=ARM, posture="home", pace=0.5),
+        ReleaseAxis(cell, arm=ARM, along=along, stiffness=0.0),
+        Push(cell, arm=ARM, along=along, force=5.0, travel=0.1),
+        Align(cell, arm=ARM, surface=BOARD, settle=1.0),
+    ):
+        driver.abort("the arm was hit")
+        with pytest.raises(SkillFailure, match="the arm was hit"):
+            motion.start()
+        assert driver.fault is None
+    cell.bench.run(0.3)
+    assert cell.arm(ARM).at_joints(q) and not driver.yields_along(along)
+
+
+def test_a_motion_that_fails_on_the_way_ends(cell):
+    motion = MoveLinear(cell, arm=ARM, target=moved_by(cell.arm(ARM).pose, 0.0, 0.0, 0.1), speed=0.1)
+    motion.start()
+    cell.bench.run(0.3)
+    cell.arm(ARM).fault = "somebody came too near"
+    with pytest.raises(SkillFailure, match="too near"):
+        motion.tick()
+    motion.halt("it failed")
+    cell.bench.run(0.5)
+    assert cell.arm(ARM).done and np.linalg.norm(cell.arm(ARM).velocity) < 1e-3
 
 
 @pytest.mark.sim
@@ -203,7 +240,8 @@ def test_the_whole_sequence_finds_the_tilted_surface_and_wipes_it(robot):
 
 
 @pytest.mark.sim
-def test_an_align_that_is_halted_holds_the_tool(robot):
+@pytest.mark.parametrize("fails", [False, True])
+def test_an_align_that_fails_or_is_halted_holds_the_tool(robot, fails):
     cell, normal = above(robot, 0.01)
     cell.run(ReleaseAxis(cell, arm=ARM, along=normal, stiffness=0.0))
     cell.run(Push(cell, arm=ARM, along=normal, force=FORCE_N[robot], travel=0.12))
@@ -211,6 +249,10 @@ def test_an_align_that_is_halted_holds_the_tool(robot):
     align.start()
     cell.bench.run(0.2)
     assert align.tick() is Status.RUNNING
+    if fails:
+        cell.arm(ARM).abort("contact was lost")
+        with pytest.raises(SkillFailure, match="contact was lost"):
+            align.tick()
     align.halt("stopped by the user")
     cell.bench.run(1.0)
     assert cell.arm(ARM).behind is None

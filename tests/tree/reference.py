@@ -403,10 +403,9 @@ def _primitive(scoped: bool, model: Model, scope: Scope) -> Life:
                 yield
         if script.ending == "crash":
             return Result("error")
-        ended = True
         if script.ending == "fail":
             return Result("body")
-        lasts = True
+        ended = lasts = True
         return Result()
     finally:
         if not ended:

@@ -68,11 +68,18 @@ def test_an_exception_halts_the_siblings_and_the_one_that_raised() -> None:
     assert run.failure.message.startswith("RuntimeError: b broke (stage.py:")
 
 
-def test_what_ended_by_itself_is_not_halted() -> None:
-    cell = stage(a=Script("success", 2), b=Script("fail", 3))
-    run = Run(par("all", act("a"), act("b")), Library().build(), cell)
+def test_what_succeeded_or_refused_to_start_is_not_halted() -> None:
+    cell = stage(a=Script("success", 2), b=Script("refuse"))
+    run = Run(seq(act("a"), act("b")), Library().build(), cell)
     assert finish(run, cell) is Status.FAILURE
     assert cell.said("halt") == []
+
+
+def test_what_failed_by_itself_is_halted_then_undone() -> None:
+    cell = stage(a=Script("success", 2), b=Script("fail", 3))
+    run = Run(par("all", act("a"), call("Setup", name="b")), Library().build(), cell)
+    assert finish(run, cell) is Status.FAILURE
+    assert cell.said("halt", "release") == ["halt b", "release b"]
 
 
 def test_pause_and_resume_reach_what_runs_and_time_stands_still() -> None:

@@ -16,12 +16,21 @@ PATIENCE_S = 1.5
 
 
 class ArmMotion(Primitive):
-    """A motion that `start` gives to the arm's driver; `tick`, `halt`, `pause` and `resume` are alike for all."""
+    """A motion that `go` gives to the arm's driver; the rest of its life is alike for all."""
 
     def __init__(self, cell: Cell, arm: str) -> None:
         super().__init__(cell)
         self.arm: ArmDriver = cell.arm(arm)
         self._ended: float | None = None
+
+    def start(self) -> None:
+        """Go, unless the arm has a fault that nobody has been told of yet."""
+        raise_fault(self.arm)
+        self.go()
+
+    def go(self) -> None:
+        """Give the motion to the arm; SkillFailure before anything moves."""
+        raise NotImplementedError
 
     def tick(self) -> Status:
         """Return SUCCESS once the arm is there."""

@@ -34,6 +34,7 @@ class ReleaseAxis(Primitive):
 
     def start(self) -> None:
         """Release the axis; the tool stays where it is."""
+        raise_fault(self.arm)
         try:
             self.arm.release(self._along, self._stiffness)
         except ValueError as refusal:
@@ -65,6 +66,7 @@ class Push(Primitive):
 
     def start(self) -> None:
         """Begin the approach."""
+        raise_fault(self.arm)
         if not self.arm.yields_along(self._along):
             raise SkillFailure(
                 "the arm must yield along the direction in which it shall push; use it within Compliance"
@@ -120,6 +122,7 @@ class Align(Primitive):
 
     def start(self) -> None:
         """Let the tool turn."""
+        raise_fault(self.arm)
         self._began = self.cell.now
         self.arm.release_rotation()
 

@@ -25,7 +25,7 @@ class MoveJoints(ArmMotion):
         super().__init__(cell, arm)
         self._individual, self._target, self._pace = arm, target, pace
 
-    def start(self) -> None:
+    def go(self) -> None:
         """Find the posture nearest to home that puts the tool there, and go."""
         seed = posture_of(self.cell.world.snapshot(), self._individual, HOME)
         q = self.arm.inverse_kinematics(self._target, seed)
@@ -45,7 +45,7 @@ class TakePosture(ArmMotion):
         super().__init__(cell, arm)
         self._individual, self._posture, self._pace = arm, posture, pace
 
-    def start(self) -> None:
+    def go(self) -> None:
         """Look the posture up and go."""
         self.arm.move_joints(posture_of(self.cell.world.snapshot(), self._individual, self._posture), self._pace)
 
@@ -57,7 +57,7 @@ class MoveLinear(ArmMotion):
         super().__init__(cell, arm)
         self._target, self._speed = target, speed
 
-    def start(self) -> None:
+    def go(self) -> None:
         """Plan the line from where the reference rests, and go."""
         limits = self.limits(self._speed)
         self.arm.move_along(path([self.arm.anchor, self._target], limits))

@@ -20,7 +20,7 @@ class FollowPath(ArmMotion):
         super().__init__(cell, arm)
         self._poses, self._speed, self._blend = path, speed, blend
 
-    def start(self) -> None:
+    def go(self) -> None:
         """Plan the path from where the reference rests, and go."""
         limits = self.limits(self._speed)
         self.arm.move_along(path_through([self.arm.anchor, *self._poses], limits, self._blend))

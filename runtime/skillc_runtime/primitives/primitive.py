@@ -43,7 +43,7 @@ class Primitive:
         raise NotImplementedError
 
     def halt(self, reason: str) -> None:
-        """Stop safely at once. Called exactly once, only if the primitive neither succeeded nor failed by itself."""
+        """Stop safely at once. Called exactly once unless `start` refused or `tick` succeeded: also after either raised."""
 
     def pause(self) -> None:
         """Hold still until `resume`."""

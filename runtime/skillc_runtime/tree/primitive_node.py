@@ -17,10 +17,10 @@ from skillc_runtime.tree.undo import Undo
 class PrimitiveNode(Node):
     """Makes one primitive, starts and ticks it; used for one run.
 
-    The primitive is halted exactly once if it neither succeeded nor raised SkillFailure: because of a halt from above,
-    or because it raised something else. `undo` is given for a scoped skill, whose primitive is released exactly once
-    after it began to start, unless it refused to: at once when it does not succeed, else by `undo`. `refused` tells
-    that it did not start; `restore` takes back what its posts wrote, after the release.
+    A primitive that began to start is halted exactly once unless it refused to start or succeeded: because of a halt
+    from above, or because it raised. `undo` is given for a scoped skill, whose primitive is released exactly once after
+    it began to start, unless it refused to: at once when it does not succeed, else by `undo`. `refused` tells that it
+    did not start; `restore` takes back what its posts wrote, after the release.
     """
 
     kind: ClassVar[str] = "primitive"
@@ -106,6 +106,5 @@ class PrimitiveNode(Node):
         raise TypeError(f"{self.name} returned {status!r} from tick; it may return RUNNING or SUCCESS")
 
     def _failed(self, message: str) -> Status:
-        self._running = False
-        self.undo_now()
+        self.stop(message)
         return self.fail(Failure(kind="body", message=message, source=self.source))
