@@ -1,20 +1,36 @@
 """A model follows from the facts of a scene, as reality has them."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
-from cells import ARM, ERASER, SCENES, SURFACE, cell, world
+from cells import ARM, ERASER, SCENES, SURFACE, cell, vocabulary, world
 
+from skillc_ontology import catalogue
 from skillc_runtime.simulation.build import build
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.facts import read_scene
-from skillc_runtime.simulation.sheet import SheetError
 from skillc_runtime.simulation.variation import draw
 from skillc_runtime.world.changes import ClearProperty, RemoveRelation, SetProperty
 from skillc_runtime.world.frames import pose
 from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.scene import load_scene
+from skillc_runtime.world.sheet import SheetError
+from skillc_runtime.world.terms import (
+    COMPLIANT_CONTROLLER,
+    FRICTION,
+    FRICTION_HIGH,
+    FRICTION_LOW,
+    HAS_SHEET,
+    OFFSET_RANGE,
+    SIZE,
+    SKILLC,
+    TILT_RANGE,
+    WEIGHT,
+)
 
-SKIROS = "http://rvmi.aau.dk/ontologies/skiros.owl#"
-SKILLC = "https://w3id.org/skillc/core#"
+RANGES = (FRICTION_LOW, FRICTION_HIGH, OFFSET_RANGE, TILT_RANGE)
 
 
 @pytest.mark.parametrize("scene", SCENES)
@@ -56,26 +72,56 @@ def test_the_felt_yields_as_its_data_sheet_says() -> None:
 
 
 def test_a_missing_fact_is_named() -> None:
-    state = world("iiwa_table").changed([ClearProperty(ERASER, SKIROS + "Weight")])
+    state = world("iiwa_table").changed([ClearProperty(ERASER, WEIGHT)])
     with pytest.raises(SheetError, match=r"Eraser-1 has no number skiros:Weight"):
         read_scene(state)
 
 
 def test_a_device_without_data_sheet_is_named() -> None:
     arm = ARM["iiwa_table"]
-    state = world("iiwa_table").changed([RemoveRelation(arm, SKILLC + "hasSheet", SKILLC + "iiwa14-sheet")])
+    state = world("iiwa_table").changed([RemoveRelation(arm, HAS_SHEET, SKILLC + "iiwa14-sheet")])
     with pytest.raises(SheetError, match="Iiwa-1 has no data sheet"):
         read_scene(state)
 
 
 def test_an_unknown_controller_is_named_with_those_there_are() -> None:
-    state = world("iiwa_table").changed([SetProperty(ARM["iiwa_table"], SKIROS + "CompliantController", "impedence")])
+    state = world("iiwa_table").changed([SetProperty(ARM["iiwa_table"], COMPLIANT_CONTROLLER, "impedence")])
     with pytest.raises(SheetError, match=r"Iiwa-1: there is no controller 'impedence'; .*forward_dynamics, impedance"):
         SimulatedCell(WorldModel(state))
 
 
+def test_a_plain_surface_with_nothing_but_its_friction_is_simulated(tmp_path: Path) -> None:
+    """A surface need not be one to wipe."""
+    text = catalogue.scene("iiwa_table").read_text("utf-8").replace("a wiping:TableTop", "a skillc:Surface")
+    scene = tmp_path / "plain.ttl"
+    scene.write_text(re.sub(r"wiping:isClean.*\n(.*\n)*", "skillc:friction 0.6 .\n", text), "utf-8")
+    built = SimulatedCell(WorldModel(load_scene(scene, vocabulary())), seed=3)
+    (surface,) = built.facts.surfaces
+    assert (surface.friction, surface.offset_range_m, surface.tilt_range_rad) == ((0.6, 0.6), 0.0, 0.0)
+    np.testing.assert_allclose(built.true_pose(surface).position, surface.pose.position)
+
+
+@pytest.mark.parametrize(("given", "missing"), [(FRICTION_LOW, FRICTION_HIGH), (FRICTION_HIGH, FRICTION_LOW)])
+def test_half_a_range_of_friction_is_refused(given: str, missing: str) -> None:
+    state = world("iiwa_table").changed([ClearProperty(SURFACE["iiwa_table"], missing)])
+    assert state.value(SURFACE["iiwa_table"], given) is not None
+    with pytest.raises(SheetError, match=f"Table-1 has no number skillc:{missing.removeprefix(SKILLC)}"):
+        read_scene(state)
+
+
+def test_a_range_of_friction_is_read_without_the_single_value_and_the_other_way_round() -> None:
+    surface, state = SURFACE["iiwa_table"], world("iiwa_table")
+    assert read_scene(state.changed([ClearProperty(surface, FRICTION)])).surfaces[0].friction == (0.5, 0.7)
+    bare = state.changed([ClearProperty(surface, name) for name in RANGES])
+    assert read_scene(bare).surfaces[0].friction == (0.6, 0.6)
+    with pytest.raises(SheetError, match=r"Table-1 has no number skillc:friction "):
+        read_scene(bare.changed([ClearProperty(surface, FRICTION)]))
+    with pytest.raises(SheetError, match=r"skillc:frictionLow above its skillc:frictionHigh"):
+        read_scene(state.changed([SetProperty(surface, FRICTION_LOW, 0.9)]))
+
+
 def test_facts_that_contradict_a_model_are_refused() -> None:
-    facts = read_scene(world("iiwa_table").changed([SetProperty(ERASER, SKIROS + "SizeX", 0.2)]))
+    facts = read_scene(world("iiwa_table").changed([SetProperty(ERASER, SIZE[0], 0.2)]))
     with pytest.raises(ValueError, match=r"the face of .*Eraser-1 is"):
         build(facts, draw(facts.surfaces, 0))
 

@@ -23,8 +23,9 @@ from skillc_runtime.primitives.gripper import ParallelGripper
 from skillc_runtime.primitives.primitive import SkillFailure
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.changes import AddRelation
-from skillc_runtime.world.frames import AT, pose
+from skillc_runtime.world.frames import pose
 from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.terms import AT
 
 
 def at_the_eraser(scene: str, seed: int = 0) -> SimulatedCell:

@@ -21,12 +21,12 @@ from skillc_runtime.report.write import write_report
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.film import Film, FilmError
 from skillc_runtime.simulation.rendering import RenderingError
-from skillc_runtime.simulation.sheet import SheetError
 from skillc_runtime.task import Execution, Prepared, execute, prepare
 from skillc_runtime.trace.events import Listener
 from skillc_runtime.trace.writer import TraceWriter
 from skillc_runtime.world.frames import FrameError
 from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.sheet import SheetError
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,12 +7,11 @@ from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.robots.cell import Cell
 from skillc_runtime.robots.tools import working_face
 from skillc_runtime.world.changes import Change, SetProperty
-from skillc_runtime.world.frames import BASE_FRAME_ID, ORIENTATION, POSITION, WORLD_FRAME, pose, size
+from skillc_runtime.world.frames import WORLD_FRAME, pose, size
+from skillc_runtime.world.terms import BASE_FRAME_ID, GRASP_WIDTH, ORIENTATION, POSITION
 
 OPEN_BY_M = 0.04
 """How much farther than the thing's width the fingers open when they let go."""
-
-GRASP_WIDTH = "https://w3id.org/skillc/core#graspWidth"
 
 
 class Grasp(Primitive):

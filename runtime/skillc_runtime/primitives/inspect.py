@@ -5,9 +5,7 @@ from __future__ import annotations
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.robots.cell import Cell
 from skillc_runtime.world.changes import SetProperty
-
-WIPING = "https://w3id.org/skillc/wiping#"
-COVERAGE, IS_CLEAN, CLEAN_THRESHOLD = WIPING + "coverage", WIPING + "isClean", WIPING + "cleanThreshold"
+from skillc_runtime.world.terms import CLEAN_THRESHOLD, COVERAGE, IS_CLEAN
 
 
 class Inspect(Primitive):

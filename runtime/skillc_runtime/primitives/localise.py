@@ -8,12 +8,11 @@ import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose, exp, quaternion_of
 from skillc_runtime.world.changes import SetProperty
-from skillc_runtime.world.frames import BASE_FRAME_ID, ORIENTATION, POSITION, WORLD_FRAME, pose
+from skillc_runtime.world.frames import WORLD_FRAME, pose
+from skillc_runtime.world.terms import BASE_FRAME_ID, LOCATED, ORIENTATION, POSITION
 
 if TYPE_CHECKING:
     from skillc_runtime.world.model import WorldModel
-
-LOCATED = "https://w3id.org/skillc/core#located"
 
 
 def localise(world: WorldModel, surface: str, tool: Pose) -> None:

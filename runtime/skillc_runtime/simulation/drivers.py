@@ -7,7 +7,7 @@ from skillc_runtime.controllers.virtual_arm import virtual_model
 from skillc_runtime.robots.driver import ArmDriver
 from skillc_runtime.simulation.arm import SimulatedArm
 from skillc_runtime.simulation.facts import ArmFacts
-from skillc_runtime.simulation.sheet import SheetError
+from skillc_runtime.world.sheet import SheetError
 
 
 def driver(facts: ArmFacts, arm: SimulatedArm, period_s: float) -> ArmDriver:

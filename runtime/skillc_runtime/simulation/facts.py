@@ -8,25 +8,29 @@ from typing import Literal
 
 from skillc_ontology.catalogue import model as model_path
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.simulation.sheet import Sheet, SheetError, number, sheet_of, text
-from skillc_runtime.simulation.terms import (
+from skillc_runtime.world.frames import pose, size
+from skillc_runtime.world.sheet import Sheet, SheetError, number, sheet_of, text
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.terms import (
     ARM_DEVICE,
     COMPLIANT_CONTROLLER,
     FORCE_TORQUE_SENSOR,
+    FRICTION,
+    FRICTION_HIGH,
+    FRICTION_LOW,
     FURNITURE,
     HAS_ARM,
     HAS_GRIPPER,
     HAS_SENSOR,
     MOBILE_ROBOT,
+    OFFSET_RANGE,
     POSITION_CONTROLLED_ARM,
     SURFACE,
+    TILT_RANGE,
     TOOL,
     TORQUE_CONTROLLED_ARM,
     WEIGHT,
-    WIPING,
 )
-from skillc_runtime.world.frames import pose, size
-from skillc_runtime.world.state import WorldState
 
 
 @dataclass(frozen=True, slots=True)
@@ -186,16 +190,23 @@ def _tool(state: WorldState, tool: str) -> ToolFacts:
 
 
 def _surface(state: WorldState, surface: str) -> SurfaceFacts:
-    friction = number(state, surface, WIPING + "friction")
-    low, high = (state.value(surface, WIPING + name) for name in ("frictionLow", "frictionHigh"))
-    given = low is not None and high is not None
     return SurfaceFacts(
         individual=surface,
         pose=pose(state, surface),
         size=size(state, surface),
-        friction=(number(state, surface, WIPING + "frictionLow"), number(state, surface, WIPING + "frictionHigh"))
-        if given
-        else (friction, friction),
-        offset_range_m=number(state, surface, WIPING + "offsetRange", default=0.0),
-        tilt_range_rad=number(state, surface, WIPING + "tiltRange", default=0.0),
+        friction=_friction(state, surface),
+        offset_range_m=number(state, surface, OFFSET_RANGE, default=0.0),
+        tilt_range_rad=number(state, surface, TILT_RANGE, default=0.0),
     )
+
+
+def _friction(state: WorldState, surface: str) -> tuple[float, float]:
+    """Return the least and the greatest friction: the range where one of its ends is given, else the one value."""
+    if all(state.value(surface, end) is None for end in (FRICTION_LOW, FRICTION_HIGH)):
+        believed = number(state, surface, FRICTION)
+        return believed, believed
+    low, high = number(state, surface, FRICTION_LOW), number(state, surface, FRICTION_HIGH)
+    if low > high:
+        short = state.vocabulary.short
+        raise SheetError(f"{short(surface)} has a {short(FRICTION_LOW)} above its {short(FRICTION_HIGH)}")
+    return low, high

@@ -7,22 +7,25 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.world.terms import AT, BASE_FRAME_ID, FRAME_ID, ORIENTATION, POSITION, SIZE
 
 if TYPE_CHECKING:
     from skillc_runtime.world.state import WorldState
 
-SKIROS = "http://rvmi.aau.dk/ontologies/skiros.owl#"
-AT = SKIROS + "at"
-FRAME_ID = SKIROS + "FrameId"
-BASE_FRAME_ID = SKIROS + "BaseFrameId"
-POSITION = tuple(SKIROS + name for name in ("PositionX", "PositionY", "PositionZ"))
-ORIENTATION = tuple(SKIROS + name for name in ("OrientationW", "OrientationX", "OrientationY", "OrientationZ"))
-SIZE = tuple(SKIROS + name for name in ("SizeX", "SizeY", "SizeZ"))
 WORLD_FRAME = "map"
 
 
 class FrameError(ValueError):
     """A pose that the world model does not hold; the message says of what and which fact is missing."""
+
+
+class MissingFact(FrameError):
+    """A number that `individual` lacks: its `property`, an IRI."""
+
+    def __init__(self, state: WorldState, individual: str, property_: str) -> None:
+        short = state.vocabulary.short
+        super().__init__(f"{short(individual)} has no {short(property_)} in the world model")
+        self.individual, self.property = individual, property_
 
 
 def pose(state: WorldState, individual: str) -> Pose:
@@ -69,8 +72,7 @@ def _own_pose(state: WorldState, individual: str) -> Pose:
 def _number(state: WorldState, individual: str, name: str) -> float:
     value = state.value(individual, name)
     if not isinstance(value, int | float):
-        short = state.vocabulary.short
-        raise FrameError(f"{short(individual)} has no {short(name)} in the world model")
+        raise MissingFact(state, individual, name)
     return float(value)
 
 

@@ -10,15 +10,14 @@ import pyoxigraph as ox
 
 from skillc_compiler.library.vocabulary import THING, ClassTerm, Vocabulary
 from skillc_runtime.world.documents import Node, Placed
+from skillc_runtime.world.terms import HAS_TEMPLATE, TEMPLATE
 from skillc_runtime.world.turtle import RDF_TYPE
 
 RDF = "http://www.w3.org/1999/02/22-rdf-syntax-ns#"
 RDFS = "http://www.w3.org/2000/01/rdf-schema#"
 OWL = "http://www.w3.org/2002/07/owl#"
-SKIROS = "http://rvmi.aau.dk/ontologies/skiros.owl#"
 ABOUT_TERMS = (OWL, RDFS, RDF, "http://purl.org/vocab/vann/")
 CLASS_DECLARATIONS = (f"{OWL}Class", f"{OWL}class")  # SkiROS2's scenes write the second
-TEMPLATE, HAS_TEMPLATE = f"{SKIROS}Template", f"{SKIROS}hasTemplate"
 NAMED_INDIVIDUAL, ANNOTATION = f"{OWL}NamedIndividual", f"{OWL}AnnotationProperty"
 
 

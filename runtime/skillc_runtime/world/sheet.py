@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.simulation.terms import HAS_POSTURE, HAS_SHEET, JOINT_VALUES, POSTURE_NAME, SKILLC
 from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.terms import HAS_POSTURE, HAS_SHEET, JOINT_VALUES, POSTURE_NAME, SKILLC
 
 
 class SheetError(ValueError):
-    """A fact that the simulation needs is missing or unreadable; the message says which, of what."""
+    """A fact about a device is missing or unreadable; the message says which, of what."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,9 +39,9 @@ class Sheet:
         names = {str(self.state.value(p, POSTURE_NAME)): p for p in self.postures}
         if name not in names:
             known = ", ".join(sorted(names)) or "none"
-            raise SheetError(f"{self._short(self.individual)} has no posture {name}; it has {known}")
-        values = self.state.value(names[name], JOINT_VALUES)
-        return _numbers(str(values), f"posture {name} of {self._short(self.individual)}")
+            raise SheetError(f"{self._short(self.individual)} has no posture {name!r}; it has {known}")
+        values = text(self.state, names[name], JOINT_VALUES)
+        return _numbers(values, f"posture {name} of {self._short(self.individual)}")
 
     @property
     def postures(self) -> tuple[str, ...]:
