@@ -24,39 +24,54 @@ SHIPPED = Path(str(files("skillc_skills")))
 
 @dataclass(frozen=True, slots=True)
 class LibraryFiles:
-    """A library: `sources` under paths relative to `root`, `shelf` what may be imported besides, by name."""
+    """A library: `sources` under paths relative to `root`, `shelf` what may be imported besides, by name.
+
+    `places` are the files of all of them on disk.
+    """
 
     name: str
     root: Path
     sources: tuple[Source, ...]
     shelf: dict[str, Source]
+    places: dict[str, Path]
 
     def shown(self, path: str) -> str:
-        """Return a source's path as a user can open it from here."""
-        if path.startswith("std/"):
-            file = SHIPPED / path
-        else:
-            file = catalogue.ROOT / path if path.endswith(".ttl") else self.root / path
-        here = Path.cwd()
+        """Return a source's path as a user can open it from here; ontology files are below the ontology."""
+        file, here = self.places.get(path, catalogue.ROOT / path), Path.cwd()
         return str(file.relative_to(here) if file.is_relative_to(here) else file)
 
 
 def find(path: Path) -> LibraryFiles:
-    """Read the library at a folder, or the single file at `path` with its neighbours to import from.
+    """Read the library at a folder, the single file at `path` with its neighbours, or the shipped library of that name.
 
-    UsageError for a path that is neither, or that holds no `.skill` file.
+    UsageError for a path that is none of these, or that holds no `.skill` file.
     """
-    shelf = {file.name: _read(file, f"std/{file.name}") for file in sorted((SHIPPED / "std").glob("*.skill"))}
+    if not path.exists() and (SHIPPED / path).is_dir():
+        path = SHIPPED / path
+    shelf = {file.name: (f"std/{file.name}", file) for file in (SHIPPED / "std").glob("*.skill")}
+    shipped = (file.relative_to(SHIPPED).as_posix() for file in SHIPPED.glob("*/*.skill") if file.parent.name != "std")
+    shelf |= {name: (name, SHIPPED / name) for name in shipped}
     if path.is_dir():
-        found = sorted(path.rglob("*.skill"))
-        if not found:
+        sources = {file.relative_to(path).as_posix(): file for file in sorted(path.rglob("*.skill"))}
+        if not sources:
             raise click.UsageError(f"there is no .skill file in {path}")
-        sources = tuple(_read(file, file.relative_to(path).as_posix()) for file in found)
-        return LibraryFiles(path.resolve().name, path, sources, shelf)
+        return _files(path.resolve().name, path, sources, shelf)
     if path.is_file():
-        neighbours = {file.name: _read(file, file.name) for file in path.parent.glob("*.skill") if file != path}
-        return LibraryFiles(path.resolve().parent.name, path.parent, (_read(path, path.name),), shelf | neighbours)
+        if path.suffix != ".skill":
+            raise click.UsageError(f"{path} is not a .skill file")
+        neighbours = {file.name: (file.name, file) for file in path.parent.glob("*.skill") if file != path}
+        return _files(path.resolve().parent.name, path.parent, {path.name: path}, shelf | neighbours)
     raise click.UsageError(f"there is no file or folder {path}")
+
+
+def _files(name: str, root: Path, sources: dict[str, Path], shelf: dict[str, tuple[str, Path]]) -> LibraryFiles:
+    return LibraryFiles(
+        name,
+        root,
+        tuple(_read(file, shown) for shown, file in sources.items()),
+        {wanted: _read(file, shown) for wanted, (shown, file) in sorted(shelf.items())},
+        dict(shelf.values()) | sources,
+    )
 
 
 def compile_library(library: LibraryFiles) -> Outcome[SkillLibrary]:
@@ -89,7 +104,10 @@ def find_task(reference: str) -> tuple[LibraryFiles, str]:
 def task_named(library: SkillLibrary, name: str) -> Task:
     """Return a task; UsageError lists those that exist."""
     if name not in library.tasks:
-        raise click.UsageError(f"there is no task `{name}` in {library.name}; {did_you_mean(name, library.tasks)}")
+        hint = did_you_mean(name, library.tasks) or "it has none"
+        raise click.UsageError(
+            f"there is no task `{name}` in {library.name}: {hint} (for another library: LIBRARY:NAME)"
+        )
     return library.tasks[name]
 
 

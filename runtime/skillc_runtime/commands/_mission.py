@@ -46,15 +46,13 @@ def of_task(reference: str) -> Mission:
 
 def of_scene(scene: Path, goal: str | None, skill: str | None, library_path: Path | None) -> Mission:
     """Take a goal, or a call of a skill, in a scene; the library is the shipped one unless a path is given."""
-    if (goal is None) == (skill is None):
-        raise click.UsageError("with --scene say either --goal TEXT or --skill CALL")
     library = compiled(_library.find(library_path or _library.SHIPPED / "wiping"))
     state = loaded(scene_path(scene), library)
     individuals = {iri: sorted(state.types(iri)) for iri in state.individuals}
     prefixes = state.vocabulary.prefixes
     if goal is not None:
         asked = parse_goal(goal, library.vocabulary, individuals, prefixes)
-        return Mission(library, Assignment("goal", state, Reach(_understood(asked, goal))))
+        return Mission(library, Assignment(goal, state, Reach(_understood(asked, goal))))
     assert skill is not None
     call = _understood(parse_call(skill, library, individuals, prefixes), skill)
     return Mission(library, Assignment(call.skill, state, Perform(call)))

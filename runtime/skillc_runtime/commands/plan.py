@@ -18,7 +18,9 @@ import click
 @click.option("--scene", type=click.Path(path_type=Path), help="The scene to plan in, instead of a task's.")
 @click.option("--goal", help="The goal, as in a .skill file or as PDDL.")
 @click.option("--library", type=click.Path(path_type=Path), help="The skills to plan with, if not the shipped ones.")
-@click.option("--deadline", default=30.0, show_default=True, help="Seconds the planner may take.")
+@click.option(
+    "--deadline", type=click.FloatRange(min=0.1), default=30.0, show_default=True, help="Seconds the planner may take."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
 def command(
     task: str | None, scene: Path | None, goal: str | None, library: Path | None, deadline: float, as_json: bool
@@ -30,12 +32,16 @@ def command(
     from skillc_runtime.planning.solve import solve
     from skillc_runtime.task import Reach
 
-    if (task is None) == (scene is None):
+    if task is not None and (scene or goal or library):
+        raise click.UsageError("a TASK has its own scene, goal and library; leave the options out")
+    if task is None and (scene is None or goal is None):
         raise click.UsageError("say either a TASK or --scene FILE with --goal TEXT")
     mission = _mission.of_task(task) if task else _mission.of_scene(scene or Path(), goal, None, library)
     assignment = mission.assignment
     if not isinstance(assignment.aim, Reach):
-        raise click.UsageError(f"the task `{assignment.name}` has no goal to plan for: it says itself what to do")
+        raise click.UsageError(
+            f"the task `{assignment.name}` has no goal to plan for, it says itself what to do; use `skillc run`"
+        )
     try:
         answer = solve(mission.library, assignment.state, assignment.aim.goal, deadline_s=deadline)
     except GoalError as error:

@@ -19,7 +19,11 @@ import click
 @click.option("--goal", help="The goal to plan for, as in a .skill file or as PDDL.")
 @click.option("--skill", help="A call to run instead of a goal, as `Wipe(surface: lab:Table-1)`.")
 @click.option("--library", type=click.Path(path_type=Path), help="The skills to use, if not the shipped ones.")
-@click.option("--out", type=click.Path(path_type=Path), help="A folder for report.html, events.jsonl and the film.")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="A folder for report.html, events.jsonl and the film.",
+)
 @click.option("--seed", default=0, show_default=True, help="How reality differs from the world model.")
 @click.option("--real-time", is_flag=True, help="Let simulated time pass no faster than the clock.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
@@ -37,7 +41,9 @@ def command(
     """Run TASK (`LIBRARY:NAME`, or a shipped task), or a goal or a call in a scene."""
     from skillc_runtime.commands import _mission, _results, _running
 
-    if (task is None) == (scene is None):
+    if task is not None and (scene or goal or skill or library):
+        raise click.UsageError("a TASK has its own scene, goal and library; leave the options out")
+    if task is None and (scene is None or (goal is None) == (skill is None)):
         raise click.UsageError("say either a TASK or --scene FILE with --goal TEXT or --skill CALL")
     mission = _mission.of_task(task) if task else _mission.of_scene(scene or Path(), goal, skill, library)
     result = _running.run(mission, _running.Options(out=out, seed=seed, real_time=real_time, quiet=as_json))
