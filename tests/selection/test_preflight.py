@@ -2,15 +2,27 @@
 
 from __future__ import annotations
 
+import msgspec
 import pytest
 
-from selection.library import MOUNTED, THERE, at, call, gripper, impl, library, scene
+from selection.library import MOUNTED, THERE, at, call, force, gripper, impl, library, scene
 from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Individual, IsA, Literal, Variable
-from skillc_compiler.library.skills import Compound, Implementation, Primitive
+from skillc_compiler.library.conditions import (
+    Arithmetic,
+    Assign,
+    Expression,
+    HasProperty,
+    Individual,
+    Invoke,
+    IsA,
+    Literal,
+    PropertyOf,
+    Variable,
+)
+from skillc_compiler.library.skills import Compound, Implementation, Let, Post, Primitive
 from skillc_runtime.selection.preflight import preflight
 from skillc_runtime.world.changes import Change, RemoveRelation
-from world.lab import fact, individual, iri, parameter
+from world.lab import assign, fact, individual, iri, parameter
 
 PICK = call("Pick", arm=Individual(iri("arm")), object=Individual(iri("eraser")))
 CUPPED: tuple[Change, ...] = (
@@ -135,3 +147,58 @@ def test_a_condition_nothing_can_change_is_checked() -> None:
     never = call("Need", arm=Individual(iri("arm")), gripper=Individual(iri("cup")))
     assert refusals(fits, more=(need,)) == []
     assert "arm hasA gripper" in refusals(never, more=(need,))[0]
+
+
+WEIGHT = PropertyOf(Individual(iri("eraser")), iri("weight"))
+NO_WEIGHT = "t:eraser has no t:weight in the world model, and no skill supplies it"
+WEIGHED = Post(
+    label="weighed",
+    condition=HasProperty(Individual(iri("eraser")), iri("weight")),
+    effects=(Assign(Individual(iri("eraser")), iri("weight"), Literal(1.0)),),
+    sensed=False,
+    text="eraser has weight",
+    source=at(50),
+)
+
+
+@pytest.mark.parametrize(
+    "force",
+    [
+        WEIGHT,
+        Arithmetic("*", Literal(2.0), WEIGHT),
+        Invoke("heavier", (WEIGHT,)),
+        Invoke("heavier", (Arithmetic("+", Variable("unknown"), WEIGHT),)),
+    ],
+)
+def test_a_fact_that_no_skill_supplies_is_missed_before_anything_moves(force: Expression) -> None:
+    body = call("Actuate", gripper=Individual(iri("gripper")), force=force)
+    assert refusals(body) == [f"work.skill:20: Actuate: `force` cannot be had: {NO_WEIGHT}"]
+    assert refusals(body, assign("eraser", "weight", 9.0)) == []
+    weigh = impl("Weigh", "only", post=(WEIGHED,), body=Compound(seq()))
+    assert refusals(body, more=(weigh,)) == []
+
+
+def test_what_fails_for_good_is_missed() -> None:
+    nothing = Arithmetic("/", Literal(1.0), WEIGHT)
+    (refusal,) = refusals(
+        call("Actuate", gripper=Individual(iri("gripper")), force=nothing), assign("eraser", "weight", 0.0)
+    )
+    assert "Actuate: `force` cannot be had: division of 1.0 by zero" in refusal
+
+
+def test_a_let_and_the_items_of_a_loop_are_missed() -> None:
+    loop = tree.ForEach(variable="each", items=WEIGHT, child=seq(), source=at(46))
+    lets = (Let(name="heavy", value=WEIGHT),)
+    again = msgspec.structs.replace(impl("Again", "only", body=Compound(loop)), lets=lets)
+    assert refusals(call("Again"), more=(again,)) == [
+        f"work.skill:5: Again: `heavy` cannot be had: {NO_WEIGHT} (in Again[only])",
+        f"work.skill:46: for: `each` cannot be had: {NO_WEIGHT} (in Again[only])",
+    ]
+
+
+def test_a_default_is_missed_where_it_is_needed() -> None:
+    lift = impl("Lift", "strong", gripper("Gripper"), force(default=WEIGHT))
+    assert refusals(call("Lift", gripper=Individual(iri("gripper"))), more=(lift,)) == [
+        f"work.skill:20: Lift: `force` cannot be had: {NO_WEIGHT}"
+    ]
+    assert refusals(call("Lift", gripper=Individual(iri("gripper")), force=Literal(1.0)), more=(lift,)) == []

@@ -43,7 +43,7 @@ class Primitive:
         raise NotImplementedError
 
     def halt(self, reason: str) -> None:
-        """Stop safely at once. Called exactly once unless `start` refused or `tick` succeeded: also after either raised."""
+        """Stop safely at once. Called exactly once unless `start` refused or `tick` succeeded; also when they raised."""
 
     def pause(self) -> None:
         """Hold still until `resume`."""

@@ -11,21 +11,21 @@ from skillc_compiler.library.conditions import Condition, Expression
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Compound, Implementation, Primitive, SkillLibrary
 from skillc_compiler.library.vocabulary import Position
-from skillc_runtime.selection.fit import bind_arguments, bind_defaults
+from skillc_runtime.selection.fit import bind_arguments
 from skillc_runtime.selection.inferred import infer_fixed
+from skillc_runtime.selection.known import Known, known_values
 from skillc_runtime.selection.python import PrimitiveError, fitting_class
-from skillc_runtime.selection.reads import changing_terms, has_fixed_value, is_fixed
+from skillc_runtime.selection.reads import changing_terms, is_fixed
 from skillc_runtime.selection.select import candidates, why_none
 from skillc_runtime.trace.failure import Rejected
 from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.expressions import EvaluationError, value_of
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
 
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """A call that can never run; `within` are the implementations around it, outermost first."""
+    """What can never run: a call of a skill or a loop; `within` are the implementations around it, outermost first."""
 
     skill: str
     message: str
@@ -44,11 +44,11 @@ def preflight(body: tree.Node, library: SkillLibrary, state: WorldState) -> tupl
     Only what no skill changes counts: the classes of individuals, and relations and properties that are no effect
     of any skill. Values that depend on anything else fit everywhere. Alternatives are refused when all are.
     """
-    return _Preflight(library, state).node(body, _Known({}, ()))
+    return _Preflight(library, state).node(body, _Scope({}, ()))
 
 
 @dataclass(frozen=True, slots=True)
-class _Known:
+class _Scope:
     """The values that are known in a body, and the implementations around it."""
 
     values: Mapping[str, Value]
@@ -61,51 +61,58 @@ class _Preflight:
         self._state = state
         self._changing = changing_terms(library)
 
-    def node(self, node: tree.Node, known: _Known) -> tuple[Refusal, ...]:
+    def node(self, node: tree.Node, scope: _Scope) -> tuple[Refusal, ...]:
         match node:
             case tree.Sequence(children=children) | tree.Parallel(children=children):
-                return self._all(children, known)
+                return self._all(children, scope)
             case tree.Selector(children=children):
-                each = [self.node(child, known) for child in children]
+                each = [self.node(child, scope) for child in children]
                 return tuple(refusal for refusals in each for refusal in refusals) if all(each) else ()
             case tree.With(call=call, child=child):
-                return self._all((call, child), known)
+                return self._all((call, child), scope)
             case tree.If():
-                return self._branches(node, known)
-            case tree.ForEach(variable=variable, child=child):
-                unknown = {name: value for name, value in known.values.items() if name != variable}
-                return self.node(child, _Known(unknown, known.within))
+                return self._branches(node, scope)
+            case tree.ForEach():
+                return self._each(node, scope)
             case tree.Retry() | tree.Repeat() | tree.Timeout() | tree.Once() | tree.While():
-                return self.node(node.child, known)
+                return self.node(node.child, scope)
             case tree.Try() | tree.Invert() | tree.Wait() | tree.WaitUntil() | tree.Check() | tree.Apply():
                 return ()
             case tree.Call():
-                return self._call(node, known)
+                return self._call(node, scope)
             case _:
                 assert_never(node)
 
-    def _all(self, nodes: tuple[tree.Node, ...], known: _Known) -> tuple[Refusal, ...]:
-        return tuple(refusal for node in nodes for refusal in self.node(node, known))
+    def _all(self, nodes: tuple[tree.Node, ...], scope: _Scope) -> tuple[Refusal, ...]:
+        return tuple(refusal for node in nodes for refusal in self.node(node, scope))
 
-    def _branches(self, node: tree.If, known: _Known) -> tuple[Refusal, ...]:
-        holds = self._truth(node.condition, known.values)
+    def _branches(self, node: tree.If, scope: _Scope) -> tuple[Refusal, ...]:
+        holds = self._truth(node.condition, scope.values)
         taken = [node.then] if holds is not False else []
         if node.orelse is not None and holds is not True:
             taken.append(node.orelse)
-        return self._all(tuple(taken), known)
+        return self._all(tuple(taken), scope)
 
-    def _call(self, call: tree.Call, known: _Known) -> tuple[Refusal, ...]:
-        arguments = self._values(call.arguments, known.values)
+    def _each(self, node: tree.ForEach, scope: _Scope) -> tuple[Refusal, ...]:
+        items = self._compute({node.variable: node.items}, scope.values)
+        unknown = {name: value for name, value in scope.values.items() if name != node.variable}
+        inside = self.node(node.child, _Scope(unknown, scope.within))
+        return (*self._never("for", items, node.source, scope.within), *inside)
+
+    def _call(self, call: tree.Call, scope: _Scope) -> tuple[Refusal, ...]:
+        arguments = self._compute(call.arguments, scope.values)
+        if arguments.never:
+            return self._never(call.skill, arguments, call.source, scope.within)
         passed = frozenset(call.arguments)
         rejected: list[Rejected] = []
         for implementation in candidates(self._library, call.skill, call.implementation):
-            fitting = self._fit(implementation, arguments, passed)
+            fitting = self._fit(implementation, arguments.values, passed)
             if isinstance(fitting, Rejected):
                 rejected.append(fitting)
             else:
-                return self._body(implementation, fitting, known.within)
+                return self._body(implementation, fitting, scope.within)
         message = why_none(call.skill, rejected)
-        return (Refusal(call.skill, message, call.source, known.within, tuple(rejected)),)
+        return (Refusal(call.skill, message, call.source, scope.within, tuple(rejected)),)
 
     def _fit(
         self, implementation: Implementation, arguments: Mapping[str, Value], passed: frozenset[str]
@@ -122,9 +129,30 @@ class _Preflight:
                 return Rejected(
                     implementation=implementation.name, stage="start", reason=str(error), source=implementation.source
                 )
-        bind_defaults(implementation, self._state, bindings, passed)
+        rejected = self._bind_defaults(implementation, bindings, passed)
+        if rejected is not None:
+            return rejected
         fixed = [pre for pre in implementation.pre if is_fixed(pre.condition, self._changing, self._state.vocabulary)]
-        return infer_fixed(implementation, tuple(fixed), bindings, passed, self._state)
+        inferred = infer_fixed(implementation, tuple(fixed), bindings, passed, self._state)
+        if isinstance(inferred, Rejected):
+            return inferred
+        return self._bind_defaults(implementation, inferred, passed) or inferred
+
+    def _bind_defaults(
+        self, implementation: Implementation, bindings: dict[str, Value], passed: frozenset[str]
+    ) -> Rejected | None:
+        """Bind the defaults whose values are known; reject one that can never be had."""
+        for parameter in implementation.parameters:
+            if parameter.default is None or parameter.name in bindings or parameter.name in passed:
+                continue
+            default = self._compute({parameter.name: parameter.default}, bindings)
+            for name, reason in default.never.items():
+                reason = f"`{name}` cannot be had: {reason}"
+                return Rejected(
+                    implementation=implementation.name, stage="argument", reason=reason, source=parameter.source
+                )
+            bindings |= default.values
+        return None
 
     def _body(
         self, implementation: Implementation, bindings: dict[str, Value], within: tuple[str, ...]
@@ -132,22 +160,22 @@ class _Preflight:
         name = f"{implementation.skill}[{implementation.name}]"
         if not isinstance(implementation.body, Compound) or name in within:
             return ()
-        lets = {let.name: let.value for let in implementation.lets}
-        for let, value in lets.items():
-            bindings |= self._values({let: value}, bindings)
-        return self.node(implementation.body.node, _Known(bindings, (*within, name)))
+        refusals: list[Refusal] = []
+        for each in implementation.lets:
+            let = self._compute({each.name: each.value}, bindings)
+            refusals += self._never(implementation.skill, let, implementation.source, (*within, name))
+            bindings |= let.values
+        return (*refusals, *self.node(implementation.body.node, _Scope(bindings, (*within, name))))
 
-    def _values(self, expressions: Mapping[str, Expression], known: Mapping[str, Value]) -> dict[str, Value]:
-        """Return those values that are known now and stay as they are."""
-        values: dict[str, Value] = {}
-        for name, expression in expressions.items():
-            fixed = has_fixed_value(expression, self._changing, self._state.vocabulary)
-            if fixed and known.keys() >= free_variables(expression):
-                try:
-                    values[name] = value_of(expression, self._state, known)
-                except EvaluationError:
-                    continue
-        return values
+    def _compute(self, expressions: Mapping[str, Expression], bound: Mapping[str, Value]) -> Known:
+        return known_values(expressions, bound, self._state, self._changing)
+
+    def _never(self, what: str, known: Known, source: Position, within: tuple[str, ...]) -> tuple[Refusal, ...]:
+        """Return a refusal for each value that can never be had."""
+        return tuple(
+            Refusal(what, f"{what}: `{name}` cannot be had: {reason}", source, within)
+            for name, reason in known.never.items()
+        )
 
     def _truth(self, condition: Condition, known: Mapping[str, Value]) -> bool | None:
         """Whether the condition holds now and for ever; None when that is not known."""

@@ -1,0 +1,82 @@
+"""The values of expressions that are known before anything moves, and those that there will never be."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from skillc_compiler.library.conditions import Expression, Invoke, PropertyOf
+from skillc_compiler.library.reading import free_variables, walk
+from skillc_runtime.selection.reads import has_fixed_value
+from skillc_runtime.world.expressions import EvaluationError, value_of
+from skillc_runtime.world.frames import MissingFact
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.terms import BASE_FRAME_ID, ORIENTATION, POSITION
+from skillc_runtime.world.values import Value
+
+MEASURED = frozenset({BASE_FRAME_ID, *POSITION, *ORIENTATION})
+"""Skills write where things are without saying so in their posts."""
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """Values by name as far as they are known; `never` says of names why they can never have a value."""
+
+    values: dict[str, Value]
+    never: dict[str, str]
+
+
+def known_values(
+    expressions: Mapping[str, Expression], bound: Mapping[str, Value], state: WorldState, changing: frozenset[str]
+) -> Known:
+    """Compute those expressions that have the same value at any later time.
+
+    `bound` are the names in scope whose values are known, `changing` the relations and properties that skills change.
+    An expression can never have a value when it lacks a fact that no skill supplies, or fails for good.
+    """
+    known = Known({}, {})
+    for name, expression in expressions.items():
+        lacking = next(_lacking(expression, bound, state, changing), None)
+        if lacking is not None:
+            known.never[name] = lacking
+        elif has_fixed_value(expression, changing, state.vocabulary) and bound.keys() >= free_variables(expression):
+            try:
+                known.values[name] = value_of(expression, state, bound)
+            except EvaluationError as error:
+                known.never[name] = str(error)
+    return known
+
+
+def _lacking(
+    expression: Expression, bound: Mapping[str, Value], state: WorldState, changing: frozenset[str]
+) -> Iterator[str]:
+    """Yield the facts that parts of an expression lack and that no skill supplies; what is in scope decides alone."""
+    short = state.vocabulary.short
+    for part in walk(expression):
+        if isinstance(part, PropertyOf | Invoke) and bound.keys() >= free_variables(part):
+            fact = _missing_fact(part, bound, state)
+            if fact is not None and fact[1] not in changing | MEASURED:
+                yield f"{short(fact[0])} has no {short(fact[1])} in the world model, and no skill supplies it"
+
+
+def _missing_fact(part: PropertyOf | Invoke, bound: Mapping[str, Value], state: WorldState) -> tuple[str, str] | None:
+    """Return the individual and the property that keep a part from having a value now; None where it is not a fact."""
+    try:
+        value_of(part, state, bound)
+    except EvaluationError as error:
+        if isinstance(error.__cause__, MissingFact):
+            return error.__cause__.individual, error.__cause__.property
+        return _missing_property(part, bound, state)
+    return None
+
+
+def _missing_property(
+    part: PropertyOf | Invoke, bound: Mapping[str, Value], state: WorldState
+) -> tuple[str, str] | None:
+    if not isinstance(part, PropertyOf) or state.vocabulary.properties[part.property].computed_by is not None:
+        return None
+    try:
+        owner = value_of(part.of, state, bound)
+    except EvaluationError:
+        return None
+    return (owner, part.property) if isinstance(owner, str) else None
