@@ -1,0 +1,50 @@
+"""What the world model says of a robot that drives."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from cells import LAB, world
+
+from skillc_compiler.library import tree
+from skillc_compiler.library.conditions import Individual
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.commands import _library
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.selection.select import NoneFits, select
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.tree.run import Run
+from skillc_runtime.world.frames import AT
+from skillc_runtime.world.model import WorldModel
+
+ROBOT, DOCK, STORE = LAB + "Heron-1", LAB + "Dock", LAB + "Store"
+
+
+@cache
+def library() -> SkillLibrary:
+    return _library.compile_library(_library.find(_library.SHIPPED / "wiping")).value
+
+
+def test_a_drive_halted_half_way_has_left_and_not_arrived() -> None:
+    cell = SimulatedCell(WorldModel(world("ur5e_whiteboard")))
+    drive = tree.Call(
+        skill="Drive",
+        implementation=None,
+        arguments={"robot": Individual(ROBOT), "to": Individual(STORE)},
+        out=None,
+        source=Position("task.skill", 3, 1),
+    )
+    run = Run(drive, library(), cell)
+    started = cell.base(ROBOT).pose.position
+    while abs(cell.base(ROBOT).pose.position - started).max() < 0.05:
+        assert run.tick() is Status.RUNNING
+        cell.advance(0.05)
+    run.halt("enough")
+    assert cell.world.snapshot().objects(ROBOT, AT) == frozenset()
+
+
+def test_nobody_drives_to_where_the_robot_is() -> None:
+    result = select(library(), "Drive", {"robot": ROBOT, "to": DOCK}, world("ur5e_whiteboard"))
+    assert isinstance(result, NoneFits)
+    assert "not from == to" in result.rejected[0].reason, result.rejected[0].reason
