@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import platform
+import re
 from dataclasses import dataclass
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import PackageNotFoundError, requires, version
 
 from skillc_runtime.planning.fast_downward import installed
 from skillc_runtime.simulation.rendering import RenderingError, check_rendering
-
-REQUIRED = ("lark", "msgspec", "pyoxigraph", "pddl", "numpy", "mujoco", "matplotlib", "rich", "click")
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,11 +27,17 @@ def findings() -> list[Finding]:
     return [
         Finding("python", True, platform.python_version(), platform.platform(), required=True),
         Finding("skillc", True, version("skillc"), "", required=True),
-        *(_package(name) for name in REQUIRED),
+        *(_package(name) for name in _required()),
         _planner(),
         _rendering(),
         _video(),
     ]
+
+
+def _required() -> list[str]:
+    """Return the names of the packages that skillc always needs."""
+    needed = [line for line in requires("skillc") or () if "extra ==" not in line]
+    return sorted(re.split(r"[^\w.-]", line, maxsplit=1)[0] for line in needed)
 
 
 def _package(name: str) -> Finding:

@@ -105,9 +105,8 @@ def task_named(library: SkillLibrary, name: str) -> Task:
     """Return a task; UsageError lists those that exist."""
     if name not in library.tasks:
         hint = did_you_mean(name, library.tasks) or "it has none"
-        raise click.UsageError(
-            f"there is no task `{name}` in {library.name}: {hint} (for another library: LIBRARY:NAME)"
-        )
+        elsewhere = "a task of another library is written LIBRARY:NAME"
+        raise click.UsageError(f"there is no task `{name}` in {library.name}: {hint}; {elsewhere}")
     return library.tasks[name]
 
 

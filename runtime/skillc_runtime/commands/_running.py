@@ -43,7 +43,7 @@ def run(mission: Mission, options: Options) -> TaskResult:
     """Plan, run and report one mission."""
     name = mission.assignment.name
     with Live(name, options.quiet, options.real_time) as live:
-        live.say("planning")
+        live.say("preparing")
         prepared = prepare(mission.assignment, mission.library)
         if not isinstance(prepared, Prepared):
             return TaskResult(task=name, status="refused", seed=options.seed, failure=prepared.why)
@@ -66,15 +66,16 @@ def _run(prepared: Prepared, mission: Mission, cell: SimulatedCell, options: Opt
         if film is not None:
             film.sample()
 
-    with _trace(options.out) as trace, _interruption() as interruption:
-        if trace is not None:
-            listeners.append(trace)
-        execution = execute(prepared, mission.library, cell, listeners, watch, lambda: interruption.wanted)
-    wiping = find_wiping(execution.tree, choices, cell)
-    result = summarise(execution, choices, mission.library, wiping)
-    if options.out is not None:
-        live.say("writing the report")
-        _report(options.out, result, execution, wiping, film)
+    with _interruption() as interruption:
+        with _trace(options.out) as trace:
+            if trace is not None:
+                listeners.append(trace)
+            execution = execute(prepared, mission.library, cell, listeners, watch, lambda: interruption.wanted)
+        wiping = find_wiping(execution.tree, choices, cell)
+        result = summarise(execution, choices, mission.library, wiping)
+        if options.out is not None:
+            live.say("writing the report")
+            _report(options.out, result, execution, wiping, film)
     return result
 
 
@@ -95,7 +96,7 @@ def _filmed(path: Path, film: Film | None) -> str | None:
 
 
 class _Interruption:
-    """Whether somebody pressed Ctrl-C; a second time ends the program at once."""
+    """Whether somebody pressed Ctrl-C: the run is halted and reported; a second time ends the program at once."""
 
     def __init__(self) -> None:
         self.wanted = False

@@ -10,12 +10,12 @@ from pathlib import Path
 
 import click
 
+FOLDER = click.Path(path_type=Path, file_okay=False)
+
 
 @click.command()
 @click.argument("path", type=click.Path(path_type=Path))
-@click.option(
-    "-o", "--output", required=True, type=click.Path(path_type=Path, file_okay=False), help="The folder to write to."
-)
+@click.option("-o", "--output", required=True, type=FOLDER, help="The folder to write to.")
 def command(path: Path, output: Path) -> None:
     """Compile the library at PATH into the folder OUTPUT."""
     from skillc_compiler.emit.artifacts import artifacts

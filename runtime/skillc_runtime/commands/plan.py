@@ -12,15 +12,15 @@ from pathlib import Path
 
 import click
 
+SECONDS = click.FloatRange(min=0.1)
+
 
 @click.command()
 @click.argument("task", required=False)
 @click.option("--scene", type=click.Path(path_type=Path), help="The scene to plan in, instead of a task's.")
 @click.option("--goal", help="The goal, as in a .skill file or as PDDL.")
 @click.option("--library", type=click.Path(path_type=Path), help="The skills to plan with, if not the shipped ones.")
-@click.option(
-    "--deadline", type=click.FloatRange(min=0.1), default=30.0, show_default=True, help="Seconds the planner may take."
-)
+@click.option("--deadline", type=SECONDS, default=30.0, show_default=True, help="Seconds the planner may take.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
 def command(
     task: str | None, scene: Path | None, goal: str | None, library: Path | None, deadline: float, as_json: bool
@@ -39,9 +39,7 @@ def command(
     mission = _mission.of_task(task) if task else _mission.of_scene(scene or Path(), goal, None, library)
     assignment = mission.assignment
     if not isinstance(assignment.aim, Reach):
-        raise click.UsageError(
-            f"the task `{assignment.name}` has no goal to plan for, it says itself what to do; use `skillc run`"
-        )
+        raise click.UsageError(f"the task `{assignment.name}` says itself what to do; run it with `skillc run`")
     try:
         answer = solve(mission.library, assignment.state, assignment.aim.goal, deadline_s=deadline)
     except GoalError as error:

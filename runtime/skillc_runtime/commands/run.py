@@ -12,6 +12,8 @@ from pathlib import Path
 
 import click
 
+FOLDER = click.Path(path_type=Path, file_okay=False)
+
 
 @click.command()
 @click.argument("task", required=False)
@@ -21,7 +23,7 @@ import click
 @click.option("--library", type=click.Path(path_type=Path), help="The skills to use, if not the shipped ones.")
 @click.option(
     "--out",
-    type=click.Path(path_type=Path, file_okay=False),
+    type=FOLDER,
     help="A folder for report.html, events.jsonl and the film.",
 )
 @click.option("--seed", default=0, show_default=True, help="How reality differs from the world model.")

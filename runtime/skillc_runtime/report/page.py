@@ -9,6 +9,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from skillc_runtime.report.result import TaskResult
 from skillc_runtime.report.table import reason_of, rows
+from skillc_runtime.simulation.film import SPEED_UP
 from skillc_runtime.trace.outcome import Outcome
 
 
@@ -36,6 +37,7 @@ def render(result: TaskResult, tree: Outcome | None, pictures: list[Picture], fi
         tree=tree,
         pictures=[(picture.title, b64encode(picture.png).decode()) for picture in pictures],
         film=film,
+        speed_up=SPEED_UP,
         reason=_reason,
     )
 

@@ -19,6 +19,7 @@ class StepResult(msgspec.Struct, frozen=True, kw_only=True):
     implementation: str
     arguments: dict[str, str]
     source: str
+    status: str
     rejected: tuple[Rejected, ...] = ()
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Literal
 
 import numpy as np
@@ -14,7 +14,6 @@ from skillc_runtime.report.wiping import Wiping, judge
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import Execution
 from skillc_runtime.trace.events import Event, ImplementationChosen
-from skillc_runtime.trace.failure import Failure
 from skillc_runtime.trace.outcome import Outcome
 
 COMPLIANT_CONTROLLER = "http://rvmi.aau.dk/ontologies/skiros.owl#CompliantController"
@@ -58,7 +57,7 @@ def summarise(
         seed=cell.variation.seed,
         variation=_variation(cell),
         wiping=judge(wiping, cell) if wiping else None,
-        failure=_told(execution.failure),
+        failure=_told(execution),
     )
 
 
@@ -77,6 +76,7 @@ def _step(call: Outcome, choice: ImplementationChosen | None, library: SkillLibr
         implementation=choice.implementation if choice else "",
         arguments={name: value for name, value in bindings.items() if name in objects},
         source=str(choice.source if choice else call.source),
+        status=call.status,
         rejected=call.rejected,
     )
 
@@ -109,9 +109,19 @@ def _variation(cell: SimulatedCell) -> str:
     )
 
 
-def _told(failure: Failure | None) -> str | None:
-    if failure is None:
-        return None
-    where = f"{failure.source}: " if failure.source else ""
-    skill = f"{failure.skill}: " if failure.skill else ""
-    return f"{where}{skill}{failure.message}"
+def _told(execution: Execution) -> str | None:
+    """Say why a task failed, with the calls that led there, outermost first; what stopped it when it was halted."""
+    failure = execution.failure
+    if failure is None or execution.status is Status.HALTED:
+        return failure.message if failure else None
+    calls = " > ".join(f"{call.name} ({call.source})" for call in _failed_calls(execution.tree))
+    return f"{failure.message}\n  in {calls}" if calls else failure.message
+
+
+def _failed_calls(node: Outcome) -> Iterator[Outcome]:
+    """Yield the calls from the top of the tree to the innermost one that failed."""
+    if node.kind == "call":
+        yield node
+    failed = [child for child in node.children if child.status == "failure"]
+    if failed:
+        yield from _failed_calls(failed[-1])

@@ -29,14 +29,14 @@ def render(result: TaskResult) -> RenderableType:
 
 def _plan(result: TaskResult) -> Table:
     table = Table(box=None, pad_edge=False, header_style="dim")
-    for heading in ("step", "implementation", "arguments", "why"):
+    for heading in ("step", "", "implementation", "arguments", "why"):
         table.add_column(heading, overflow="fold")
     for number, step in enumerate(result.plan, 1):
-        arguments = ", ".join(f"{name}: {value}" for name, value in step.arguments.items())
+        arguments = "\n".join(f"{name}: {value}" for name, value in step.arguments.items())
         why = reason_of(step.rejected) if step.implementation else "did not start"
-        table.add_row(f"{number} {step.skill}", step.implementation, arguments, why)
+        table.add_row(f"{number} {step.skill}", step.status, step.implementation, arguments, why)
     for choice in result.choices:
-        table.add_row(f"  {choice.skill}", choice.implementation, "", reason_of(choice.rejected))
+        table.add_row(f"  {choice.skill}", "", choice.implementation, "", reason_of(choice.rejected))
     return table
 
 
