@@ -27,7 +27,7 @@ class Lag:
             self._period = period
             self._share = 1 - exp(-period / self._time_constant) if self._time_constant > 0 else 1.0
         np.subtract(target, self.value, out=self._difference)
-        if self._difference @ self._difference <= self._grain**2:
+        if self._difference.dot(self._difference) <= self._grain**2:
             self.value[:] = target
         else:
             self._difference *= self._share
@@ -41,13 +41,15 @@ class RateLimit:
     def __init__(self, value: Array, rate: float | Array) -> None:
         self.value = value.copy()
         self._rate = rate
-        self._step = np.empty_like(value)
+        self._period, self._step = -1.0, np.empty_like(value)
+        self._longest, self._least = np.zeros_like(value), np.zeros_like(value)
 
     def step(self, target: Array, period: float) -> Array:
         """Follow the target for `period` s and return `value`."""
+        if period != self._period:
+            self._period, self._longest[:], self._least[:] = period, self._rate * period, -self._rate * period
         np.subtract(target, self.value, out=self._step)
-        longest = self._rate * period
-        np.minimum(self._step, longest, out=self._step)
-        np.maximum(self._step, -longest, out=self._step)
+        np.minimum(self._step, self._longest, out=self._step)
+        np.maximum(self._step, self._least, out=self._step)
         self.value += self._step
         return self.value

@@ -59,8 +59,8 @@ class ForwardDynamics:
         self._task = TaskError(np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3))
         self._rate = np.repeat([law.admittance, law.rotational_admittance], 3) / law.admittance_time
         self._lag = law.admittance_time
-        self._wrench, self._spring, self._in_base = np.zeros(6), np.zeros(6), np.zeros(6)
-        self._measured = np.zeros(6)
+        self._wrench, self._part, self._in_base, self._felt = (np.zeros(6) for _ in range(4))
+        self._wrench_halves, self._base_halves = self._wrench.reshape(2, 3), self._in_base.reshape(2, 3)
         self._dq, self._ddq, self._torque, self._q = (np.zeros(arm.joints) for _ in range(4))
 
     @property
@@ -71,7 +71,7 @@ class ForwardDynamics:
     @property
     def contact_wrench(self) -> Array:
         """The measured wrench (6,)."""
-        return self._measured.copy()
+        return self._felt.copy()
 
     def reset(self, state: ArmState, q: Array) -> None:
         """Start from rest at q."""
@@ -81,11 +81,11 @@ class ForwardDynamics:
 
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> JointPosition:
         """Return the joint positions."""
-        self._measured[:] = state.wrench
+        self._felt[:] = state.wrench
         self._arm.move(self._limit.q)
         self._arm.weigh()
-        self._task.update(self._arm.live_tool, reference, compliance)
-        self._accelerate(state.wrench, compliance)
+        self._task.update(self._arm.live_tool, reference, compliance, self._felt)
+        self._accelerate(compliance)
         keep = exp(-period / self._lag)
         self._dq *= keep
         self._ddq *= (1 - keep) * self._lag
@@ -95,18 +95,17 @@ class ForwardDynamics:
         self._q += self._limit.q
         return JointPosition(self._limit.step(self._q, state, period))
 
-    def _accelerate(self, wrench: Array, compliance: Compliance) -> None:
+    def _accelerate(self, compliance: Compliance) -> None:
         """Compute the virtual joint accelerations ddq (nv,)."""
         task = self._task
-        np.matmul(wrench.reshape(2, 3), task.axes, out=self._wrench.reshape(2, 3))
-        self._wrench += compliance.wrench
-        np.multiply(compliance.stiffness, task.error, out=self._spring)
-        self._wrench -= self._spring
+        np.add(task.measured, compliance.wrench, out=self._wrench)
+        np.multiply(compliance.stiffness, task.error, out=self._part)
+        self._wrench -= self._part
         self._wrench *= self._rate
-        np.divide(task.twist, self._lag, out=self._spring)
-        self._wrench += self._spring
+        np.divide(task.twist, self._lag, out=self._part)
+        self._wrench += self._part
         self._wrench += task.acceleration
-        np.matmul(self._wrench.reshape(2, 3), task.axes.T, out=self._in_base.reshape(2, 3))
-        np.matmul(self._in_base, self._arm.jacobian, out=self._torque)
+        np.dot(self._wrench_halves, task.axes.T, out=self._base_halves)
+        np.dot(self._in_base, self._arm.jacobian, out=self._torque)
         mujoco.mju_cholFactor(self._arm.inertia, 0.0)
         mujoco.mju_cholSolve(self._ddq, self._arm.inertia, self._torque)

@@ -72,9 +72,10 @@ class Impedance:
         self._damping = Lag(self._floor, gains.command_time)
         self._nullspace = Nullspace(law.nullspace_stiffness, joints) if joints > 6 else None
         self._age, self._tool = INERTIA_PERIOD_S, Pose.of((0, 0, 0))
-        self._inertia, self._jacobian = np.zeros((6, 6)), np.zeros((6, joints))
-        self._force, self._damped, self._pushed = np.zeros(6), np.zeros(6), np.zeros(6)
-        self._tau = np.zeros(joints)
+        self._inertia = np.zeros((6, 6))
+        self._velocity, self._force, self._exerted, self._part = (np.zeros(6) for _ in range(4))
+        self._in_base, self._tau = np.zeros(6), np.zeros(joints)
+        self._force_halves, self._base_halves = self._force.reshape(2, 3), self._in_base.reshape(2, 3)
 
     @property
     def tool(self) -> Pose:
@@ -84,7 +85,7 @@ class Impedance:
     @property
     def contact_wrench(self) -> Array:
         """An estimate (6,): the opposite of what springs, dampers and push exert; exact at constant speed."""
-        return -np.concatenate([self._task.axes @ self._damped[:3], self._task.axes @ self._damped[3:]])
+        return (self._exerted.reshape(2, 3) @ -self._task.axes.T).ravel()
 
     def reset(self, state: ArmState, q: Array) -> None:
         """Start from rest; `q` becomes the rest posture."""
@@ -98,33 +99,32 @@ class Impedance:
         """Return the joint torques."""
         task = self._task
         self._tool = state.tool
-        task.update(state.tool, reference, compliance)
-        self._turn_jacobian(state.jacobian)
+        task.update(state.tool, reference, compliance, np.dot(state.jacobian, state.dq, out=self._velocity))
         self._renew(state, compliance, period)
-        np.matmul(self._jacobian, state.dq, out=self._damped)
-        self._damped -= task.twist
-        self._damped *= self._damping.value
-        np.multiply(compliance.stiffness, task.error, out=self._pushed)
-        self._damped += self._pushed
-        np.subtract(compliance.wrench, self._damped, out=self._damped)
-        np.matmul(self._inertia, task.acceleration, out=self._force)
-        self._force += self._damped
-        np.matmul(self._force, self._jacobian, out=self._tau)
+        self._exert(compliance)
+        np.dot(self._inertia, task.acceleration, out=self._force)
+        self._force += self._exerted
+        np.dot(self._force_halves, task.axes.T, out=self._base_halves)
+        np.dot(self._in_base, state.jacobian, out=self._tau)
         if self._nullspace:
             self._tau += self._nullspace.torque(state)
         return Torque(self._limit.step(self._tau, state, period))
 
-    def _turn_jacobian(self, jacobian: Array) -> None:
-        """J_C = blkdiag(R_C^T, R_C^T) J."""
-        np.matmul(self._task.axes.T, jacobian[:3], out=self._jacobian[:3])
-        np.matmul(self._task.axes.T, jacobian[3:], out=self._jacobian[3:])
+    def _exert(self, compliance: Compliance) -> None:
+        """Compute W - K sat(e) - D (J_C dq - nu_d)."""
+        np.subtract(self._task.twist, self._task.measured, out=self._exerted)
+        self._exerted *= self._damping.value
+        np.multiply(compliance.stiffness, self._task.error, out=self._part)
+        self._exerted -= self._part
+        self._exerted += compliance.wrench
 
     def _renew(self, state: ArmState, compliance: Compliance, period: float) -> None:
         """Lam_C = (J_C M^-1 J_C^T)^-1; D_i = 2 zeta sqrt(K_i Lam_C,ii), at least the floor."""
         self._age += period
         if self._age < INERTIA_PERIOD_S:
             return
-        mobility = self._jacobian @ np.linalg.solve(state.mass_matrix, self._jacobian.T)
+        jacobian = (self._task.axes.T @ state.jacobian.reshape(2, 3, -1)).reshape(6, -1)
+        mobility = jacobian @ np.linalg.solve(state.mass_matrix, jacobian.T)
         mobility[np.diag_indices(6)] += LEAST_MOBILITY
         self._inertia[:] = np.linalg.inv(mobility)
         damping = 2 * compliance.damping_ratio * np.sqrt(compliance.stiffness * self._inertia.diagonal())

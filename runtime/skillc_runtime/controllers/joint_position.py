@@ -27,7 +27,7 @@ class ComputedTorque:
         self._part *= BANDWIDTH**2
         self._acceleration += self._part
         self._acceleration += reference.ddq
-        np.matmul(state.mass_matrix, self._acceleration, out=self._tau)
+        np.dot(state.mass_matrix, self._acceleration, out=self._tau)
         return Torque(self._limit.step(self._tau, state, period))
 
 

@@ -20,7 +20,7 @@ class TorqueLimit:
     """Limits torques in rate, range and effort; since all laws share it, changing between them makes no jump."""
 
     def __init__(self, limits: ArmLimits, rate: float) -> None:
-        self._limits = limits
+        self._most, self._least = limits.effort.copy(), -limits.effort
         self._ramp = RateLimit(np.zeros_like(limits.effort), rate)
         self._low, self._high = limits.range[:, 0] + RANGE_MARGIN_RAD, limits.range[:, 1] - RANGE_MARGIN_RAD
         self._spring = limits.effort / 4 / RANGE_MARGIN_RAD
@@ -34,8 +34,8 @@ class TorqueLimit:
         self._tau *= self._spring
         self._tau += self._ramp.step(tau, period)
         self._tau += state.bias
-        np.minimum(self._tau, self._limits.effort, out=self._tau)
-        return np.maximum(self._tau, -self._limits.effort)
+        np.minimum(self._tau, self._most, out=self._tau)
+        return np.maximum(self._tau, self._least)
 
 
 class JointLimit:
@@ -44,7 +44,8 @@ class JointLimit:
     def __init__(self, limits: ArmLimits, q: Array) -> None:
         self._low, self._high = limits.range[:, 0].copy(), limits.range[:, 1].copy()
         self._ramp = RateLimit(q, limits.velocity)
-        self._velocity = limits.velocity
+        self._velocity, self._share = limits.velocity.copy(), np.empty_like(q)
+        self._lag = np.empty_like(q)
         self.q = self._ramp.value
 
     def step(self, q: Array, state: ArmState, period: float) -> Array:
@@ -52,8 +53,8 @@ class JointLimit:
 
         ControlError when the arm does not follow; it is then commanded to stay where it is.
         """
-        lag = self.q - state.q
-        if lag @ lag > GREATEST_LAG_RAD**2:
+        lag = np.subtract(self.q, state.q, out=self._lag)
+        if lag.dot(lag) > GREATEST_LAG_RAD**2:
             self.q[:] = state.q
             raise ControlError(
                 f"a joint is {np.abs(lag).max():.2f} rad away from where it was commanded to be; is the arm blocked?"
@@ -65,7 +66,7 @@ class JointLimit:
 
     def slowed(self, velocity: Array) -> Array:
         """Scale joint velocities (nv,) in place so that none exceeds its limit; the direction stays."""
-        excess = float((np.abs(velocity) / self._velocity).max())
-        if excess > 1:
-            velocity /= excess
+        share = np.divide(velocity, self._velocity, out=self._share)
+        if share.dot(share) > 1:
+            velocity /= max(1.0, float(np.abs(share).max()))
         return velocity

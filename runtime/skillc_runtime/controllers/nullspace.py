@@ -7,7 +7,7 @@ comes near a singularity, where s_i falls and the solution would grow.
 
 from __future__ import annotations
 
-from math import sqrt
+from math import prod, sqrt
 
 import mujoco
 import numpy as np
@@ -40,13 +40,13 @@ class Nullspace:
         np.multiply(state.dq, self._damping, out=self._part)
         self._tau -= self._part
         J = state.jacobian
-        np.matmul(J, J.T, out=self._gram)
+        np.dot(J, J.T, out=self._gram)
         self._diagonal += self.regularisation
         mujoco.mju_cholFactor(self._gram, 0.0)
-        self.manipulability = float(self._diagonal.prod())
-        np.matmul(J, self._tau, out=self._wrench)
+        self.manipulability = prod(self._diagonal.tolist())
+        np.dot(J, self._tau, out=self._wrench)
         mujoco.mju_cholSolve(self._solution, self._gram, self._wrench)
-        np.matmul(self._solution, J, out=self._part)
+        np.dot(self._solution, J, out=self._part)
         self._tau -= self._part
         return self._tau
 

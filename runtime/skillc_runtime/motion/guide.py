@@ -78,6 +78,10 @@ class Guide:
         """Tell whether the motion has run out and nothing is left of the one before it."""
         return self._tempo.at(now)[0] >= self._ends
 
+    def at_rest(self, now: float) -> bool:
+        """Tell whether the reference stands still: the motion is done and no overlay is left."""
+        return self.done(now) and not self._overlays
+
     def pause(self, now: float) -> None:
         """Slow down to a standstill where the motion leads."""
         self._tempo, self._beat = self._tempo.towards(0.0, now), self._beat.towards(0.0, now)
@@ -128,12 +132,16 @@ class Guide:
         )
 
     def _overlaid(self, motion: Reference, now: float) -> Reference:
+        """Add the overlays; the chain rule turns their time into time."""
         time, rate, slope = self._beat.at(now)
-        position, twist, acceleration = motion.pose.position.copy(), motion.twist.copy(), motion.acceleration.copy()
+        added = np.zeros((3, 3))
         for faded, axes in self._overlays.values():
-            o, v, a = faded.at(time)
-            position += axes @ o
-            twist[:3] += rate * (axes @ v)
-            acceleration[:3] += axes @ (rate * rate * a + slope * v)
-        self._overlays = {h: entry for h, entry in self._overlays.items() if not entry[0].gone(time)}
-        return Reference(Pose(position, motion.pose.rotation), twist, acceleration)
+            added += faded.at(time) @ axes.T
+        if rate != 1.0:
+            added = np.array([[1.0, 0.0, 0.0], [0.0, rate, 0.0], [0.0, slope, rate * rate]]) @ added
+        twist, acceleration = motion.twist.copy(), motion.acceleration.copy()
+        twist[:3] += added[1]
+        acceleration[:3] += added[2]
+        if any(faded.gone(time) for faded, _ in self._overlays.values()):
+            self._overlays = {h: entry for h, entry in self._overlays.items() if not entry[0].gone(time)}
+        return Reference(Pose(motion.pose.position + added[0], motion.pose.rotation), twist, acceleration)

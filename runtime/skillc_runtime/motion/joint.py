@@ -34,8 +34,8 @@ class JointMotion:
 
     def at(self, time: float) -> JointReference:
         """Return the reference `time` s after the start."""
-        share, speed, acceleration = self.profile.at(time)
-        return JointReference(self.start + share * self.change, speed * self.change, acceleration * self.change)
+        way, dq, ddq = np.multiply.outer(self.profile.at(time), self.change)
+        return JointReference(self.start + way, dq, ddq)
 
 
 def joint_motion(start: Array, goal: Array, speed: Array, acceleration: Array) -> JointMotion:

@@ -21,7 +21,7 @@ class JointGuide:
     def _take_up(self, q: Array, dq: Array, now: float) -> None:
         self._tempo = Tempo(since=now)
         self._brake = brake(dq, self._deceleration)
-        self._rest = q + self._brake.way
+        self._rest = _at_rest(q + self._brake.way)
         self._motion: JointMotion | None = None
         self._ends = self._brake.duration
 
@@ -33,6 +33,7 @@ class JointGuide:
         self.stop(now)
         self._motion = motion
         self._ends = max(self._ends, motion.duration)
+        self._rest = _at_rest(motion.start + motion.change)
 
     def stop(self, now: float) -> None:
         """Give up the motion and come to rest."""
@@ -48,6 +49,10 @@ class JointGuide:
         """Tell whether the motion has run out and nothing is left of the one before it."""
         return self._tempo.at(now)[0] >= self._ends
 
+    def at_rest(self, now: float) -> bool:
+        """Tell whether the reference stands still."""
+        return self.done(now)
+
     def pause(self, now: float) -> None:
         """Slow down to a standstill where the motion leads."""
         self._tempo = self._tempo.towards(0.0, now)
@@ -59,10 +64,16 @@ class JointGuide:
     def sample(self, now: float) -> JointReference:
         """Return the reference."""
         time, rate, slope = self._tempo.at(now)
-        q, dq, ddq = self._brake.at(time)
-        if self._motion is None:
-            q = self._rest + q
-        else:
-            motion = self._motion.at(time)
-            q, dq, ddq = motion.q + q, motion.dq + dq, motion.ddq + ddq
-        return JointReference(q, rate * dq, rate * rate * ddq + slope * dq)
+        if time >= self._ends:
+            return self._rest
+        motion = self._motion.at(time) if self._motion else self._rest
+        if time < self._brake.duration:
+            q, dq, ddq = self._brake.at(time)
+            motion = JointReference(motion.q + q, motion.dq + dq, motion.ddq + ddq)
+        if rate == 1.0:
+            return motion
+        return JointReference(motion.q, rate * motion.dq, rate * rate * motion.ddq + slope * motion.dq)
+
+
+def _at_rest(q: Array) -> JointReference:
+    return JointReference(q, np.zeros_like(q), np.zeros_like(q))

@@ -10,7 +10,6 @@ import numpy as np
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import Overlay
 
-Sample = tuple[Array, Array, Array]
 Scalars = tuple[float, float, float]
 
 
@@ -21,11 +20,11 @@ class Circle:
     radius: float
     rate: float
 
-    def at(self, time: float) -> Sample:
-        """Return offset, velocity and acceleration."""
+    def at(self, time: float) -> Array:
+        """Return offset, velocity and acceleration (3, 3)."""
         w = 2 * pi * self.rate
         x, y = self.radius * cos(w * time), self.radius * sin(w * time)
-        return np.array([x, y, 0.0]), np.array([-w * y, w * x, 0.0]), np.array([-w * w * x, -w * w * y, 0.0])
+        return np.array([[x, y, 0.0], [-w * y, w * x, 0.0], [-w * w * x, -w * w * y, 0.0]])
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,12 +35,12 @@ class Lissajous:
     frequency: Array
     phase: Array
 
-    def at(self, time: float) -> Sample:
-        """Return offset, velocity and acceleration."""
+    def at(self, time: float) -> Array:
+        """Return offset, velocity and acceleration (3, 3)."""
         w = 2 * pi * self.frequency
         angle = w * time + self.phase
         offset = self.amplitude * np.sin(angle)
-        return offset, self.amplitude * w * np.cos(angle), -w * w * offset
+        return np.array([offset, self.amplitude * w * np.cos(angle), -w * w * offset])
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,8 +54,8 @@ class Spiral:
     speed: float
     radius: float
 
-    def at(self, time: float) -> Sample:
-        """Return offset, velocity and acceleration."""
+    def at(self, time: float) -> Array:
+        """Return offset, velocity and acceleration (3, 3)."""
         b = self.pitch / (2 * pi)
         widest = self.radius / b
         rounded = (time - b * _arc(widest) / self.speed) * self.speed
@@ -69,11 +68,11 @@ class Spiral:
         along, across = np.array([c, s, 0.0]), np.array([-s, c, 0.0])
         velocity = b * first * (along + theta * across)
         acceleration = b * second * (along + theta * across) + b * first * first * (2 * across - theta * along)
-        return b * theta * along, velocity, acceleration
+        return np.array([b * theta * along, velocity, acceleration])
 
-    def _on_circle(self, theta: float) -> Sample:
+    def _on_circle(self, theta: float) -> Array:
         along, across = np.array([cos(theta), sin(theta), 0.0]), np.array([-sin(theta), cos(theta), 0.0])
-        return self.radius * along, self.speed * across, -(self.speed**2) / self.radius * along
+        return np.array([self.radius * along, self.speed * across, -(self.speed**2) / self.radius * along])
 
 
 def _arc(theta: float) -> float:
@@ -106,14 +105,14 @@ class Faded:
         """Tell whether nothing is left of it."""
         return self.end is not None and time >= self.end + self.fade
 
-    def at(self, time: float) -> Sample:
-        """Return offset, velocity and acceleration; the product rule twice."""
+    def at(self, time: float) -> Array:
+        """Return offset, velocity and acceleration (3, 3); the product rule twice."""
         g, dg, ddg = _rise((time - self.start) / self.fade, self.fade)
         if self.end is not None:
             f, df, ddf = _rise((self.end + self.fade - time) / self.fade, -self.fade)
             g, dg, ddg = g * f, dg * f + g * df, ddg * f + 2 * dg * df + g * ddf
-        o, v, a = self.overlay.at(time - self.start)
-        return g * o, g * v + dg * o, g * a + 2 * dg * v + ddg * o
+        sample = self.overlay.at(time - self.start)
+        return sample if g == 1.0 else np.array([[g, 0.0, 0.0], [dg, g, 0.0], [ddg, 2 * dg, g]]) @ sample
 
 
 def _rise(x: float, fade: float) -> Scalars:

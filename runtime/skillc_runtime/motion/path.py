@@ -16,7 +16,7 @@ from math import sqrt
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose, exp, skew
-from skillc_runtime.motion.reference import Reference
+from skillc_runtime.motion.reference import Reference, at_rest
 from skillc_runtime.motion.segments import MotionLimits, Segment, segment
 
 
@@ -35,12 +35,42 @@ class Path:
 
     def at(self, time: float) -> Reference:
         """Return the reference at `time` s, in the frame of the poses."""
+        if not self.segments:
+            return at_rest(self.corners[0])
         last = max(bisect_right(self.starts, time) - 1, 0)
-        first = last - 1 if last > 0 and time < self.starts[last - 1] + self.segments[last - 1].duration else last
-        moving = _Moving(self.corners[first])
-        for i in range(first, min(last + 1, len(self.segments))):
-            moving.add(self.segments[i], time - self.starts[i])
-        return Reference(Pose(moving.position, moving.rotation), moving.twist, moving.acceleration)
+        ended = last == 0 or time >= self.starts[last - 1] + self.segments[last - 1].duration
+        if ended:
+            return _reference(self.corners[last], self._motion(last, time))
+        before, motion = self._motion(last - 1, time), self._motion(last, time)
+        corner = self.corners[last - 1]
+        turned = exp(before[0, 3:]) @ corner.rotation
+        return _reference(Pose(corner.position + before[0, :3], turned), _composed(before, motion))
+
+    def moved(self, frame: Pose) -> Path:
+        """Return the same motion, given in `frame`, in the frame's parent."""
+        corners = tuple(frame @ corner for corner in self.corners)
+        return Path(corners, tuple(piece.moved(frame) for piece in self.segments), self.starts)
+
+    def _motion(self, index: int, time: float) -> Array:
+        return self.segments[index].at(time - self.starts[index])
+
+
+def _reference(start: Pose, motion: Array) -> Reference:
+    """Return the reference for way, twist and acceleration (3, 6) since a pose."""
+    way = motion[0, 3:]
+    rotation = exp(way) @ start.rotation if way.any() else start.rotation
+    return Reference(Pose(start.position + motion[0, :3], rotation), motion[1], motion[2])
+
+
+def _composed(before: Array, motion: Array) -> Array:
+    """Add to a motion (3, 6) the twist and acceleration of one that is turned by it; ways stay as they are."""
+    turned, spin = exp(motion[0, 3:]), motion[1, 3:]
+    velocity = turned @ before[1, 3:]
+    motion[1, :3] += before[1, :3]
+    motion[2, :3] += before[2, :3]
+    motion[2, 3:] += turned @ before[2, 3:] + skew(spin) @ velocity
+    spin += velocity
+    return motion
 
 
 def path(poses: Sequence[Pose], limits: MotionLimits, blend_m: float = 0.0) -> Path:
@@ -69,34 +99,6 @@ def _without_repetition(poses: Sequence[Pose]) -> list[Pose]:
 
 def _overlap(before: Segment, after: Segment, acceleration: float, blend_m: float) -> float:
     """Return how many seconds `after` starts before `before` has ended."""
-    turn = float(np.linalg.norm(after.direction - before.direction))
+    turn = float(np.linalg.norm(after.axes[0] - before.axes[0]))
     longest = min(before.fall, after.rise)
     return min(longest, sqrt(8 * blend_m / (acceleration * turn))) if turn > 1e-9 else longest * (blend_m > 0)
-
-
-class _Moving:
-    """The sum of the segments that move at one instant."""
-
-    def __init__(self, start: Pose) -> None:
-        self.position: Array = start.position.copy()
-        self.rotation: Array = start.rotation
-        self.twist = np.zeros(6)
-        self.acceleration = np.zeros(6)
-
-    def add(self, piece: Segment, time: float) -> None:
-        """Add what a segment contributes `time` s after its start."""
-        place, speed, acceleration = piece.way.at(time)
-        self.position += place * piece.direction
-        self.twist[:3] += speed * piece.direction
-        self.acceleration[:3] += acceleration * piece.direction
-        if piece.turn.length > 0:
-            self._turn(piece, time)
-
-    def _turn(self, piece: Segment, time: float) -> None:
-        angle, rate, change = piece.turn.at(time)
-        turned = exp(angle * piece.axis)
-        spin = rate * piece.axis
-        self.rotation = turned @ self.rotation
-        self.twist[3:] = turned @ self.twist[3:]
-        self.acceleration[3:] = turned @ self.acceleration[3:] + change * piece.axis + skew(spin) @ self.twist[3:]
-        self.twist[3:] += spin

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan2, cos, sin
+from math import atan2, sin, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,49 +38,45 @@ class Pose:
 
 def rotation_of(quaternion: Array) -> Array:
     """Return the rotation (3, 3) of a quaternion (w, x, y, z); it need not be normalised."""
-    w, x, y, z = quaternion / np.linalg.norm(quaternion)
+    w, x, y, z = quaternion.tolist()
+    s = 2 / (w * w + x * x + y * y + z * z)
     return np.array(
         [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+            [1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)],
+            [s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)],
+            [s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)],
         ]
     )
 
 
 def quaternion_of(rotation: Array) -> Array:
     """Return the quaternion (w, x, y, z) of a rotation (3, 3), with w >= 0. Shepperd's method."""
-    m = rotation
-    squares = np.array(
-        [
-            1 + m[0, 0] + m[1, 1] + m[2, 2],
-            1 + m[0, 0] - m[1, 1] - m[2, 2],
-            1 - m[0, 0] + m[1, 1] - m[2, 2],
-            1 - m[0, 0] - m[1, 1] + m[2, 2],
-        ]
+    (a, b, c), (d, e, f), (g, h, i) = rotation.tolist()
+    rows = (
+        (1 + a + e + i, h - f, c - g, d - b),
+        (h - f, 1 + a - e - i, b + d, c + g),
+        (c - g, b + d, 1 - a + e - i, f + h),
+        (d - b, c + g, f + h, 1 - a - e + i),
     )
-    largest = int(np.argmax(squares))
-    r = np.sqrt(squares[largest])
-    skew = np.array([m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]])
-    q = np.empty(4)
-    if largest == 0:
-        q[0], q[1:] = r / 2, skew / (2 * r)
-    else:
-        i = largest - 1
-        j, k = (i + 1) % 3, (i + 2) % 3
-        q[0] = skew[i] / (2 * r)
-        q[1 + i], q[1 + j], q[1 + k] = r / 2, (m[j, i] + m[i, j]) / (2 * r), (m[k, i] + m[i, k]) / (2 * r)
-    return q if q[0] >= 0 else -q
+    largest = max(range(4), key=lambda k: rows[k][k])
+    scale = 2 * sqrt(rows[largest][largest])
+    return np.array(rows[largest]) / (scale if rows[largest][0] >= 0 else -scale)
 
 
 def exp(rotation_vector: Array) -> Array:
     """Return the rotation (3, 3) about a vector (3,) in rad. Rodrigues' formula."""
-    angle = float(np.linalg.norm(rotation_vector))
+    x, y, z = rotation_vector.tolist()
+    angle = sqrt(x * x + y * y + z * z)
     if angle < 1e-12:
         return np.eye(3) + skew(rotation_vector)
-    axis = skew(rotation_vector / angle)
-    rotation: Array = np.eye(3) + sin(angle) * axis + (1 - cos(angle)) * (axis @ axis)
-    return rotation
+    s, c = sin(angle) / angle, 2 * (sin(angle / 2) / angle) ** 2
+    return np.array(
+        [
+            [1 - c * (y * y + z * z), c * x * y - s * z, c * x * z + s * y],
+            [c * x * y + s * z, 1 - c * (x * x + z * z), c * y * z - s * x],
+            [c * x * z - s * y, c * y * z + s * x, 1 - c * (x * x + y * y)],
+        ]
+    )
 
 
 def log(rotation: Array) -> Array:

@@ -22,6 +22,12 @@ class Reference:
     twist: Array
     acceleration: Array
 
+    def moved(self, frame: Pose) -> Reference:
+        """Return the same, given in `frame`, in the frame's parent; `frame` itself rests."""
+        R = frame.rotation.T
+        turned = [(vector.reshape(2, 3) @ R).ravel() for vector in (self.twist, self.acceleration)]
+        return Reference(frame @ self.pose, *turned)
+
 
 def at_rest(pose: Pose) -> Reference:
     """Return the reference that holds a pose."""
@@ -54,10 +60,14 @@ class Trajectory(Protocol):
         """Return the reference `time` seconds after the start; before it the start, after the end the end."""
         ...
 
+    def moved(self, frame: Pose) -> Trajectory:
+        """Return the same motion, given in `frame`, in the frame's parent; `frame` itself rests."""
+        ...
+
 
 class Overlay(Protocol):
     """A motion that is added to whatever the tool does, pure in time."""
 
-    def at(self, time: float) -> tuple[Array, Array, Array]:
-        """Return offset (3,) m, velocity (3,) m/s and acceleration (3,) m/s^2 in the frame the overlay was made for."""
+    def at(self, time: float) -> Array:
+        """Return (3, 3): offset m, velocity m/s, acceleration m/s^2, each along the axes the overlay was made for."""
         ...

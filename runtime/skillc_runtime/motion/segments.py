@@ -22,12 +22,14 @@ class MotionLimits:
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """A displacement along `direction` (3,) and a turn about `axis` (3,), unit vectors in the parent frame or zero."""
+    """A displacement and a turn about a fixed axis.
 
-    direction: Array
+    axes (2, 6): [direction, 0] of the displacement and [0, axis] of the turn, unit vectors in the parent frame or zero.
+    """
+
     way: Profile
-    axis: Array
     turn: Profile
+    axes: Array
 
     @property
     def duration(self) -> float:
@@ -44,6 +46,14 @@ class Segment:
         """Seconds in which whatever moves is decelerating."""
         return min((part.fall for part in (self.way, self.turn) if part.length > 0), default=0.0)
 
+    def at(self, time: float) -> Array:
+        """Return way, twist and acceleration (3, 6), [linear; angular], `time` s after the start."""
+        return np.array((self.way.at(time), self.turn.at(time))).T @ self.axes
+
+    def moved(self, frame: Pose) -> Segment:
+        """Return the same motion, given in `frame`, in the frame's parent."""
+        return Segment(self.way, self.turn, (self.axes.reshape(4, 3) @ frame.rotation.T).reshape(2, 6))
+
 
 def segment(start: Pose, end: Pose, limits: MotionLimits) -> Segment:
     """Return the straight motion between two poses of one frame; the shorter part is slowed down to the longer."""
@@ -52,7 +62,8 @@ def segment(start: Pose, end: Pose, limits: MotionLimits) -> Segment:
     way = trapezoid(length, limits.speed, limits.acceleration)
     turn = trapezoid(angle, limits.turn_speed, limits.turn_acceleration)
     duration = max(way.duration, turn.duration)
-    return Segment(direction, way.stretched(duration), axis, turn.stretched(duration))
+    axes = np.array([[*direction, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, *axis]])
+    return Segment(way.stretched(duration), turn.stretched(duration), axes)
 
 
 def _unit(vector: Array) -> tuple[Array, float]:

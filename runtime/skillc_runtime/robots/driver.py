@@ -16,7 +16,6 @@ from skillc_runtime.controllers.controller import ControlError
 from skillc_runtime.controllers.gains import Gains
 from skillc_runtime.motion.joint import joint_motion
 from skillc_runtime.motion.joint_guide import JointGuide
-from skillc_runtime.motion.moved import Moved, moved
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
 from skillc_runtime.robots.arm import Arm, ArmLimits, ArmState, Command, JointPosition, Torque
@@ -157,10 +156,10 @@ class ArmDriver:
     def reference(self) -> Reference:
         """Where the tool shall be, as of the last control period."""
         if self._joints is None:
-            return moved(self._tool.reference, self._base())
+            return self._tool.reference.moved(self._base())
         reference = self._joints.sample(self._now)
         tool, jacobian = self._reach.tool_at(reference.q, self._state)
-        return moved(Reference(tool, jacobian @ reference.dq, jacobian @ reference.ddq), self._base())
+        return Reference(tool, jacobian @ reference.dq, jacobian @ reference.ddq).moved(self._base())
 
     @property
     def anchor(self) -> Pose:
@@ -188,7 +187,7 @@ class ArmDriver:
     def move_along(self, trajectory: Trajectory) -> None:
         """Move the tool along a trajectory, which must start at `anchor`; ValueError where it does not."""
         self._move_tool()
-        self._tool.guide.follow(Moved(trajectory, self._base().inverse()), self._now)
+        self._tool.guide.follow(trajectory.moved(self._base().inverse()), self._now)
 
     def move_joints(self, goal: Array, share: float) -> None:
         """Move the joints to `goal` (nv,) with a share, above 0 to 1, of their greatest speeds."""
