@@ -154,7 +154,7 @@ def test_without_an_eraser_there_is_no_plan_and_the_answer_says_why(scene: Path)
 
 
 def test_a_gripper_without_implementation_is_refused_before_anything_moves(scene: Path) -> None:
-    edited(scene, "a skillc:RobotiqGripper", "a rparts:GripperEffector")
+    edited(scene, "a skillc:RobotiqGripper", "a skillc:ThreeFingerGripper")
     result = run("run", "--scene", scene, "--goal", "lab:Table-1.isClean == true", "--json")
     answer = json.loads(result.stdout)
     assert result.exit_code == 3
