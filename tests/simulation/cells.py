@@ -26,6 +26,7 @@ ERASER = LAB + "Eraser-1"
 SCENES = ("iiwa_table", "ur5e_whiteboard")
 ARM = {"iiwa_table": LAB + "Iiwa-1", "ur5e_whiteboard": LAB + "Ur5e-1"}
 GRIPPER = {"iiwa_table": LAB + "Robotiq-1", "ur5e_whiteboard": LAB + "Wsg-1"}
+PLACE = {"iiwa_table": LAB + "Cell", "ur5e_whiteboard": LAB + "Store"}
 SURFACE = {"iiwa_table": LAB + "Table-1", "ur5e_whiteboard": LAB + "Whiteboard-1"}
 FINGERS = {"iiwa_table": ThreeFingerGripper, "ur5e_whiteboard": ParallelGripper}
 
@@ -67,7 +68,10 @@ def reach_for_eraser(cell: SimulatedCell, scene: str) -> None:
 
 
 def grasp(cell: SimulatedCell, scene: str) -> None:
-    run(cell, Grasp(cell, gripper=GRIPPER[scene], object=ERASER, grasp=ERASER + "-grasp"))
+    run(
+        cell,
+        Grasp(cell, arm=ARM[scene], gripper=GRIPPER[scene], object=ERASER, grasp=ERASER + "-grasp", place=PLACE[scene]),
+    )
 
 
 def lift(cell: SimulatedCell, scene: str) -> None:

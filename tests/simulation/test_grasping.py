@@ -7,6 +7,7 @@ from cells import (
     ERASER,
     GRIPPER,
     LAB,
+    PLACE,
     SCENES,
     cell,
     eraser_height,
@@ -18,19 +19,25 @@ from cells import (
     world,
 )
 
+from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.grasp import Release
 from skillc_runtime.primitives.gripper import ParallelGripper
-from skillc_runtime.primitives.primitive import SkillFailure
+from skillc_runtime.primitives.placing import placed
+from skillc_runtime.primitives.primitive import SkillFailure, Status
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.changes import AddRelation
-from skillc_runtime.world.frames import pose
+from skillc_runtime.world.changes import AddRelation, ClearProperty
+from skillc_runtime.world.frames import WORLD_FRAME, FrameError, pose
 from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.terms import AT
+from skillc_runtime.world.terms import AT, BASE_FRAME_ID, CONTAIN, FRAME_ID, POSITION, SKILLC
 
 
 def at_the_eraser(scene: str, seed: int = 0) -> SimulatedCell:
     moved = [AddRelation(LAB + "Heron-1", AT, LAB + "Store")] if scene == "ur5e_whiteboard" else []
     return SimulatedCell(WorldModel(world(scene).changed(moved)), seed)
+
+
+def release(there: SimulatedCell, scene: str) -> Release:
+    return Release(there, arm=ARM[scene], gripper=GRIPPER[scene], object=ERASER, to=PLACE[scene])
 
 
 @pytest.mark.parametrize("scene", SCENES)
@@ -44,12 +51,64 @@ def test_a_grasped_eraser_is_lifted_and_let_go(scene: str) -> None:
     assert there.gripper(GRIPPER[scene]).holding == ERASER
     lift(there, scene)
     assert eraser_height(there) == pytest.approx(lying + 0.1, abs=0.002)
-    run(there, Release(there, arm=ARM[scene], gripper=GRIPPER[scene], object=ERASER))
+    run(there, release(there, scene))
     believed = pose(there.world.snapshot(), ERASER).position
     assert believed[2] == pytest.approx(lying + 0.1, abs=0.002)
     there.advance(0.5)
     assert there.gripper(GRIPPER[scene]).holding is None
     assert eraser_height(there) < lying + 0.02
+
+
+def test_a_held_thing_is_somewhere_in_the_hand() -> None:
+    scene = "iiwa_table"
+    there = at_the_eraser(scene)
+    reach_for_eraser(there, scene)
+    before = there.world.snapshot()
+    in_hand = pose(before, ERASER + "-grasp").inverse() @ pose(before, ERASER)
+    grasp(there, scene)
+    held = there.world.snapshot()
+    with pytest.raises(FrameError, match="does not say where lab:Robotiq-1 is"):
+        pose(held, ERASER)
+    assert held.value(ERASER, BASE_FRAME_ID) == held.value(GRIPPER[scene], FRAME_ID)
+    assert [held.value(ERASER, axis) for axis in POSITION] == pytest.approx(in_hand.position)
+    reached = placed(GRIPPER[scene], Pose.of((1.0, 2.0, 3.0)))
+    there.world.commit(reached)
+    assert pose(there.world.snapshot(), ERASER).position == pytest.approx(np.array([1.0, 2.0, 3.0]) + in_hand.position)
+
+
+@pytest.mark.parametrize(("opened_m", "free"), [(0.002, False), (0.01, True)])
+def test_a_release_halted_half_way_tells_what_is_true(opened_m: float, free: bool) -> None:
+    scene = "iiwa_table"
+    there = at_the_eraser(scene)
+    reach_for_eraser(there, scene)
+    grasp(there, scene)
+    there.world.commit([AddRelation(GRIPPER[scene], CONTAIN, ERASER)])
+    hand, letting_go = there.gripper(GRIPPER[scene]), release(there, scene)
+    held_at = hand.opening_m
+    letting_go.start()
+    while hand.opening_m < held_at + opened_m:
+        assert letting_go.tick() is Status.RUNNING
+        there.advance(0.001)
+    letting_go.tick()
+    letting_go.halt("enough")
+    after = there.world.snapshot()
+    assert after.holds(PLACE[scene], CONTAIN, ERASER) is free
+    assert after.holds(GRIPPER[scene], CONTAIN, ERASER) is not free
+    assert (hand.holding is None) is free
+    assert (after.value(ERASER, BASE_FRAME_ID) == WORLD_FRAME) is free
+
+
+def test_fingers_that_cannot_open_do_not_let_go() -> None:
+    scene = "iiwa_table"
+    there = at_the_eraser(scene)
+    reach_for_eraser(there, scene)
+    grasp(there, scene)
+    hand, letting_go = there.gripper(GRIPPER[scene]), release(there, scene)
+    letting_go.start()
+    hand.stop()
+    with pytest.raises(SkillFailure, match=r"came to rest 2\d mm open: lab:Eraser-1 is not free"):
+        letting_go.tick()
+    assert hand.holding == ERASER
 
 
 @pytest.mark.parametrize("scene", SCENES)
@@ -107,17 +166,24 @@ def test_a_gripper_refuses_to_open_too_wide() -> None:
         ParallelGripper(there, gripper=GRIPPER["ur5e_whiteboard"], opening=0.15, force=20.0).start()
 
 
-def test_three_fingers_take_counts() -> None:
+def test_three_fingers_move_in_the_steps_of_their_sheet() -> None:
     there = cell("iiwa_table")
     move_fingers(there, "iiwa_table", 0.1)
     count = round(0.1 / 0.155 * 255) * 0.155 / 255
     assert there.gripper(GRIPPER["iiwa_table"]).opening_m == pytest.approx(count, abs=2e-4)
 
 
+def test_three_fingers_need_the_steps_of_their_sheet() -> None:
+    there = cell("iiwa_table")
+    there.world.commit([ClearProperty(SKILLC + "robotiq-3f-sheet", SKILLC + "commandSteps")])
+    with pytest.raises(SkillFailure, match="skillc:robotiq-3f-sheet has no number skillc:commandSteps"):
+        move_fingers(there, "iiwa_table", 0.1)
+
+
 def test_releasing_what_is_not_held_fails() -> None:
     there = cell("iiwa_table")
     with pytest.raises(SkillFailure, match="holds nothing"):
-        Release(there, arm=ARM["iiwa_table"], gripper=GRIPPER["iiwa_table"], object=ERASER).start()
+        release(there, "iiwa_table").start()
 
 
 def test_the_same_seed_gives_the_same_recording() -> None:

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.robots.cell import Cell
-
-COUNTS = 255
-"""The three-finger gripper takes opening and force as whole numbers from 0 to this."""
+from skillc_runtime.world.sheet import SheetError, sheet_of
 
 TOLERANCE_M = 0.003
 
@@ -58,13 +56,20 @@ class ParallelGripper(Primitive):
 
 
 class ThreeFingerGripper(ParallelGripper):
-    """Three coupled fingers, whose controller takes opening and force in counts of 255ths of their greatest values."""
+    """Three coupled fingers, whose controller takes opening and force in equal steps up to their greatest values."""
+
+    def start(self) -> None:
+        """Look up the steps and begin to move; SkillFailure when the data sheet does not tell them."""
+        try:
+            self._steps = sheet_of(self.cell.world.snapshot(), self._name).number("commandSteps")
+        except SheetError as error:
+            raise SkillFailure(str(error)) from error
+        super().start()
 
     def command(self) -> tuple[float, float]:
-        """Return what the nearest counts mean: opening in m, force in N."""
+        """Return what the nearest steps mean: opening in m, force in N."""
         largest, strongest = self._gripper.max_opening_m, self._gripper.max_force_n
-        return _counted(self._opening, largest), _counted(self._force, strongest)
+        return self._stepped(self._opening, largest), self._stepped(self._force, strongest)
 
-
-def _counted(value: float, greatest: float) -> float:
-    return min(round(value / greatest * COUNTS), COUNTS) * greatest / COUNTS
+    def _stepped(self, value: float, greatest: float) -> float:
+        return min(round(value / greatest * self._steps), self._steps) * greatest / self._steps

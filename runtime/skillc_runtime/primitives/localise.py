@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from skillc_runtime.motion.pose import Array, Pose, exp, quaternion_of
+from skillc_runtime.motion.pose import Array, Pose, exp
+from skillc_runtime.primitives.placing import placed
 from skillc_runtime.world.changes import SetProperty
-from skillc_runtime.world.frames import WORLD_FRAME, pose
-from skillc_runtime.world.terms import BASE_FRAME_ID, LOCATED, ORIENTATION, POSITION
+from skillc_runtime.world.frames import pose
+from skillc_runtime.world.terms import LOCATED
 
 if TYPE_CHECKING:
     from skillc_runtime.world.model import WorldModel
@@ -18,10 +19,7 @@ if TYPE_CHECKING:
 def localise(world: WorldModel, surface: str, tool: Pose) -> None:
     """Write the pose of a surface on which a tool, at `tool` in the world, lies flush."""
     found = touched(pose(world.snapshot(), surface), tool)
-    values = zip(POSITION + ORIENTATION, (*found.position, *quaternion_of(found.rotation)), strict=True)
-    changes = [SetProperty(surface, name, float(value)) for name, value in values]
-    changes += [SetProperty(surface, BASE_FRAME_ID, WORLD_FRAME), SetProperty(surface, LOCATED, True)]
-    world.commit(changes, "measured by touching")
+    world.commit([*placed(surface, found), SetProperty(surface, LOCATED, True)], "measured by touching")
 
 
 def touched(believed: Pose, tool: Pose) -> Pose:

@@ -43,7 +43,7 @@ class Primitive:
         raise NotImplementedError
 
     def halt(self, reason: str) -> None:
-        """Stop safely at once. Called exactly once unless `start` refused or `tick` succeeded; also when they raised."""
+        """Stop safely at once. Called exactly once, also after an error, unless `start` refused or `tick` succeeded."""
 
     def pause(self) -> None:
         """Hold still until `resume`."""

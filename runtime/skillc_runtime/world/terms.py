@@ -15,6 +15,7 @@ SURFACE = SKILLC + "Surface"
 TOOL = SKILLC + "Tool"
 
 AT = SKIROS + "at"
+CONTAIN = SKIROS + "contain"
 HAS_ARM = SKILLC + "hasArm"
 HAS_GRIPPER = SKILLC + "hasGripper"
 HAS_SENSOR = SKILLC + "hasSensor"
