@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from skillc_compiler.checks import check
+from skillc_compiler.consequences import without_consequences
 from skillc_compiler.followers import without_followers
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Vocabulary
@@ -18,7 +19,7 @@ from skillc_dsl.source import Source
 def compile(
     sources: Sequence[Source], vocabulary: Vocabulary, shelf: Mapping[str, Source], name: str
 ) -> Outcome[SkillLibrary]:
-    """Compile a library: read, resolve, check, lower; problems that only follow from a syntax error are not told.
+    """Compile a library: read, resolve, check, lower; problems that only follow from others are not told.
 
     `sources` are the files of the library called `name`, `shelf` those that every library may import, by file name.
     The result holds everything in which no error was found; diagnostics are in the order of the files and lines, those
@@ -27,7 +28,8 @@ def compile(
     files = read(sources, shelf, name)
     program = resolve(files.value, vocabulary, name)
     found = (*program.diagnostics, *check(program.value))
-    problems = (*files.diagnostics, *without_followers(found, files.diagnostics, files.value))
+    own_faults = without_followers(found, files.diagnostics, files.value)
+    problems = (*files.diagnostics, *without_consequences(own_faults, (*files.diagnostics, *found), files.value))
     library = lower(program.value, problems)
     own = {source.path for source in sources}
     told = {problem for problem in problems if problem.severity == "error" or problem.span.path in own}

@@ -11,6 +11,7 @@ from typing import TypeAlias
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program import ReadFile
 from skillc_compiler.resolve.names import KINDS, Kind, bare_terms
+from skillc_compiler.resolve.near import correction
 from skillc_dsl import syntax as s
 
 LIBRARIES = "https://w3id.org/skillc/library/"
@@ -60,13 +61,19 @@ def declare(files: Sequence[ReadFile], vocabulary: Vocabulary) -> dict[str, Decl
     """
     found: dict[str, Declared] = {}
     for unit in files:
-        found[unit.file.path] = _declared_in(unit, bare_terms(vocabulary, used(unit.file)), found)
+        found[unit.file.path] = _declared_in(unit, bare_terms(vocabulary, used(unit.file, vocabulary)), found)
     return found
 
 
-def used(file: s.File) -> tuple[str, ...]:
-    """Return the prefixes of the vocabularies that a file uses."""
-    return tuple(name.text for line in file.header if isinstance(line, s.Use) for name in line.vocabularies)
+def used(file: s.File, vocabulary: Vocabulary) -> tuple[str, ...]:
+    """Return the prefixes of the vocabularies that a file uses; for a misspelt one, the one that is meant."""
+    names = (name for line in file.header if isinstance(line, s.Use) for name in line.vocabularies)
+    return tuple(
+        meant.text
+        if name.text not in vocabulary.prefixes and (meant := correction(name, vocabulary.prefixes))
+        else name.text
+        for name in names
+    )
 
 
 def visible(bare: Bare, imported: Iterable[Declared]) -> Bare:

@@ -7,8 +7,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from skillc_compiler.program import ReadFile
+from skillc_compiler.resolve.near import correction
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome, did_you_mean
 from skillc_dsl.parser import parse
 from skillc_dsl.source import Source
 
@@ -45,10 +46,10 @@ class _Reader:
 
     def _imports(self, file: s.File, library: str, chain: tuple[str, ...]) -> Iterable[tuple[s.Import, str]]:
         for line in (h for h in file.header if isinstance(h, s.Import)):
-            found = self._find(file.path, line.path.value, library)
+            found = self._find(file.path, line.path.value, library) or self._meant(file, line, library)
             if found is None:
-                self._unknown(file, line, library)
-            elif found[0].path in chain:
+                continue
+            if found[0].path in chain:
                 self._cycle(line, chain[chain.index(found[0].path) :])
             else:
                 self.read(*found, chain)
@@ -63,17 +64,23 @@ class _Reader:
             return found, SHELF if found.path.startswith(f"{SHELF}/") else self.name
         return None
 
-    def _unknown(self, file: s.File, line: s.Import, library: str) -> None:
+    def _meant(self, file: s.File, line: s.Import, library: str) -> tuple[Source, str] | None:
+        """Report a file that there is not; return the one that is meant, if its name is like that of one file only."""
         folder = posixpath.dirname(file.path)
         beside = [posixpath.relpath(p, folder or ".") for p in self.own] if library == self.name else []
+        candidates = [name for name in (*beside, *self.shelf) if name != posixpath.basename(file.path)]
+        wrong = line.path.value
+        near = correction(s.Name(wrong, line.path.span), candidates)
         self.problems.append(
             Diagnostic(
                 "unknown-import",
                 line.path.span,
-                f'there is no file "{line.path.value}" in this library or in `std`',
-                help=did_you_mean(line.path.value, (*beside, *self.shelf)),
+                f'there is no file "{wrong}" in this library or in `std`',
+                help=did_you_mean(wrong, candidates),
+                fix=near and Fix(near.span, f'"{near.text}"', near.message),
             )
         )
+        return self._find(file.path, near.text, library) if near else None
 
     def _cycle(self, line: s.Import, chain: Sequence[str]) -> None:
         way = " imports ".join((*chain, chain[0]))

@@ -10,17 +10,21 @@ from skillc_compiler.program import Implementation, Program, ReadFile, Skill, Ta
 from skillc_compiler.resolve.declared import Declared, declare, used, visible
 from skillc_compiler.resolve.implementations import implementation
 from skillc_compiler.resolve.names import KINDS, Kind, Names, bare_terms
+from skillc_compiler.resolve.near import correction
+from skillc_compiler.resolve.repeats import without_repeats
 from skillc_compiler.resolve.scope import Setting
 from skillc_compiler.resolve.skills import skill
 from skillc_compiler.resolve.tasks import task
-from skillc_compiler.resolve.terms import extend, repeated
+from skillc_compiler.resolve.terms import extend
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
 
 
-def resolve(files: Sequence[ReadFile], base: Vocabulary, name: str) -> Outcome[Program]:
+def resolve(read: Sequence[ReadFile], base: Vocabulary, name: str) -> Outcome[Program]:
     """Return the program that the files mean together; what cannot be understood is reported and left unknown."""
-    declared = declare(files, base)
+    declared = declare(read, base)
+    repeats = without_repeats(read, declared)
+    files = repeats.value
     names = _names(files, declared, base)
     vocabulary = extend(base, files, declared, names)
     for visible_names in names.values():
@@ -33,14 +37,14 @@ def resolve(files: Sequence[ReadFile], base: Vocabulary, name: str) -> Outcome[P
     program = Program(
         name=name,
         vocabulary=vocabulary,
-        files=tuple(files),
+        files=files,
         skills=skills,
         implementations=tuple(_implementations(files, settings)),
         tasks=tuple(_tasks(files, settings)),
         used={path: frozenset(visible_names.used) for path, visible_names in names.items()},
     )
     problems = (problem for path in names for problem in names[path].problems)
-    return Outcome(program, (*_headers(files, base), *repeated(files, declared), *problems))
+    return Outcome(program, (*_headers(files, base), *repeats.diagnostics, *problems))
 
 
 def _names(files: Sequence[ReadFile], declared: Mapping[str, Declared], base: Vocabulary) -> dict[str, Names]:
@@ -52,7 +56,7 @@ def _names(files: Sequence[ReadFile], declared: Mapping[str, Declared], base: Vo
         visible_here = {name for there in here for name in there.names()}
         own = {line.name.text: line.iri for line in unit.file.header if isinstance(line, s.Prefix)}
         found[unit.file.path] = Names(
-            bare=visible(bare_terms(base, used(unit.file)), here),
+            bare=visible(bare_terms(base, used(unit.file, base)), here),
             known=known,
             vocabulary=base,
             prefixes={**base.prefixes, **own},
@@ -89,7 +93,7 @@ def _skills(files: Sequence[ReadFile], settings: Mapping[str, Setting]) -> dict[
     for unit in files:
         for declaration in unit.file.declarations:
             if isinstance(declaration, s.SkillDeclaration):
-                found.setdefault(declaration.name.text, skill(settings[unit.file.path], declaration))
+                found[declaration.name.text] = skill(settings[unit.file.path], declaration)
     return found
 
 
@@ -103,24 +107,20 @@ def _implementation_names(files: Sequence[ReadFile]) -> dict[str, list[str]]:
 
 
 def _implementations(files: Sequence[ReadFile], settings: Mapping[str, Setting]) -> Iterator[Implementation]:
-    seen: set[tuple[str, str]] = set()
     for unit in files:
         setting, lines = settings[unit.file.path], unit.text.splitlines()
         for declaration in unit.file.declarations:
             if not isinstance(declaration, s.ImplementationDeclaration):
                 continue
             of = setting.names.skill(declaration.skill)
-            if of is not None and (of, declaration.name.text) not in seen:
-                seen.add((of, declaration.name.text))
+            if of is not None:
                 yield implementation(setting, declaration, setting.skills[of], lines)
 
 
 def _tasks(files: Sequence[ReadFile], settings: Mapping[str, Setting]) -> Iterator[Task]:
-    seen: set[str] = set()
     for unit in files:
         for declaration in unit.file.declarations:
-            if isinstance(declaration, s.TaskDeclaration) and declaration.name.text not in seen:
-                seen.add(declaration.name.text)
+            if isinstance(declaration, s.TaskDeclaration):
                 yield task(settings[unit.file.path], declaration)
 
 
@@ -136,6 +136,7 @@ def _headers(files: Sequence[ReadFile], base: Vocabulary) -> Iterator[Diagnostic
                             name.span,
                             f"there is no vocabulary `{name.text}`",
                             did_you_mean(name.text, base.prefixes),
+                            fix=correction(name, base.prefixes),
                         )
                 case s.Prefix(name=name, iri=iri) if base.prefixes.get(name.text, iri) != iri:
                     yield Diagnostic(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TypeVar
 
 import msgspec
@@ -57,43 +57,6 @@ def extend(
         properties=properties,
         functions=functions,
     )
-
-
-def repeated(files: Sequence[ReadFile], declared: Mapping[str, Declared]) -> Iterator[Diagnostic]:
-    """Report what a library declares twice, each with the place of the first."""
-    first: dict[tuple[str, ...], Span] = {}
-    for unit in files:
-        for declaration in unit.file.declarations:
-            key = _identity(declaration, declared[unit.file.path])
-            if key not in first:
-                first[key] = declaration.name.span
-                continue
-            yield Diagnostic(
-                "duplicate-declaration",
-                declaration.name.span,
-                f"the {key[0]} `{declaration.name.text}` is declared twice",
-                help="give one of them another name, or take one away",
-                labels=(Label(first[key], "first declared here"),),
-            )
-
-
-def _identity(declaration: s.Declaration, declared: Declared) -> tuple[str, ...]:
-    name = declaration.name.text
-    match declaration:
-        case s.ClassDeclaration():
-            return ("class", declared.terms["class"][name])
-        case s.RelationDeclaration(domain=domain, range=range_):
-            return ("relation", declared.terms["relation"][name], domain.text, range_.text)
-        case s.PropertyDeclaration(domain=domain):
-            return ("property", declared.terms["property"][name], domain.text)
-        case s.FunctionDeclaration():
-            return ("function", name)
-        case s.SkillDeclaration():
-            return ("skill", name)
-        case s.ImplementationDeclaration(skill=skill):
-            return ("implementation", skill.text, name)
-        case s.TaskDeclaration():
-            return ("task", name)
 
 
 def _class(written: s.ClassDeclaration, iri: str, old: ClassTerm | None, names: Names) -> ClassTerm:

@@ -1,0 +1,108 @@
+"""Leaves out what only follows from the wrong name of a file, vocabulary, skill or term, or from a second skill."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import TypeAlias
+
+from skillc_compiler.program import ReadFile
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Span
+
+Explains: TypeAlias = Callable[[Diagnostic], bool]
+
+HEADER = frozenset({"unknown-import", "unknown-vocabulary", "import-cycle"})
+UNUSED_IN_HEADER = frozenset({"unused-use", "unused-prefix", "unused-import"})
+UNUSED = UNUSED_IN_HEADER | {"unused-let", "unused-parameter"}
+TERMS = frozenset({"unknown-class", "unknown-type", "unknown-relation", "unknown-property"})
+NAMES = TERMS | {"unknown-function", "unknown-skill", "unknown-prefix"}
+TYPES = frozenset({"relation-domain", "relation-range", "property-domain", "wrong-type", "disjoint-types"})
+WHOLE = frozenset({"unachievable-goal", "no-implementation"})
+
+
+def without_consequences(
+    found: Iterable[Diagnostic], problems: Sequence[Diagnostic], files: Sequence[ReadFile]
+) -> Iterator[Diagnostic]:
+    """Yield what was found, without what any of all the problems explains."""
+    explanations = (
+        *_of_headers(problems),
+        *_of_second_skills(problems, files),
+        *_of_terms(problems, files),
+        *_of_implemented(problems, files),
+    )
+    return (problem for problem in found if not any(explains(problem) for explains in explanations))
+
+
+def _of_headers(problems: Iterable[Diagnostic]) -> Iterator[Explains]:
+    """A file or vocabulary that is not found explains unknown names in its file, and types that depend on them.
+
+    Where it was clear what is meant, the names are known, and a name so like a known one that a fix is offered
+    is a mistake of its own.
+    """
+    wrong = [problem for problem in problems if problem.name in HEADER]
+    unread = {problem.span.path for problem in wrong if problem.fix is None}
+    yield lambda d: d.span.path in unread and (d.name in TYPES or (d.name in NAMES and d.fix is None))
+    yield lambda d: bool(unread) and d.name in WHOLE
+
+
+def _of_second_skills(problems: Iterable[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Explains]:
+    """A second skill of a name explains what calls and implementations say wrong of the first, or leave out."""
+    second = [problem for problem in problems if problem.name == "duplicate-declaration"]
+    first = {label.span for problem in second for label in problem.labels}
+    skills = [d.span for unit in files for d in unit.file.declarations if _is_skill(d) and d.name.span in first]
+    for skill in skills:
+        yield (
+            lambda d, skill=skill: (
+                d.name in WHOLE
+                or (  # type: ignore[misc]
+                    d.name != "duplicate-declaration"
+                    and not _inside(d.span, skill)
+                    and any(_inside(label.span, skill) for label in d.labels)
+                )
+            )
+        )
+    yield lambda d: bool(second) and d.name in UNUSED
+
+
+def _of_terms(problems: Sequence[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Explains]:
+    """An unknown term explains that its goal seems out of reach; one in a post explains that for every goal.
+
+    Whatever is unknown explains what seems not to be used in the header of its file.
+    """
+    misspelt = {problem.span.path for problem in problems if problem.name in NAMES | HEADER}
+    yield lambda d: d.name in UNUSED_IN_HEADER and d.span.path in misspelt
+    wrong = [problem.span for problem in problems if problem.name in TERMS]
+    posts = [
+        member.span
+        for unit in files
+        for declaration in unit.file.declarations
+        if isinstance(declaration, s.SkillDeclaration)
+        for member in declaration.members
+        if isinstance(member, s.Requirement) and member.kind == "post"
+    ]
+    in_posts = any(_inside(place, post) for place in wrong for post in posts)
+    yield lambda d: d.name == "unachievable-goal" and (in_posts or any(_inside(place, d.span) for place in wrong))
+
+
+def _of_implemented(problems: Iterable[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Explains]:
+    """An implementation of an unknown skill explains that a skill of a like name has none."""
+    of = {
+        declaration.skill.span
+        for unit in files
+        for declaration in unit.file.declarations
+        if isinstance(declaration, s.ImplementationDeclaration)
+    }
+    helps = [problem.help for problem in problems if problem.name == "unknown-skill" and problem.span in of]
+    names = {d.name.span: f"`{d.name.text}`" for unit in files for d in unit.file.declarations if _is_skill(d)}
+    yield lambda d: d.name == "no-implementation" and any(names[d.span] in help_ for help_ in helps)
+
+
+def _is_skill(declaration: s.Declaration) -> bool:
+    return isinstance(declaration, s.SkillDeclaration)
+
+
+def _inside(place: Span, whole: Span) -> bool:
+    begins, ends = (place.line, place.column), (place.end_line, place.end_column)
+    within = (whole.line, whole.column) <= begins and ends <= (whole.end_line, whole.end_column)
+    return place.path == whole.path and within

@@ -1,0 +1,78 @@
+"""What a library declares twice."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from skillc_compiler.program import ReadFile
+from skillc_compiler.resolve.declared import Declared
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Label, Outcome
+from skillc_dsl.source import Span
+
+
+def without_repeats(files: Sequence[ReadFile], declared: Mapping[str, Declared]) -> Outcome[tuple[ReadFile, ...]]:
+    """Return the files with the first skill, implementation and task of each name; report every second declaration.
+
+    Implementations that follow a second skill of a name in its file were written for that one: they go with it.
+    Second terms and functions stay, as they add to the first.
+    """
+    first: dict[tuple[str, ...], Span] = {}
+    problems: list[Diagnostic] = []
+    kept = []
+    for unit in files:
+        declarations = tuple(_first(unit.file, declared[unit.file.path], first, problems))
+        kept.append(replace(unit, file=replace(unit.file, declarations=declarations)))
+    return Outcome(tuple(kept), tuple(problems))
+
+
+def _first(
+    file: s.File, declared: Declared, first: dict[tuple[str, ...], Span], problems: list[Diagnostic]
+) -> Iterator[s.Declaration]:
+    """Yield the declarations that stay; `first` holds the places of those known so far and is added to."""
+    second_skills: set[str] = set()
+    for declaration in file.declarations:
+        if isinstance(declaration, s.ImplementationDeclaration) and declaration.skill.text in second_skills:
+            continue
+        key, name = _identity(declaration, declared), declaration.name
+        if first.setdefault(key, name.span) == name.span:
+            yield declaration
+            continue
+        problems.append(_problem(key[0], name, first[key]))
+        match declaration:
+            case s.SkillDeclaration():
+                second_skills.add(name.text)
+            case s.ImplementationDeclaration() | s.TaskDeclaration():
+                pass
+            case _:
+                yield declaration
+
+
+def _problem(kind: str, name: s.Name, first: Span) -> Diagnostic:
+    return Diagnostic(
+        "duplicate-declaration",
+        name.span,
+        f"the {kind} `{name.text}` is declared twice",
+        help="give one of them another name, or take one away",
+        labels=(Label(first, "first declared here"),),
+    )
+
+
+def _identity(declaration: s.Declaration, declared: Declared) -> tuple[str, ...]:
+    name = declaration.name.text
+    match declaration:
+        case s.ClassDeclaration():
+            return ("class", declared.terms["class"][name])
+        case s.RelationDeclaration(domain=domain, range=range_):
+            return ("relation", declared.terms["relation"][name], domain.text, range_.text)
+        case s.PropertyDeclaration(domain=domain):
+            return ("property", declared.terms["property"][name], domain.text)
+        case s.FunctionDeclaration():
+            return ("function", name)
+        case s.SkillDeclaration():
+            return ("skill", name)
+        case s.ImplementationDeclaration(skill=skill):
+            return ("implementation", skill.text, name)
+        case s.TaskDeclaration():
+            return ("task", name)
