@@ -9,7 +9,7 @@ from typing import Literal
 import msgspec
 
 from skillc_compiler.asking.pddl_text import Group, PddlGoalError, Word, goal, read_group
-from skillc_compiler.asking.setting import Individuals, setting
+from skillc_compiler.asking.setting import setting
 from skillc_compiler.checks import check
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Condition
@@ -18,6 +18,7 @@ from skillc_compiler.library.vocabulary import Position, Vocabulary
 from skillc_compiler.lower.bodies import node
 from skillc_compiler.lower.folding import fold_condition
 from skillc_compiler.program import Program, Task
+from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.names import Names
 from skillc_compiler.resolve.scope import Setting
 from skillc_compiler.resolve.tasks import task

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from skillc_compiler.checks import check
 from skillc_compiler.consequences import without_consequences
@@ -11,22 +12,30 @@ from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.lower.library import lower
 from skillc_compiler.resolve.files import read
+from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
 
+NO_SCENES: Mapping[str, Individuals] = MappingProxyType({})
+
 
 def compile(
-    sources: Sequence[Source], vocabulary: Vocabulary, shelf: Mapping[str, Source], name: str
+    sources: Sequence[Source],
+    vocabulary: Vocabulary,
+    shelf: Mapping[str, Source],
+    name: str,
+    scenes: Mapping[str, Individuals] = NO_SCENES,
 ) -> Outcome[SkillLibrary]:
     """Compile a library: read, resolve, check, lower; problems that only follow from others are not told.
 
     `sources` are the files of the library called `name`, `shelf` those that every library may import, by file name.
+    `scenes` gives, by task, the individuals that the task's goal and body may name; without, any may be named.
     The result holds everything in which no error was found; diagnostics are in the order of the files and lines, those
     of the shelf only where they are errors.
     """
     files = read(sources, shelf, name)
-    program = resolve(files.value, vocabulary, name)
+    program = resolve(files.value, vocabulary, name, scenes)
     found = (*program.diagnostics, *check(program.value))
     own_faults = without_followers(found, files.diagnostics, files.value)
     problems = (*files.diagnostics, *without_consequences(own_faults, (*files.diagnostics, *found), files.value))

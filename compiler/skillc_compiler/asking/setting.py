@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 from skillc_compiler.library import skills as library
 from skillc_compiler.library.conditions import Expression, Literal
-from skillc_compiler.library.vocabulary import THING, Position, Vocabulary
+from skillc_compiler.library.vocabulary import Position, Vocabulary
 from skillc_compiler.program import Parameter, Skill, Valued
+from skillc_compiler.resolve.individuals import Individuals, narrowest
 from skillc_compiler.resolve.names import Names, bare_terms
 from skillc_compiler.resolve.scope import Setting
 from skillc_compiler.types import Type, of_library
 from skillc_dsl.source import Span
-
-Individuals = Mapping[str, Sequence[str]]
 
 
 def setting(
@@ -45,15 +44,8 @@ def setting(
         vocabulary=vocabulary,
         skills=understood,
         implementations={name: skill.implementations for name, skill in (skills or {}).items()},
-        individuals={iri: _most_specific(vocabulary, classes) for iri, classes in individuals.items()},
+        individuals=narrowest(vocabulary, individuals),
     )
-
-
-def _most_specific(vocabulary: Vocabulary, classes: Sequence[str]) -> str:
-    """Return a class of which no other one given is a subclass, the first by IRI; `owl:Thing` if none is given."""
-    others = {one: [other for other in classes if other != one] for one in sorted(classes)}
-    lowest = (one for one, rest in others.items() if not any(vocabulary.is_a(other, one) for other in rest))
-    return next(lowest, THING)
 
 
 def _skill(skill: library.Skill) -> Skill:

@@ -9,6 +9,7 @@ from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program import Implementation, Program, ReadFile, Skill, Task
 from skillc_compiler.resolve.declared import Declared, declare, used, visible
 from skillc_compiler.resolve.implementations import implementation
+from skillc_compiler.resolve.individuals import Individuals, narrowest
 from skillc_compiler.resolve.names import KINDS, Kind, Names, bare_terms
 from skillc_compiler.resolve.near import correction
 from skillc_compiler.resolve.repeats import without_repeats
@@ -20,8 +21,13 @@ from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
 
 
-def resolve(read: Sequence[ReadFile], base: Vocabulary, name: str) -> Outcome[Program]:
-    """Return the program that the files mean together; what cannot be understood is reported and left unknown."""
+def resolve(
+    read: Sequence[ReadFile], base: Vocabulary, name: str, scenes: Mapping[str, Individuals]
+) -> Outcome[Program]:
+    """Return the program that the files mean together; what cannot be understood is reported and left unknown.
+
+    `scenes` holds the individuals that tasks may name, by task.
+    """
     declared = declare(read, base)
     repeats = without_repeats(read, declared)
     files = repeats.value
@@ -40,7 +46,7 @@ def resolve(read: Sequence[ReadFile], base: Vocabulary, name: str) -> Outcome[Pr
         files=files,
         skills=skills,
         implementations=tuple(_implementations(files, settings)),
-        tasks=tuple(_tasks(files, settings)),
+        tasks=tuple(_tasks(files, settings, scenes)),
         used={path: frozenset(visible_names.used) for path, visible_names in names.items()},
     )
     problems = (problem for path in names for problem in names[path].problems)
@@ -117,11 +123,17 @@ def _implementations(files: Sequence[ReadFile], settings: Mapping[str, Setting])
                 yield implementation(setting, declaration, setting.skills[of], lines)
 
 
-def _tasks(files: Sequence[ReadFile], settings: Mapping[str, Setting]) -> Iterator[Task]:
+def _tasks(
+    files: Sequence[ReadFile], settings: Mapping[str, Setting], scenes: Mapping[str, Individuals]
+) -> Iterator[Task]:
     for unit in files:
+        setting = settings[unit.file.path]
         for declaration in unit.file.declarations:
-            if isinstance(declaration, s.TaskDeclaration):
-                yield task(settings[unit.file.path], declaration)
+            if not isinstance(declaration, s.TaskDeclaration):
+                continue
+            there = scenes.get(declaration.name.text)
+            known = None if there is None else narrowest(setting.vocabulary, there)
+            yield task(replace(setting, individuals=known), declaration)
 
 
 def _headers(files: Sequence[ReadFile], base: Vocabulary) -> Iterator[Diagnostic]:

@@ -44,14 +44,14 @@ class Scope:
 class Setting:
     """What does not change within a declaration: the file's names, the vocabulary, the skills.
 
-    `individuals` are those of the scene with their classes, None where no scene is known.
+    `individuals` are those of the scene with the class of each, None where several; None where no scene is known.
     """
 
     names: Names
     vocabulary: Vocabulary
     skills: Mapping[str, Skill] = field(default_factory=dict)
     implementations: Mapping[str, Sequence[str]] = field(default_factory=dict)
-    individuals: Mapping[str, str] | None = None
+    individuals: Mapping[str, str | None] | None = None
 
     def report(self, name: str, span: Span, message: str, help: str = "", *labels: Label) -> None:
         """Note a problem."""
