@@ -41,7 +41,7 @@ def facts(said: Sequence[Placed], vocabulary: Vocabulary) -> tuple[Placed, ...]:
     for each in said:
         if each.predicate == RDF_TYPE and _is_term_kind(iri_of(each.object)):
             terms.add(iri_of(each.subject))
-    notes = set(_typed(said, ANNOTATION)) - vocabulary.properties.keys() | {HAS_TEMPLATE}
+    notes = set(_typed(said, ANNOTATION)) - vocabulary.properties.keys() | {TEMPLATE, HAS_TEMPLATE}
     return tuple(
         each
         for each in said
