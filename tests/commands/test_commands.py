@@ -115,6 +115,28 @@ def test_a_scene_with_an_unknown_class_is_refused_with_its_line(library: Path, s
     assert "TableTop" in result.stdout
 
 
+def test_what_a_task_names_is_looked_up_in_its_scene(library: Path) -> None:
+    (library / "tasks.skill").write_text(
+        """prefix lab: <http://example.org/lab#>
+import "wiping/wipe.skill"
+task one {
+    scene "iiwa_table.ttl"
+    do    Wipe(surface: lab:Tabel-1)
+}
+task two {
+    scene "iiwa_tabel.ttl"
+    do    Wipe(surface: lab:Table-1)
+}
+""",
+        encoding="utf-8",
+    )
+    found = json.loads(run("check", library, "--format", "json").stdout)
+    errors = [(each["line"], each["help"]) for each in found if each["severity"] == "error"]
+    assert [line for line, _ in errors] == [5, 7]
+    assert "lab:Table-1" in errors[0][1]
+    assert "iiwa_table.ttl" in errors[1][1]
+
+
 def test_a_truncated_scene_is_refused(library: Path, scene: Path) -> None:
     scene.write_text(scene.read_text(encoding="utf-8")[:1500], encoding="utf-8")
     result = run("check", library, "--scene", scene, "--format", "concise")

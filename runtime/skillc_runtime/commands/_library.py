@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
@@ -74,9 +74,14 @@ def _files(name: str, root: Path, sources: dict[str, Path], shelf: dict[str, tup
     )
 
 
-def compile_library(library: LibraryFiles) -> Outcome[SkillLibrary]:
-    """Compile, with the shipped ontology as vocabulary; diagnostics show paths as from here."""
-    outcome = pipeline.compile(library.sources, vocabulary(), library.shelf, library.name)
+def compile_library(
+    library: LibraryFiles, scenes: Mapping[str, Mapping[str, Sequence[str]]] | None = None
+) -> Outcome[SkillLibrary]:
+    """Compile, with the shipped ontology as vocabulary; diagnostics show paths as from here.
+
+    `scenes` are the individuals that each task may name, with their classes; those of other tasks are not checked.
+    """
+    outcome = pipeline.compile(library.sources, vocabulary(), library.shelf, library.name, scenes or {})
     return Outcome(outcome.value, tuple(_relocate(d, library) for d in outcome.diagnostics))
 
 

@@ -14,7 +14,7 @@ from skillc_compiler.library.skills import SkillLibrary
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _diagnostics, _library
+from skillc_runtime.commands import _diagnostics, _library, _scenes
 from skillc_runtime.task import Assignment, Perform, Reach
 from skillc_runtime.world.documents import SceneError
 from skillc_runtime.world.scene import load_scene
@@ -36,7 +36,10 @@ def of_task(reference: str) -> Mission:
     task = _library.task_named(library, name)
     if task.scene is None:
         raise click.UsageError(f"the task `{name}` has no scene; run it with --scene FILE and --goal or --skill")
-    state = loaded(_task_scene(files, task.source.path, task.scene), library)
+    path = _scenes.path_of(task, files)
+    if path is None:
+        raise click.UsageError(f'the scene "{task.scene}" of `{name}` is neither beside its file nor shipped')
+    state = loaded(path, library)
     if task.goal is not None:
         return Mission(library, Assignment(name, state, Reach(task.goal)))
     if task.body is not None:
@@ -94,8 +97,3 @@ def _understood(outcome: Outcome[Any], text: str) -> Any:
         _diagnostics.tell(outcome.diagnostics, {"goal": Source("goal", text), "call": Source("call", text)})
         sys.exit(1)
     return outcome.value
-
-
-def _task_scene(files: _library.LibraryFiles, task_file: str, scene: str) -> Path:
-    beside = (files.root / task_file).parent / scene
-    return beside if beside.is_file() else scene_path(Path(scene))

@@ -19,7 +19,7 @@ def command(paths: tuple[Path, ...], scene: Path | None, form: str) -> None:
     """Check the libraries or files at PATHS."""
     from skillc_dsl.diagnostics import Diagnostic
     from skillc_dsl.source import Source
-    from skillc_runtime.commands import _diagnostics, _library, _mission
+    from skillc_runtime.commands import _diagnostics, _library, _mission, _scenes
 
     found: list[Diagnostic] = []
     texts: dict[str, Source] = {}
@@ -27,7 +27,11 @@ def command(paths: tuple[Path, ...], scene: Path | None, form: str) -> None:
     for path in paths:
         library = _library.find(path)
         outcome = _library.compile_library(library)
-        found += outcome.diagnostics
+        named, scenes = _scenes.individuals_of(outcome.value, library)
+        if named.value:
+            outcome = _library.compile_library(library, named.value)
+        found += (*outcome.diagnostics, *named.diagnostics)
+        texts |= _scenes.texts_of(scenes)
         texts |= _library.texts(library)
         if scene is not None:
             found += _diagnostics.of_scene(scene, outcome.value.vocabulary)
