@@ -8,12 +8,12 @@ import msgspec
 import pytest
 
 from accept import cases, expected
-from emit.samples import HERE, PICK, WIPE, holds, implementation, library, need
+from emit.samples import HERE, PICK, WIPE, holds, implementation, library, need, number
 from emit.tree_rules import broken_rules
 from skillc_compiler.emit import bt
 from skillc_compiler.emit.bt_names import Names, port
 from skillc_compiler.library.conditions import Variable
-from skillc_compiler.library.skills import Compound, SkillLibrary
+from skillc_compiler.library.skills import Compound, Primitive, Skill, SkillLibrary
 from skillc_compiler.library.tree import Call
 
 ARTIFACTS = [(case.name, path, text) for case in cases() for path, text in expected(case).items()]
@@ -37,10 +37,13 @@ def test_a_file_keeps_the_rules_of_the_format(name: str) -> None:
 
 BREAKING = {
     "the format is not 4": ('BTCPP_format="4"', 'BTCPP_format="3"'),
-    "the main tree is missing": ('main_tree_to_execute="Tour"', 'main_tree_to_execute="Detour"'),
+    "the main tree is missing": ('main_tree_to_execute="Tour_main"', 'main_tree_to_execute="Detour"'),
     "Inverter  has 0 children": ("<AlwaysSuccess />", "<Inverter />"),
     "Action Gone is not declared once": ("<AlwaysSuccess />", '<Action ID="Gone" />'),
     "SubTree Tour_round calls a tree that is not in the file": ('BehaviorTree ID="Tour_round"', 'BehaviorTree ID="X"'),
+    "SubTree Tour uses an undeclared port": ('<SubTree ID="Tour" ', '<SubTree ID="Tour" spade="1" '),
+    "SubTree Tour leaves out a mandatory port": (' robot="{robot}" first="{first}" stops', " stops"),
+    "SubTree Tour hides the default of a port": ('pause="2"', 'pause="{pause}"'),
     "Action Look uses an undeclared port": ('<Action ID="Look" robot', '<Action ID="Look" speed="1" robot'),
 }
 
@@ -52,6 +55,47 @@ def test_the_rules_notice_what_breaks_them(words: str) -> None:
     before, after = BREAKING[words]
     assert before in text
     assert words in broken_rules(text.replace(before, after))
+
+
+def nested(implementation_name: str | None) -> str:
+    """Return the trees of a skill that calls wiping, passes what is required and maybe chooses the implementation."""
+    wipe = msgspec.structs.replace(WIPE, parameters=(*WIPE.parameters, number("limit", default=2.0), number("extra")))
+    every = Skill(name="Every", parameters=WIPE.parameters[:1], implementations=("one",), source=HERE)
+    call = Call("Wipe", implementation_name, {"surface": Variable("surface")}, None, HERE)
+    one = msgspec.structs.replace(implementation(every, "one"), body=Compound(call))
+    ways = [msgspec.structs.replace(implementation(wipe, each), body=Primitive("m:C")) for each in ("careful", "plain")]
+    both = msgspec.structs.replace(wipe, implementations=("careful", "plain"))
+    return bt.emit(library(both, every, implementations=(*ways, one)))["trees/Every.xml"]
+
+
+def test_a_call_of_a_tree_leaves_out_what_is_inferred_and_passes_the_defaults() -> None:
+    assert broken_rules(nested(None)) == []
+    called = fromstring(nested(None)).find("BehaviorTree[@ID='Every_one']/SubTree")
+    assert called is not None
+    passed = {each: called.get(each) for each in called.attrib.keys() - {"ID", "_description"}}
+    assert passed == {"surface": "{surface}", "limit": "2"}
+
+
+def test_a_chosen_implementation_is_looked_up_and_guarded_like_any_other() -> None:
+    assert broken_rules(nested("plain")) == []
+    root = fromstring(nested("plain"))
+    called = root.find("BehaviorTree[@ID='Every_one']/SubTree")
+    assert called is not None and called.get("ID") == "Wipe_only_plain"
+    steps = root.findall("BehaviorTree[@ID='Wipe_only_plain']/Sequence/*")
+    assert [each.get("ID") for each in steps[:2]] == ["Wipe_infer", "Wipe_pre_on"]
+    guarded = root.find("BehaviorTree[@ID='Wipe_only_plain']/Sequence/ReactiveSequence")
+    assert guarded is not None and guarded[-1].get("ID") == "Wipe_plain"
+
+
+def test_a_computed_value_says_what_it_reads() -> None:
+    root = fromstring(FILES["control/trees/Tour.xml"])
+    declared = root.find("TreeNodesModel/Action[@ID='Tour_round_evaluate_milliseconds__1']")
+    assert declared is not None
+    assert declared.findtext("description") == "Computes: pause * 1000"
+    assert [(each.tag, each.get("name")) for each in declared[1:]] == [
+        ("input_port", "pause"),
+        ("output_port", "value"),
+    ]
 
 
 def test_hold_conditions_guard_the_body_and_nothing_else() -> None:

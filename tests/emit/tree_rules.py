@@ -54,17 +54,41 @@ def _of_node(node: Element, root: Element) -> list[str]:
 
 def _of_declared(node: Element, name: str, root: Element) -> list[str]:
     declared = root.findall(f"TreeNodesModel/{node.tag}[@ID='{node.get('ID')}']")
-    ports = {each.get("name") for each in declared[0] if each.tag.endswith("_port")} if declared else set()
+    ports = _ports(declared[0]) if declared else {}
+    called = root.find(f"BehaviorTree[@ID='{node.get('ID')}']") if node.tag == "SubTree" else None
+    passed = node.attrib.keys() - NOT_PORTS
+    mandatory = {each for each, default in ports.items() if not default} if called is not None else set()
     return [
         words
         for words, kept in (
             (f"{name} is not declared once", len(declared) == 1),
             (f"{name} is no legal ID", re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", node.get("ID", "")) is not None),
-            (f"{name} uses an undeclared port", node.attrib.keys() - NOT_PORTS <= ports),
+            (f"{name} uses an undeclared port", passed <= ports.keys() | _entries(called)),
+            (f"{name} calls a tree that is not in the file", node.tag != "SubTree" or called is not None),
             (
-                f"{name} calls a tree that is not in the file",
-                node.tag != "SubTree" or root.find(f"BehaviorTree[@ID='{node.get('ID')}']") is not None,
+                f"{name} leaves out a mandatory port",
+                mandatory <= passed,
             ),
+            (f"{name} hides the default of a port", not _hidden(node, ports, root)),
         )
         if not kept
     ]
+
+
+def _ports(declared: Element) -> dict[str, str]:
+    """Return the ports of a model with their defaults; an empty default is none."""
+    return {each.get("name", ""): each.get("default", "") for each in declared if each.tag.endswith("_port")}
+
+
+def _entries(tree: Element | None) -> set[str]:
+    """Return the entries of the blackboard that a tree speaks of: a call may map them without declaring them."""
+    values = [value for node in tree.iter() for value in node.attrib.values()] if tree is not None else []
+    return {value[1:-1] for value in values if re.fullmatch(r"\{.*\}", value)}
+
+
+def _hidden(node: Element, ports: dict[str, str], root: Element) -> set[str]:
+    """Return the ports with a default that the main tree maps to an entry, which nobody has set yet."""
+    main = root.find(f"BehaviorTree[@ID='{root.get('main_tree_to_execute')}']")
+    if main is None or node not in list(main):
+        return set()
+    return {each for each, default in ports.items() if default and node.get(each, "").startswith("{")}

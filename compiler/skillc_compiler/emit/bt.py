@@ -1,7 +1,8 @@
 """trees/: behaviour trees in the XML of BehaviorTree.CPP, version 4.
 
 A file per skill that has a compound implementation, and per task written by hand. Each can be loaded by itself: it
-holds the trees of all skills it calls and declares every node it uses.
+holds the trees of all skills it calls and declares every node it uses. Its main tree only passes on what the skill
+requires, from the blackboard, and the defaults of what it does not.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from xml.etree.ElementTree import Element, indent, tostring
 from skillc_compiler.emit.bt_model import Model
 from skillc_compiler.emit.bt_names import Names, legal
 from skillc_compiler.emit.bt_nodes import Body, is_tree
-from skillc_compiler.emit.bt_skills import implementation_tree, skill_tree
+from skillc_compiler.emit.bt_skills import fixed_tree, implementation_tree, main_tree, skill_tree
 from skillc_compiler.emit.headers import XML_DECLARATION
 from skillc_compiler.library.reading import walk
 from skillc_compiler.library.skills import Compound, Skill, SkillLibrary, Task
@@ -45,8 +46,10 @@ def _names(library: SkillLibrary) -> Names:
 def _skill_file(skill: Skill, library: SkillLibrary, names: Names) -> str:
     model = Model()
     skills = [skill, *(library.skills[name] for name in sorted(_called([skill.name], library) - {skill.name}))]
+    owner = (skill.name, "main")
+    main = main_tree(Body(library, names, model, owner), skill)
     trees = [tree for each in skills for tree in _trees(each, library, names, model)]
-    return _document(names.of(skill.name), trees, model)
+    return _document(names.of(*owner), [main, *trees], model)
 
 
 def _task_file(task: Task, body: Node, library: SkillLibrary, names: Names) -> str:
@@ -74,13 +77,24 @@ def _called(start: list[str], library: SkillLibrary) -> set[str]:
 
 
 def _trees(skill: Skill, library: SkillLibrary, names: Names, model: Model) -> Iterator[Element]:
-    if not is_tree(library, skill, ()):
+    if not is_tree(library, skill):
         return
     yield skill_tree(Body(library, names, model, (skill.name,)), skill)
+    fixed = _fixed(skill.name, library)
     for each in library.implementations_of(skill.name):
+        if each.name in fixed:
+            yield fixed_tree(Body(library, names, model, (skill.name,)), skill, each)
         if isinstance(each.body, Compound):
             body = Body(library, names, model, (skill.name, each.name), posts=each.post)
             yield implementation_tree(body, each)
+
+
+def _fixed(skill: str, library: SkillLibrary) -> set[str]:
+    """Return the implementations of a skill that some call of the library chooses itself."""
+    bodies = [each.body.node for each in library.implementations.values() if isinstance(each.body, Compound)]
+    bodies += [each.body for each in library.tasks.values() if each.body is not None]
+    calls = [each for body in bodies for each in walk(body) if isinstance(each, Call)]
+    return {each.implementation for each in calls if each.skill == skill and each.implementation is not None}
 
 
 def _document(main: str, trees: list[Element], model: Model) -> str:

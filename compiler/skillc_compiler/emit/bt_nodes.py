@@ -1,7 +1,7 @@
 """The nodes of an implementation's body as nodes of BehaviorTree.CPP.
 
 What has no counterpart there is declared under a name of its own: ParallelLead (the first child decides), WaitUntil,
-ForEach, Evaluate (an expression of the language) and With_SKILL (what is undone when the child ends).
+ForEach, OWNER_evaluate_ENTRY (an expression of the language) and With_SKILL (what is undone when the child ends).
 """
 
 from __future__ import annotations
@@ -13,10 +13,11 @@ from xml.etree.ElementTree import Element
 
 from skillc_compiler.emit.bt_model import Kind, Model, Port
 from skillc_compiler.emit.bt_names import Names, port
-from skillc_compiler.emit.phrases import expression_text, literal_text
-from skillc_compiler.library.conditions import Condition, Expression, Individual, Literal, Variable
+from skillc_compiler.emit.bt_ports import action_ports, defaults, passed_on, plain_value, tree_ports
+from skillc_compiler.emit.phrases import expression_text
+from skillc_compiler.library.conditions import Arithmetic, Condition, Expression, Literal
 from skillc_compiler.library.reading import free_variables_in_order
-from skillc_compiler.library.skills import Compound, Parameter, Post, Skill, SkillLibrary
+from skillc_compiler.library.skills import Compound, Implementation, Post, Skill, SkillLibrary
 from skillc_compiler.library.tree import (
     Apply,
     Call,
@@ -41,7 +42,6 @@ from skillc_compiler.library.tree import (
 from skillc_compiler.library.vocabulary import Position
 
 COUNTS = {"all": ("-1", "1"), "any": ("1", "-1"), "race": ("1", "1")}
-DIRECTIONS = {"in": "input", "opt": "input", "infer": "inout", "out": "output"}
 
 
 @dataclass
@@ -119,12 +119,13 @@ class Body:
 
     def evaluate(self, expression: Expression, entry: str) -> Element:
         """Return the node that puts the value of an expression into an entry of the blackboard."""
-        return self._evaluate(expression_text(expression, self.library.vocabulary), entry)
-
-    def _evaluate(self, text: str, entry: str) -> Element:
-        ports = (Port("expression"), Port("value", "output"))
-        self.model.declare("Action", "Evaluate", ports, "Computes an expression of the skill language.")
-        return Element("Action", ID="Evaluate", expression=text, value=f"{{{entry}}}")
+        identity = self.names.of(*self.owner, "evaluate", entry)
+        read = [port(name) for name in free_variables_in_order(expression)]
+        result = "value_" if "value" in read else "value"
+        ports = [*(Port(name) for name in read), Port(result, "output")]
+        text = expression_text(expression, self.library.vocabulary)
+        self.model.declare("Action", identity, ports, f"Computes: {text}")
+        return Element("Action", {"ID": identity, **{name: f"{{{name}}}" for name in read}, result: f"{{{entry}}}"})
 
     def call(self, call: Call) -> Element:
         """Return the call of a skill, after the expressions among its arguments."""
@@ -133,15 +134,36 @@ class Body:
         if call.out is not None:
             outputs = [each.name for each in skill.parameters if each.direction == "out"]
             attributes |= {port(name): f"{{{port(call.out)}}}" for name in outputs[:1]}
-        fixed = () if call.implementation is None else (call.implementation,)
-        return _after(before, self.invoke(skill, fixed, attributes, call.source))
+        if not is_tree(self.library, skill):
+            ports = action_ports(skill.parameters)
+            return _after(before, self._run("Action", (skill.name,), ports, skill.doc, attributes, call.source))
+        path: tuple[str, ...] = (skill.name,)
+        described = skill.parameters
+        if call.implementation is not None:
+            path = (skill.name, "only", call.implementation)
+            described = self.library.implementations[f"{skill.name}.{call.implementation}"].parameters
+        attributes = {**defaults(described), **attributes}
+        ports = tree_ports(described)
+        return _after(before, self._run("SubTree", path, ports, skill.doc, attributes, call.source))
 
-    def invoke(self, skill: Skill, path: tuple[str, ...], attributes: dict[str, str], source: Position) -> Element:
-        """Return the node that runs a skill, or its implementation if `path` names one."""
-        described = self.library.implementations[f"{skill.name}.{path[0]}"] if path else skill
-        kind: Kind = "SubTree" if is_tree(self.library, skill, path) else "Action"
-        identity = self.names.of(skill.name, *path)
-        self.model.declare(kind, identity, skill_ports(described.parameters), described.doc)
+    def run(self, implementation: Implementation) -> Element:
+        """Return the node that runs an implementation of the skill whose tree this is, on the entries of that tree."""
+        kind: Kind = "SubTree" if isinstance(implementation.body, Compound) else "Action"
+        path, ports = (implementation.skill, implementation.name), action_ports(implementation.parameters)
+        attributes = passed_on(implementation.parameters)
+        return self._run(kind, path, ports, implementation.doc, attributes, implementation.source)
+
+    def _run(
+        self,
+        kind: Kind,
+        path: tuple[str, ...],
+        ports: Several[Port],
+        doc: str,
+        attributes: dict[str, str],
+        source: Position,
+    ) -> Element:
+        identity = self.names.of(*path)
+        self.model.declare(kind, identity, ports, doc)
         return _node(kind, identity, attributes, source)
 
     def _arguments(self, call: Call) -> tuple[list[Element], dict[str, str]]:
@@ -183,8 +205,7 @@ class Body:
             milliseconds = str(round(seconds.value * 1000))
         else:
             entry = f"milliseconds__{self._number('value')}"
-            text = expression_text(seconds, self.library.vocabulary)
-            before.append(self._evaluate(f"({text}) * 1000", entry))
+            before.append(self.evaluate(Arithmetic("*", seconds, Literal(1000.0)), entry))
             milliseconds = f"{{{entry}}}"
         timed = Element(tag, msec=milliseconds)
         return _after(before, timed if child is None else self._around(timed, child))
@@ -218,7 +239,7 @@ class Body:
     def _with(self, call: Call, child: Node) -> Element:
         skill = self.library.skills[call.skill]
         identity = self.names.of("With", skill.name)
-        self.model.declare("Decorator", identity, skill_ports(skill.parameters), skill.doc)
+        self.model.declare("Decorator", identity, action_ports(skill.parameters), skill.doc)
         before, attributes = self._arguments(call)
         return _after(before, self._around(_node("Decorator", identity, attributes, call.source), child))
 
@@ -227,37 +248,10 @@ class Body:
         return self._made[word]
 
 
-def is_tree(library: SkillLibrary, skill: Skill, path: tuple[str, ...]) -> bool:
-    """Whether a skill (or its implementation, if `path` names one) is a tree; else it is a single action."""
-    if path:
-        return isinstance(library.implementations[f"{skill.name}.{path[0]}"].body, Compound)
+def is_tree(library: SkillLibrary, skill: Skill) -> bool:
+    """Whether a skill is a tree; else it is a single action."""
     bodies = [each.body for each in library.implementations_of(skill.name)]
     return len(bodies) > 1 or any(isinstance(body, Compound) for body in bodies)
-
-
-def skill_ports(parameters: Several[Parameter]) -> tuple[Port, ...]:
-    """Return the ports of a skill: an inferred parameter may be passed or found."""
-    return tuple(
-        Port(port(each.name), DIRECTIONS[each.direction], _default(each), each.doc)  # type: ignore[arg-type]
-        for each in parameters
-    )
-
-
-def plain_value(expression: Expression) -> str | None:
-    """Return what a port is given for a constant or a name; None for what must be computed."""
-    match expression:
-        case Literal(value=value):
-            return literal_text(value)
-        case Individual(iri=iri):
-            return iri
-        case Variable(name=name):
-            return f"{{{port(name)}}}"
-        case _:
-            return None
-
-
-def _default(parameter: Parameter) -> str | None:
-    return None if parameter.default is None else plain_value(parameter.default)
 
 
 def _node(kind: str, identity: str, attributes: dict[str, str], source: Position) -> Element:

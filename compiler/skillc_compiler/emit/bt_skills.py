@@ -6,21 +6,33 @@ from collections.abc import Sequence
 from xml.etree.ElementTree import Element
 
 from skillc_compiler.emit.bt_names import port
-from skillc_compiler.emit.bt_nodes import Body, skill_ports
-from skillc_compiler.library.conditions import IsA, Variable
-from skillc_compiler.library.skills import Compound, Implementation, Parameter, Requirement, Skill
+from skillc_compiler.emit.bt_nodes import Body
+from skillc_compiler.emit.bt_ports import action_ports, default_text, passed_on
+from skillc_compiler.library.conditions import Expression, IsA, Variable
+from skillc_compiler.library.skills import Compound, Implementation, Post, Requirement, Skill
+from skillc_compiler.library.tree import Call
 from skillc_compiler.library.vocabulary import ClassType
 
 
 def skill_tree(body: Body, skill: Skill) -> Element:
     """Return the tree of a description, which runs the first implementation that fits."""
-    steps = [*_inference(body, skill)]
-    steps += [_required(body, "pre", each) for each in skill.pre]
-    steps.append(_held(body, skill.hold, _choice(body, skill)))
-    steps += [
-        body.condition((skill.name, "post", each.label), each.condition, each.text, each.source) for each in skill.post
-    ]
-    return _tree(body.names.of(skill.name), steps, str(skill.source))
+    choice = _choice(body, skill, body.library.implementations_of(skill.name))
+    return _tree(body.names.of(skill.name), _guarded(body, skill, choice), str(skill.source))
+
+
+def fixed_tree(body: Body, skill: Skill, implementation: Implementation) -> Element:
+    """Return the tree of a description for callers who have chosen the implementation."""
+    identity = body.names.of(skill.name, "only", implementation.name)
+    return _tree(identity, _guarded(body, skill, _choice(body, skill, [implementation])), str(skill.source))
+
+
+def main_tree(body: Body, skill: Skill) -> Element:
+    """Return the tree that runs a skill by itself: what has a default gets it, the rest is read from the blackboard."""
+    arguments: dict[str, Expression] = {
+        each.name: Variable(each.name) for each in skill.parameters if default_text(each) is None
+    }
+    call = Call(skill.name, None, arguments, None, skill.source)
+    return _tree(body.names.of(*body.owner), [body.call(call)], str(skill.source))
 
 
 def implementation_tree(body: Body, implementation: Implementation) -> Element:
@@ -43,6 +55,15 @@ def _tree(identity: str, steps: Sequence[Element], source: str) -> Element:
     return tree
 
 
+def _guarded(body: Body, skill: Skill, choice: Element) -> list[Element]:
+    return [
+        *_inference(body, skill),
+        *(_required(body, "pre", each) for each in skill.pre),
+        _held(body, skill.hold, choice),
+        *(_required(body, "post", each) for each in skill.post),
+    ]
+
+
 def _inference(body: Body, skill: Skill) -> list[Element]:
     inferred = [each for each in skill.parameters if each.direction == "infer"]
     if not inferred:
@@ -50,15 +71,11 @@ def _inference(body: Body, skill: Skill) -> list[Element]:
     parameters = [each for each in skill.parameters if each.direction in ("in", "infer")]
     identity = body.names.of(skill.name, "infer")
     doc = f"Finds {', '.join(each.name for each in inferred)} in the world model by the preconditions."
-    body.model.declare("Action", identity, skill_ports(parameters), doc)
-    return [Element("Action", {"ID": identity, **_passed_on(parameters)})]
+    body.model.declare("Action", identity, action_ports(parameters), doc)
+    return [Element("Action", {"ID": identity, **passed_on(parameters)})]
 
 
-def _passed_on(parameters: Sequence[Parameter]) -> dict[str, str]:
-    return {port(each.name): f"{{{port(each.name)}}}" for each in parameters}
-
-
-def _required(body: Body, kind: str, requirement: Requirement) -> Element:
+def _required(body: Body, kind: str, requirement: Requirement | Post) -> Element:
     path = (*body.owner, kind, requirement.label)
     return body.condition(path, requirement.condition, requirement.text, requirement.source)
 
@@ -71,11 +88,9 @@ def _held(body: Body, holds: Sequence[Requirement], inner: Element) -> Element:
     return guarded
 
 
-def _choice(body: Body, skill: Skill) -> Element:
+def _choice(body: Body, skill: Skill, implementations: Sequence[Implementation]) -> Element:
     """Return the choice among implementations; the next is tried after a failure only where the skill says so."""
-    options = [
-        (_demands(body, each, skill), _run(body, each, skill)) for each in body.library.implementations_of(skill.name)
-    ]
+    options = [(_demands(body, each, skill), _run(body, each, skill)) for each in implementations]
     if skill.fallback and len(options) > 1:
         choice = Element("Fallback")
         choice.extend(_sequence([*demands, run]) for demands, run in options)
@@ -100,9 +115,10 @@ def _sequence(steps: Sequence[Element]) -> Element:
 
 
 def _run(body: Body, implementation: Implementation, skill: Skill) -> Element:
-    run = body.invoke(skill, (implementation.name,), _passed_on(implementation.parameters), implementation.source)
     own = [each for each in implementation.hold if each not in skill.hold]
-    return _held(Body(body.library, body.names, body.model, (skill.name, implementation.name)), own, run)
+    return _held(
+        Body(body.library, body.names, body.model, (skill.name, implementation.name)), own, body.run(implementation)
+    )
 
 
 def _demands(body: Body, implementation: Implementation, skill: Skill) -> list[Element]:
