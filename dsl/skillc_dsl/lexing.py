@@ -10,6 +10,7 @@ from lark.exceptions import UnexpectedCharacters
 from lark.lexer import LexerState
 
 from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
+from skillc_dsl.encoding import REPLACEMENT
 from skillc_dsl.grammar import END, machine
 from skillc_dsl.source import Source, Span
 
@@ -28,11 +29,10 @@ _HINTS = MappingProxyType(
         "?": "parameters are read by their bare name",
     }
 )
-_REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
 
 
 def decode(path: str, data: bytes) -> Source:
-    """Return the text of a file; bytes that are not UTF-8 become U+FFFD, which `tokens_of` reports as `encoding`."""
+    """Return the text of a file; bytes that are not UTF-8 become U+FFFD, which `parse` reports as `encoding`."""
     text = data.decode("utf-8-sig", errors="replace")
     return Source(path, text.replace("\r\n", "\n"))
 
@@ -46,7 +46,7 @@ def tokens_of(source: Source) -> Outcome[tuple[Token, ...]]:
     """Return the tokens of `source`, closed by an END token, without what could not be read."""
     thread = machine().parse_interactive(source.text).lexer_thread
     tokens: list[Token] = []
-    problems = list(_encoding(source))
+    problems: list[Diagnostic] = []
     while True:
         try:
             tokens.extend(thread.lexer.lex(thread.state, None))
@@ -75,7 +75,7 @@ def _skip(state: LexerState, source: Source, tokens: list[Token], problems: list
         end = (line, span.end_column, start + len(stretch))
         tokens.append(Token("STRING", f'{stretch}"', start, line, column, *end))
         problems.append(_unterminated(span))
-    elif stretch[0] != _REPLACEMENT:
+    elif stretch[0] != REPLACEMENT:
         problems.append(_unknown_character(span, stretch))
     counter.feed(Token("STRING", stretch), test_newline=False)
 
@@ -90,15 +90,3 @@ def _unterminated(span: Span) -> Diagnostic:
 def _unknown_character(span: Span, stretch: str) -> Diagnostic:
     shown = stretch if stretch.isprintable() else f"U+{ord(stretch[0]):04X}"
     return Diagnostic("unknown-character", span, f"`{shown}` means nothing here", _HINTS.get(stretch[0], "delete it"))
-
-
-def _encoding(source: Source) -> tuple[Diagnostic, ...]:
-    """Report the first character that was not UTF-8 in the file."""
-    position = source.text.find(_REPLACEMENT)
-    if position < 0:
-        return ()
-    line = source.text.count("\n", 0, position) + 1
-    column = position - source.text.rfind("\n", 0, position)
-    count = source.text.count(_REPLACEMENT)
-    message = "the file is not UTF-8 here" + (f", nor at {count - 1} later places" if count > 1 else "")
-    return (Diagnostic("encoding", Span(source.path, line, column, line, column + 1), message, "save it as UTF-8"),)

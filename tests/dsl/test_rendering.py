@@ -70,3 +70,22 @@ def test_json() -> None:
 
 def test_nothing_to_say() -> None:
     assert (full.render([], {}), concise.render([], {}), json.render([], {})) == ("", "", "[]\n")
+
+
+HOSTILE = Diagnostic("odd", Span("a\x1b.skill", 1, 3, 1, 4), "`\x1b[31m`", "not \x9b\x00", fix=None)
+
+
+def test_control_characters_are_never_printed() -> None:
+    hostile = {"a\x1b.skill": Source("a\x1b.skill", "ab\x1b[2J\x07\u202e\n")}
+    for text in (full.render([HOSTILE], hostile), concise.render([HOSTILE], hostile), json.render([HOSTILE], hostile)):
+        assert not re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f\u202e]", text)
+    assert standard_json.loads(json.render([HOSTILE], hostile))[0]["message"] == "`\x1b[31m`"
+
+
+def test_a_long_line_is_shown_around_its_place() -> None:
+    source = Source("a.skill", "x" * 5000 + "here" + "y" * 5000)
+    excerpt, carets = full.render(
+        [Diagnostic("far", Span("a.skill", 1, 5001, 1, 5005), "")], {"a.skill": source}
+    ).splitlines()[-2:]
+    assert len(excerpt) < 200
+    assert excerpt[carets.index("^") : carets.rindex("^") + 1] == "here"

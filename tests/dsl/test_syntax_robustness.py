@@ -93,6 +93,24 @@ def test_bytes_that_are_no_text() -> None:
     assert len(outcome.value.declarations) == 2
 
 
+NO_TEXT = [
+    ("skill A { }".encode("utf-16"), 1, "UTF-16"),
+    ("skill A { }".encode("utf-16-le"), 1, "UTF-16"),
+    ("skill A { }".encode("utf-32"), 1, "UTF-32"),
+    (b"\x7fELF\x02\x01\x01" + bytes(range(256)) * 8, 8, "NUL"),
+    (b"# fine\nskill A { }\n\x00\x00", 1, "NUL"),
+    (b"skill \xe9t\xe9 {\n    in \xe0: B\n}\nskill \xe8 {", 7, "nor at 3 later places"),
+]
+
+
+@pytest.mark.parametrize(("data", "column", "words"), NO_TEXT)
+def test_a_file_in_another_encoding_is_told_once(data: bytes, column: int, words: str) -> None:
+    (problem,) = parse(decode("a.skill", data)).diagnostics
+    assert (problem.name, problem.span.column) == ("encoding", column)
+    assert words in problem.message
+    assert "UTF-8" in problem.help
+
+
 @pytest.mark.parametrize("text", ["(" * 3000, "not " * 3000, "f(" * 1000 + ")" * 1000, "a + " * 3000 + "a"])
 def test_deep_text(text: str) -> None:
     whole = f"impl x of Y {{\npre {text}\n}}"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.rendering.printable import printable
 from skillc_dsl.source import Source
 
 
@@ -16,4 +17,4 @@ def render(diagnostics: Iterable[Diagnostic], sources: Mapping[str, Source]) -> 
 def _line(diagnostic: Diagnostic) -> str:
     span = diagnostic.span
     place = f"{span.path}:{span.line}:{span.column}"
-    return f"{place}: {diagnostic.severity}[{diagnostic.name}]: {diagnostic.message}"
+    return printable(f"{place}: {diagnostic.severity}[{diagnostic.name}]: {diagnostic.message}")

@@ -6,9 +6,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.rendering.printable import printable
 from skillc_dsl.source import Source, Span
 
 _COLOURS = {"error": "31", "warning": "33", "place": "36", "label": "34", "help": "32"}
+_LONGEST = 160
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,16 +30,17 @@ def render(diagnostics: Iterable[Diagnostic], sources: Mapping[str, Source], *, 
 
 
 def _lines(diagnostic: Diagnostic, sources: Mapping[str, Source], paint: _Paint) -> list[str]:
+    """Return the lines of one diagnostic; a line of its file that is too long for a page is shown around the place."""
     severity = diagnostic.severity
     marks = [(diagnostic.span, "", severity), *((label.span, label.message, "label") for label in diagnostic.labels)]
     width = max(len(str(span.line)) for span, _, _ in marks)
-    lines = [f"{paint(severity, f'{severity}[{diagnostic.name}]')}: {diagnostic.message}"]
+    lines = [f"{paint(severity, f'{severity}[{diagnostic.name}]')}: {printable(diagnostic.message)}"]
     for span, message, kind in marks:
         lines += _excerpt(span, message, kind, width, sources, paint)
     if diagnostic.help:
-        lines.append(f"{' ' * width} {paint('help', 'help')}: {diagnostic.help}")
+        lines.append(f"{' ' * width} {paint('help', 'help')}: {printable(diagnostic.help)}")
     if diagnostic.fix:
-        lines.append(f"{' ' * width} {paint('help', 'fix')}: {diagnostic.fix.message}")
+        lines.append(f"{' ' * width} {paint('help', 'fix')}: {printable(diagnostic.fix.message)}")
     return lines
 
 
@@ -46,18 +49,21 @@ def _excerpt(
 ) -> list[str]:
     """Return the first line of `span` under its place, with carets below and `message` beside them."""
     margin = " " * width
-    place = f"{margin}{paint('place', '-->')} {span.path}:{span.line}:{span.column}"
+    place = f"{margin}{paint('place', '-->')} {printable(span.path)}:{span.line}:{span.column}"
     source = sources.get(span.path)
     text = source.text.split("\n") if source else []
     if span.line > len(text):
-        return [f"{place}: {message}" if message else place]
-    line = text[span.line - 1].rstrip("\r")
-    end = span.end_column if span.end_line == span.line else len(line) + 1
-    indent = "".join("\t" if character == "\t" else " " for character in line[: span.column - 1])
-    carets = paint(kind, "^" * max(1, end - span.column) + (f" {message}" if message else ""))
+        return [f"{place}: {printable(message)}" if message else place]
+    whole = printable(text[span.line - 1].rstrip("\r"))
+    end = span.end_column if span.end_line == span.line else len(whole) + 1
+    left = 0 if len(whole) <= _LONGEST else max(0, span.column - 1 - _LONGEST // 2)
+    line = whole[left : left + _LONGEST]
+    indent = "".join("\t" if character == "\t" else " " for character in line[: span.column - 1 - left])
+    carets = "^" * max(1, min(end, left + len(line) + 1) - span.column)
+    marked = paint(kind, carets + (f" {printable(message)}" if message else ""))
     return [
         place,
         f"{margin} {paint('place', '|')}",
         f"{span.line:>{width}} {paint('place', '|')} {line}",
-        f"{margin} {paint('place', '|')} {indent}{carets}",
+        f"{margin} {paint('place', '|')} {indent}{marked}",
     ]

@@ -6,12 +6,13 @@ import json
 from collections.abc import Iterable, Mapping
 
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.rendering.printable import escaped
 from skillc_dsl.source import Source
 
 
 def render(diagnostics: Iterable[Diagnostic], sources: Mapping[str, Source]) -> str:
     """Return a list of objects; lines and columns count from 1, the end column is exclusive."""
-    return json.dumps([as_data(diagnostic) for diagnostic in diagnostics], indent=2, ensure_ascii=False) + "\n"
+    return escaped(json.dumps([as_data(diagnostic) for diagnostic in diagnostics], indent=2, ensure_ascii=False)) + "\n"
 
 
 def as_data(diagnostic: Diagnostic) -> dict[str, str | int]:

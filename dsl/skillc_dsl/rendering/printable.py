@@ -1,0 +1,19 @@
+"""Text of others made safe to show: what steers a terminal or turns text round is shown, not obeyed."""
+
+from __future__ import annotations
+
+import re
+
+from skillc_dsl.encoding import REPLACEMENT
+
+_UNSAFE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069]")
+
+
+def printable(text: str) -> str:
+    """Return the text with a replacement for each control character but tab and line feed, of the same width."""
+    return _UNSAFE.sub(REPLACEMENT, text)
+
+
+def escaped(text: str) -> str:
+    """Return JSON text with such characters as escapes, which mean the same in its strings."""
+    return _UNSAFE.sub(lambda found: f"\\u{ord(found.group()):04x}", text)
