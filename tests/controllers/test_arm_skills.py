@@ -110,6 +110,9 @@ def test_out_of_reach_is_said_before_anything_moves(cell):
         cell.run(MoveJoints(cell, arm=ARM, target=Pose.of((3.0, 0.0, 0.5)), pace=0.5))
     with pytest.raises(SkillFailure, match="no posture 'away'; it has home"):
         cell.run(TakePosture(cell, arm=ARM, posture="away", pace=0.5))
+    cell.world.values["home", JOINT_VALUES] = "0.0 zero"
+    with pytest.raises(SkillFailure, match=r"posture home of .* is not numbers"):
+        cell.run(TakePosture(cell, arm=ARM, posture="home", pace=0.5))
     with pytest.raises(SkillFailure, match=r"faster than the 0\.5 m/s"):
         cell.run(MoveLinear(cell, arm=ARM, target=cell.arm(ARM).pose, speed=0.6))
     cell.bench.run(0.1)

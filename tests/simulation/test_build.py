@@ -12,7 +12,7 @@ from skillc_runtime.simulation.build import build
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.facts import read_scene
 from skillc_runtime.simulation.variation import draw
-from skillc_runtime.world.changes import ClearProperty, RemoveRelation, SetProperty
+from skillc_runtime.world.changes import Change, ClearProperty, RemoveRelation, SetProperty
 from skillc_runtime.world.frames import pose
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
@@ -23,13 +23,16 @@ from skillc_runtime.world.terms import (
     FRICTION_HIGH,
     FRICTION_LOW,
     HAS_SHEET,
+    JOINT_VALUES,
     OFFSET_RANGE,
+    POSTURE_NAME,
     SIZE,
     SKILLC,
     TILT_RANGE,
     WEIGHT,
 )
 
+HOME = SKILLC + "iiwa14-home"
 RANGES = (FRICTION_LOW, FRICTION_HIGH, OFFSET_RANGE, TILT_RANGE)
 
 
@@ -84,6 +87,20 @@ def test_a_device_without_data_sheet_is_named() -> None:
         read_scene(state)
 
 
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (ClearProperty(HOME, JOINT_VALUES), r"skillc:iiwa14-home has no skillc:jointValues"),
+        (SetProperty(HOME, JOINT_VALUES, "0.0 zero"), r"posture home of skillc:iiwa14-sheet is not numbers"),
+        (SetProperty(HOME, JOINT_VALUES, "0.0 0.1"), r"posture home of .* has 2 values; iiwa14.xml has 7 joints"),
+        (SetProperty(HOME, POSTURE_NAME, "away"), r"skillc:iiwa14-sheet has no posture 'home'; it has away"),
+    ],
+)
+def test_a_posture_that_cannot_be_taken_is_named(change: Change, message: str) -> None:
+    with pytest.raises(SheetError, match=message):
+        SimulatedCell(WorldModel(world("iiwa_table").changed([change])))
+
+
 def test_an_unknown_controller_is_named_with_those_there_are() -> None:
     state = world("iiwa_table").changed([SetProperty(ARM["iiwa_table"], COMPLIANT_CONTROLLER, "impedence")])
     with pytest.raises(SheetError, match=r"Iiwa-1: there is no controller 'impedence'; .*forward_dynamics, impedance"):
@@ -122,7 +139,7 @@ def test_a_range_of_friction_is_read_without_the_single_value_and_the_other_way_
 
 def test_facts_that_contradict_a_model_are_refused() -> None:
     facts = read_scene(world("iiwa_table").changed([SetProperty(ERASER, SIZE[0], 0.2)]))
-    with pytest.raises(ValueError, match=r"the face of .*Eraser-1 is"):
+    with pytest.raises(SheetError, match=r"the face of .*Eraser-1 is"):
         build(facts, draw(facts.surfaces, 0))
 
 

@@ -12,6 +12,7 @@ from skillc_runtime.motion.pose import Pose, quaternion_of
 from skillc_runtime.robots.tools import working_face
 from skillc_runtime.simulation.facts import ArmFacts, GripperFacts, ToolFacts
 from skillc_runtime.simulation.names import face_sensor, part, wrist_sensor
+from skillc_runtime.world.sheet import SheetError
 
 WRIST_SENSORS = (
     ("force", mujoco.mjtSensor.mjSENS_FORCE),
@@ -68,7 +69,7 @@ def _set_servos(model: Any, arm: ArmFacts) -> None:
 def _check_posture(model: Any, name: str, arm: ArmFacts) -> None:
     joints = len(model.joints)
     if arm.home.shape != (joints,):
-        raise ValueError(f"the posture home of {name} has {arm.home.size} values; {arm.model.name} has {joints} joints")
+        raise SheetError(f"the posture home of {name} has {arm.home.size} values; {arm.model.name} has {joints} joints")
 
 
 def _add_gripper(spec: Any, names: Mapping[str, str], arm: ArmFacts, gripper: GripperFacts) -> None:
@@ -86,10 +87,10 @@ def _add_gripper(spec: Any, names: Mapping[str, str], arm: ArmFacts, gripper: Gr
 def _check_face(model: Any, name: str, tool: ToolFacts) -> None:
     face = model.geom("face")
     if face is None or face.type != mujoco.mjtGeom.mjGEOM_BOX:
-        raise ValueError(f"the model {tool.model.name} of {name} has no box geom `face`")
+        raise SheetError(f"the model {tool.model.name} of {name} has no box geom `face`")
     modelled, believed = 2 * np.asarray(face.size[:2]), tool.size[:2]
     if not np.allclose(modelled, believed, atol=1e-6):
-        raise ValueError(f"the face of {name} is {believed} m in the world model and {modelled} m in {tool.model.name}")
+        raise SheetError(f"the face of {name} is {believed} m in the world model and {modelled} m in {tool.model.name}")
 
 
 def _set_foundation(model: Any, tool: ToolFacts) -> None:
@@ -102,7 +103,7 @@ def _set_foundation(model: Any, tool: ToolFacts) -> None:
     for joint, lever in (("press", 1.0), ("tilt_x", b * b / 12), ("tilt_y", a * a / 12)):
         found = model.joint(joint)
         if found is None:
-            raise ValueError(f"the model {tool.model.name} has no joint `{joint}` under its working face")
+            raise SheetError(f"the model {tool.model.name} has no joint `{joint}` under its working face")
         found.stiffness[0], found.damping[0] = stiffness * lever, damping * lever
 
 
