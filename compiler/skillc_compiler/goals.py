@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Literal
 
 import msgspec
 
 from skillc_compiler.asking.pddl_text import Group, PddlGoalError, Word, goal, read_group
 from skillc_compiler.asking.setting import setting
+from skillc_compiler.asking.slips import EXAMPLES, Asked, slips, told_plainly
 from skillc_compiler.checks import check
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Condition
@@ -19,7 +19,7 @@ from skillc_compiler.lower.bodies import node
 from skillc_compiler.lower.folding import fold_condition
 from skillc_compiler.program import Program, Task
 from skillc_compiler.resolve.individuals import Individuals
-from skillc_compiler.resolve.names import Names
+from skillc_compiler.resolve.names import KINDS, Names
 from skillc_compiler.resolve.scope import Setting
 from skillc_compiler.resolve.tasks import task
 from skillc_dsl import syntax as s
@@ -39,6 +39,9 @@ def parse_goal(
     if there are errors; spans count in `text`, under the path `goal`.
     """
     asked = setting(vocabulary, individuals, prefixes or {})
+    wrong = _slips(asked, text, "goal")
+    if wrong:
+        return Outcome(None, wrong)
     group = read_group(text, "goal")
     if group is not None and _is_pddl(group, asked.names):
         understood = _understood(asked, _from_pddl(group, text, asked.names))
@@ -53,11 +56,20 @@ def parse_call(
 ) -> Outcome[tree.Call | None]:
     """Understand a call such as `Wipe(surface: lab:Board)`; as `parse_goal`, with the path `call`."""
     asked = setting(library.vocabulary, individuals, prefixes or {}, library.skills)
+    wrong = _slips(asked, text, "call")
+    if wrong:
+        return Outcome(None, wrong)
     understood = _in_text(_understood(asked, _wrapped(text, "call")), text, "call")
     called = node(understood.value.body) if understood.value and understood.value.body else None
     if not isinstance(called, tree.Call):
         return Outcome(None, understood.diagnostics)
     return Outcome(msgspec.structs.replace(called, source=Position("call", 1, 1)), understood.diagnostics)
+
+
+def _slips(asked: Setting, text: str, what: Asked) -> tuple[Diagnostic, ...]:
+    names = asked.names
+    written = (names.short(iri) for iri in asked.individuals or ())
+    return slips(text, what, written, lambda word: any(names.is_term(kind, word) for kind in KINDS))
 
 
 def _is_pddl(group: Group, names: Names) -> bool:
@@ -82,21 +94,21 @@ def _from_pddl(group: Group, text: str, names: Names) -> Outcome[s.TaskDeclarati
     return Outcome(s.TaskDeclaration(s.Name("goal", group.span), None, condition, text, None, "", group.span))
 
 
-def _wrapped(text: str, what: Literal["goal", "call"]) -> Outcome[s.TaskDeclaration | None]:
+def _wrapped(text: str, what: Asked) -> Outcome[s.TaskDeclaration | None]:
     """Parse a goal or a call as the only member of a task, which begins LINES_ABOVE lines before it."""
     member = "goal" if what == "goal" else "do"
     parsed = parse(Source(what, f"task {what} {{\n{member}\n{text}\n}}\n"))
     if parsed.diagnostics:
-        return Outcome(None, parsed.diagnostics)
+        told = ((problem, *told_plainly(problem, what)) for problem in parsed.diagnostics)
+        return Outcome(None, tuple(replace(problem, message=message, help=help_) for problem, message, help_ in told))
     match parsed.value:
         case s.File(header=(), declarations=[s.TaskDeclaration(scene=None) as alone]):
             is_goal = alone.goal is not None and alone.body is None
             is_call = alone.goal is None and alone.body is not None and isinstance(alone.body.node, s.CallSkill)
             if is_goal if what == "goal" else is_call:
                 return Outcome(alone)
-    example = "`lab:Board-1.isClean == true`" if what == "goal" else "`Skill(parameter: value, ..)`"
     span = Span(what, 1 + LINES_ABOVE, 1, 1 + LINES_ABOVE, 2)
-    return Outcome(None, (Diagnostic("syntax", span, f"this is not one {what}", f"write {example}"),))
+    return Outcome(None, (Diagnostic("syntax", span, f"this is not one {what}", EXAMPLES[what]),))
 
 
 def _understood(asked: Setting, written: Outcome[s.TaskDeclaration | None]) -> Outcome[Task | None]:

@@ -14,6 +14,7 @@ LAB = "http://example.org/lab#"
 
 def scene() -> dict[str, tuple[str, ...]]:
     names = {"Board": "wiping:Whiteboard", "Arm": "skillc:Ur5e", "Hand": "skillc:WsgGripper", "Felt": "wiping:Eraser"}
+    names |= {"Part-1": "skiros:Product", "y": "skiros:Product"}
     return {LAB + name: (vocabulary().expand(cls),) for name, cls in names.items()}
 
 
@@ -58,12 +59,19 @@ WRONG = [
     ("(isClean lab:Hand)", "property-domain", 10, "WipeableSurface"),
     ("lab:Felt contain lab:Hand", "relation-domain", 1, "Eraser"),
     ("lba:Board.isClean == true", "unknown-prefix", 1, "did you mean `lab`"),
-    ("Board.isClean == true", "unknown-parameter", 1, "with its prefix"),
+    ("Board.isClean == true", "missing-prefix", 1, "write `lab:Board`"),
+    ("lab:Hand contain Part-1", "missing-prefix", 18, "write `lab:Part-1`"),
+    ("Part-2.isClean == true", "missing-prefix", 1, "write `lab:Part-1`"),
+    ("(isClean Board)", "missing-prefix", 10, "write `lab:Board`"),
+    ("Bench.isClean == true", "unknown-parameter", 1, "with its prefix"),
+    ("(isClean lab:Board", "syntax", 1, "`)` is missing"),
+    ("(isClean lab:Board))", "syntax", 20, "closes nothing"),
+    ("lab:Board.isClean == true lab:Board", "syntax", 27, "a goal is a condition"),
     ("(and lab:Board)", "syntax", 6, "stands alone"),
     ("(contain lab:Hand)", "unknown-property", 2, "relation"),
     ("(exists lab:Hand (isClean lab:Board))", "syntax", 1, "no goal"),
     ("lab:Board.isClean ==", "syntax", 19, "missing"),
-    ("", "syntax", 1, "missing"),
+    ("", "syntax", 1, "the goal is empty"),
     ("lab:Hand contain lab:Felt } task x { goal lab:Board.isClean == true", "syntax", 1, "not one goal"),
     ("lab:Hand contain lab:Felt do Wipe(surface: lab:Board)", "syntax", 1, "not one goal"),
 ]
@@ -77,6 +85,7 @@ def test_a_wrong_goal_is_explained(text: str, name: str, column: int, words: str
     assert (problem.name, problem.span.path, problem.span.line) == (name, "goal", 1)
     assert problem.span.column == column
     assert words in f"{problem.message} {problem.help}"
+    assert not any("member of a task" in d.message or "`}`" in d.message for d in outcome.diagnostics)
 
 
 def test_calls() -> None:
@@ -99,6 +108,8 @@ def test_calls() -> None:
         ("Wipe[lanes](surface: lab:Board)", "unknown-implementation"),
         ("seq { }", "syntax"),
         ("Wipe(", "syntax"),
+        ("", "syntax"),
+        ("Wipe(surface: Board)", "missing-prefix"),
     ],
 )
 def test_a_wrong_call_is_explained(text: str, name: str) -> None:

@@ -18,7 +18,7 @@ class Parameter(msgspec.Struct, frozen=True, kw_only=True):
     name: str
     direction: OneOf["in", "opt", "infer", "out"]
     type: ValueType
-    any_: bool = False
+    any_: bool = msgspec.field(default=False, name="any")
     default: Expression | None = None
     low: float | None = None
     high: float | None = None
