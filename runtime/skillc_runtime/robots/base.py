@@ -20,8 +20,16 @@ class MobileBase(Protocol):
         """Whether the base stands at the last goal."""
         ...
 
+    @property
+    def at_rest(self) -> bool:
+        """Whether the base stands, at a goal or anywhere else."""
+        ...
+
     def drive_to(self, goal: Pose) -> None:
-        """Begin to drive to a pose: turn towards it, go straight, turn into its heading; returns at once."""
+        """Begin to drive to a pose: turn towards it, go straight, turn into its heading; returns at once.
+
+        A moving base brakes first.
+        """
         ...
 
     def stop(self) -> None:

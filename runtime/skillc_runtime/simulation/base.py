@@ -19,7 +19,10 @@ NEAR_M = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class Leg:
-    """One part of a drive: `profile` along `direction` (3,) of the world, or of a turn about the vertical by `sign`."""
+    """One part of a drive: `profile` along `direction` (3,) of the world, or of a turn about the vertical by `sign`.
+
+    A leg either goes straight, its sign being 0, or turns.
+    """
 
     start: Pose
     profile: Profile
@@ -29,8 +32,9 @@ class Leg:
     def at(self, time: float) -> Pose:
         """Return the base's pose `time` s after the leg's start."""
         way = self.profile.at(time)[0]
-        turn = exp(np.array([0.0, 0.0, self.sign * way]))
-        return Pose(self.start.position + way * self.direction, turn @ self.start.rotation)
+        if not self.sign:
+            return Pose(self.start.position + way * self.direction, self.start.rotation)
+        return Pose(self.start.position, exp(np.array([0.0, 0.0, self.sign * way])) @ self.start.rotation)
 
     @property
     def end(self) -> Pose:
@@ -58,16 +62,23 @@ class SimulatedBase:
         """Whether the base stands at the last goal."""
         return self._done
 
+    @property
+    def at_rest(self) -> bool:
+        """Whether the base stands, at a goal or anywhere else."""
+        return not self._legs
+
     def drive_to(self, goal: Pose) -> None:
-        """Begin to drive: turn towards the goal, go straight, turn into its heading."""
-        way = (goal.position - self._pose.position) * [1.0, 1.0, 0.0]
+        """Begin to drive: brake if the base moves, turn towards the goal, go straight, turn into its heading."""
+        self.stop()
+        start = self._legs[0].end if self._legs else self._pose
+        way = (goal.position - start.position) * [1.0, 1.0, 0.0]
         distance = float(np.linalg.norm(way))
         heading = math.atan2(way[1], way[0]) if distance > NEAR_M else _heading(goal)
-        first = self._turn(self._pose, heading)
+        first = self._turn(start, heading)
         straight = self._straight(first.end, way, distance)
         last = self._turn(straight.end, _heading(goal))
-        self._legs = [leg for leg in (first, straight, last) if leg.profile.length > NEAR_M]
-        self._time, self._stopped, self._done = 0.0, False, not self._legs
+        self._legs += [leg for leg in (first, straight, last) if leg.profile.length > NEAR_M]
+        self._stopped, self._done = False, not self._legs
 
     def stop(self) -> None:
         """Brake on the present leg and drop the others."""
