@@ -12,14 +12,14 @@ from skillc_runtime.motion.pose import Array
 class Lag:
     """A first-order low-pass x <- x + (1 - exp(-h/T)) (target - x) with time constant T in s; 0 passes everything.
 
-    `value` is updated in place, so a reference to it stays valid. What is nearer than `grain` has arrived.
+    `value` is updated in place, so a reference to it stays valid. What is nearer than `grain` has `arrived`.
     """
 
     def __init__(self, value: Array, time_constant: float, grain: float = 1e-6) -> None:
         self.value = value.copy()
         self._time_constant, self._grain = time_constant, grain
         self._difference = np.empty_like(value)
-        self._period, self._share = -1.0, 1.0
+        self._period, self._share, self.arrived = -1.0, 1.0, True
 
     def step(self, target: Array, period: float) -> Array:
         """Follow the target for `period` s and return `value`."""
@@ -27,7 +27,8 @@ class Lag:
             self._period = period
             self._share = 1 - exp(-period / self._time_constant) if self._time_constant > 0 else 1.0
         np.subtract(target, self.value, out=self._difference)
-        if self._difference.dot(self._difference) <= self._grain**2:
+        self.arrived = self._difference.dot(self._difference) <= self._grain**2
+        if self.arrived:
             self.value[:] = target
         else:
             self._difference *= self._share

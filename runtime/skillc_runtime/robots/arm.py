@@ -61,7 +61,7 @@ class Arm(Protocol):
         ...
 
     def state(self) -> ArmState:
-        """Return the present state."""
+        """Return the present state; its arrays may be the arm's own, valid until the next call."""
         ...
 
     def command(self, command: Command) -> None:

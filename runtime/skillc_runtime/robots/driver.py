@@ -6,7 +6,7 @@ Primitives speak of the world; inside, all is in the arm's base frame, so that a
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import isfinite
+from math import dist
 from typing import TypeAlias
 
 import mujoco
@@ -18,7 +18,8 @@ from skillc_runtime.motion.joint import joint_motion
 from skillc_runtime.motion.joint_guide import JointGuide
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
-from skillc_runtime.robots.arm import Arm, ArmLimits, ArmState, Command, JointPosition, Torque
+from skillc_runtime.robots.arm import Arm, ArmLimits, ArmState, Command
+from skillc_runtime.robots.guard import Guard
 from skillc_runtime.robots.reach import Reach
 from skillc_runtime.robots.tool_task import ToolTask
 
@@ -27,6 +28,9 @@ JOINT_RAMP_S = 0.5
 
 NEAR_JOINT_RAD = 0.02
 """How far a joint may be from its reference to count as there."""
+
+STILL_RAD_S = 0.01
+"""Joints slower than this rest."""
 
 TOOL_JUMP_M_S = 3.0
 """No tool moves this fast; one that seems to was moved on the hand."""
@@ -38,7 +42,8 @@ Observer: TypeAlias = Callable[[ArmState], None]
 class ArmDriver:
     """One arm, stepped every `period` s. Poses, directions and wrenches are in world axes, SI units.
 
-    A new motion starts where the one before it comes to rest (`anchor`), never at the measured pose.
+    A new motion starts where the one before it comes to rest (`anchor`), never at the measured pose. `fault` says why
+    the driver stopped by itself, until somebody has dealt with it; `broken` why the arm once could not be controlled.
     """
 
     def __init__(
@@ -53,37 +58,35 @@ class ArmDriver:
         """Hold the arm where it is. `virtual` is the arm's `virtual_model`; `base` tells where the arm stands."""
         self.gains, self.limits = gains, limits
         self.fault: str | None = None
+        self.broken: str | None = None
         self._arm, self._base, self.period = arm, base, period
-        self._state = arm.state()
-        self._laws = gains.law.laws(gains, limits, virtual, self._state, period)
-        self._reach = Reach(virtual)
-        self._tool = ToolTask(gains, self._laws.tool, self._state.tool)
+        self._state = state = arm.state()
+        self._guard, self._place = Guard(arm, state), state.tool.position.tolist()
+        self._laws = gains.law.laws(gains, limits, virtual, state, period)
+        self._reach, self._tool = Reach(virtual), ToolTask(gains, self._laws.tool, state.tool)
         self._observers: tuple[Observer, ...] = ()
         self._now = 0.0
-        self._joints: JointGuide | None = self._joint_guide(self._state.q, np.zeros_like(self._state.q))
+        self._joints: JointGuide | None = self._joint_guide(state.q, np.zeros_like(state.q))
 
     def step(self, now: float) -> None:
         """Do one control period at `now` s. ControlError when a measurement or a command is not a number."""
         self._now = now
         state = self._arm.state()
-        if not isfinite(state.q @ state.q + state.dq @ state.dq + state.wrench @ state.wrench + state.tool.position[0]):
-            self._arm.command(self._holding())
-            raise ControlError("the arm reports something that is not a number")
-        self._take_in(state)
-        command = self._decide(state)
-        told = command.tau if isinstance(command, Torque) else command.q
-        if not isfinite(told @ told):
-            self._arm.command(self._holding())
-            raise ControlError("the control law does not yield a number")
-        self._arm.command(command)
+        try:
+            self._guard.check(state)
+            self._take_in(state)
+            self._guard.command(self._decide(state))
+        except ControlError as fault:
+            self.broken = str(fault)
+            raise
         for observer in self._observers:
             observer(state)
 
     def _take_in(self, state: ArmState) -> None:
         """Remember a state; a tool centre point that jumps was moved on the hand, say by taking hold of a tool."""
-        way = state.tool.position - self._state.tool.position
+        before, self._place = self._place, state.tool.position.tolist()
         self._state = state
-        if way @ way > (TOOL_JUMP_M_S * self.period) ** 2 and self._joints is None:
+        if self._joints is None and dist(self._place, before) > TOOL_JUMP_M_S * self.period:
             self._tool.retake(state, self._laws.joints_now(state), self._now)
 
     def _decide(self, state: ArmState) -> Command:
@@ -94,14 +97,9 @@ class ArmDriver:
             return self._tool.command(state, self._now, self.period)
         except ControlError as fault:
             self._joints = self._joint_guide(state.q, np.zeros_like(state.q))
-            self.abort(str(fault))
-            return self._holding()
-
-    def _holding(self) -> Command:
-        """Return what keeps the arm where it was last known to be."""
-        if self._arm.interface == "torque":
-            return Torque(self._state.bias.copy())
-        return JointPosition(self._state.q.copy())
+            self.broken = str(fault)
+            self.abort(self.broken)
+            return self._guard.holding()
 
     def watch(self, observer: Observer) -> None:
         """Call the observer after every control period."""
@@ -171,6 +169,12 @@ class ArmDriver:
     def done(self) -> bool:
         """Whether the reference rests."""
         return (self._joints or self._tool.guide).done(self._now)
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether nothing moves or pushes any more: neither the reference nor what skills want, nor the arm."""
+        still = (self._joints or self._tool.guide).at_rest(self._now) and not self._tool.yielding.pushing
+        return still and bool(np.abs(self._state.dq).max() < STILL_RAD_S)
 
     @property
     def behind(self) -> str | None:

@@ -8,7 +8,6 @@ from skillc_runtime.controllers.controller import Controller
 from skillc_runtime.controllers.gains import Gains
 from skillc_runtime.motion.guide import Guide
 from skillc_runtime.motion.pose import Array, Pose, log
-from skillc_runtime.motion.reference import at_rest
 from skillc_runtime.robots.arm import ArmState, Command
 from skillc_runtime.robots.yielding import Yielding
 
@@ -27,7 +26,7 @@ class ToolTask:
         self.yielding = Yielding(gains)
         self._stiffness, self._force_limit = gains.linear_stiffness, gains.force_limit
         self._law = law
-        self.reference = at_rest(tool)
+        self.reference = self.guide.sample(0.0)
 
     def command(self, state: ArmState, now: float, period: float) -> Command:
         """Return what to tell the arm."""

@@ -36,7 +36,7 @@ class Yielding:
         self._settings = [Setting(stiffness, np.zeros(3), np.eye(3))]
         self._stiffness = Lag(stiffness, gains.command_time, grain=1e-2)
         self._wrench = Lag(np.zeros(6), gains.command_time, grain=1e-3)
-        self._target = np.zeros(6)
+        self._target, self._arrived_at = np.zeros(6), self.wanted
         self._ratio = gains.damping_ratio
         self.compliance = self._compliance()
 
@@ -50,11 +50,20 @@ class Yielding:
         """Tell whether some skill has released an axis."""
         return len(self._settings) > 1
 
+    @property
+    def pushing(self) -> bool:
+        """Tell whether the tool pushes, or what it pushed with has not faded yet."""
+        return self._arrived_at is not self.wanted or bool(self.wanted.force.any())
+
     def step(self, period: float) -> Compliance:
         """Let stiffness and wrench follow for `period` s; the arrays of the result are reused."""
-        self._stiffness.step(self.wanted.stiffness, period)
-        self._target[:3] = self.wanted.force
-        self._wrench.step(self._target, period)
+        wanted = self._settings[-1]
+        if wanted is not self._arrived_at:
+            self._target[:3] = wanted.force
+            self._stiffness.step(wanted.stiffness, period)
+            self._wrench.step(self._target, period)
+            if self._stiffness.arrived and self._wrench.arrived:
+                self._arrived_at = wanted
         return self.compliance
 
     def release(self, direction: Array, stiffness: float) -> None:

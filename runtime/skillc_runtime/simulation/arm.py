@@ -11,6 +11,7 @@ import numpy as np
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.robots.arm import ArmLimits, ArmState, Command, JointPosition, Torque
 from skillc_runtime.simulation.facts import ArmFacts
+from skillc_runtime.simulation.hand import Hand
 from skillc_runtime.simulation.names import part
 from skillc_runtime.simulation.wrist import Wrist
 
@@ -32,8 +33,8 @@ NO_PAYLOAD = Payload(0.0, np.zeros(3))
 class SimulatedArm:
     """One arm of a simulated cell, implementing `Arm`.
 
-    Reads what `mj_step1` left in `data`, so it is called between `mj_step1` and `mj_step2`. The Jacobian and the mass
-    matrix in a state are this object's buffers: valid until the next call of `state`.
+    Reads what `mj_step1` left in `data`, so it is called between `mj_step1` and `mj_step2`. There is one state, a
+    read-only view of this object's buffers, renewed by every call of `state`.
     """
 
     def __init__(
@@ -56,14 +57,19 @@ class SimulatedArm:
         self.fixed_tool = _fixed_tool(model, name, gripper)
         self._both = np.zeros((2, 3, model.nv))
         self._both_arm = self._both[:, :, self._dofs]
-        self._jacobian, self._mass = np.zeros((6, count)), np.zeros((count, count))
-        self._jacobian_halves = self._jacobian.reshape(2, 3, count)
+        self._hand = Hand()
+        self._here = _blank(count, self._hand.tool)
+        self._state = _read_only(self._here)
+        self._jacobian_halves, self._wrench_halves = (
+            self._here.jacobian.reshape(2, 3, count),
+            self._here.wrench.reshape(2, 3),
+        )
         self._full_mass, self._next_mass_time = np.zeros((model.nv, model.nv)), 0.0
-        self._load, self._gravity, self._compensated = np.zeros(6), model.opt.gravity.copy(), np.zeros(count)
+        self._weight, self._load, self._carrying = np.zeros(3), np.zeros(6), np.zeros(count)
+        self._lift, self._moment = self._load[:3], self._load[3:]
         self._flange = _in_body(model.site(part(name, "flange")))
         self._wrist = _wrist(facts, gripper, model, data)
         self._configure(NO_PAYLOAD, self.fixed_tool)
-        self._still = np.zeros(6)
         self._increment, self._steps_left, self._steps_per_command = np.zeros(count), 0, steps_per_command
         self._q[:] = facts.home
         if self._interface == "position":
@@ -81,27 +87,19 @@ class SimulatedArm:
 
     def state(self) -> ArmState:
         """Return the present state, in the arm's base frame."""
-        turn, link, placed = self._base_rotation.T, self._link_rotation, self._tool
-        point = link @ placed.position
-        point += self._link_position
+        hand, here = self._hand, self._here
+        point = hand.place(self._link_position, self._link_rotation)
+        hand.see_from(self._base_position, self._base_rotation)
         mujoco.mj_jac(self._model, self._data, self._both[0], self._both[1], point, self._link)
-        np.matmul(turn, self._both_arm, out=self._jacobian_halves)
+        np.matmul(self._base_rotation.T, self._both_arm, out=self._jacobian_halves)
         if self._data.time >= self._next_mass_time:
             self._update_mass_matrix()
-        hand = turn @ link
-        bias = self._bias.copy()
+        here.q[:], here.dq[:], here.bias[:] = self._q, self._dq, self._bias
         if self.payload.mass_kg > 0.0:
-            bias += self._payload_weight(turn, hand)
-        self._compensated = bias
-        return ArmState(
-            q=self._q.copy(),
-            dq=self._dq.copy(),
-            tool=Pose(turn @ (point - self._base_position), hand @ placed.rotation),
-            jacobian=self._jacobian,
-            mass_matrix=self._mass,
-            bias=bias,
-            wrench=self._still if self._wrist is None else self._wrist.external(hand @ self._flange.rotation),
-        )
+            np.add(here.bias, self._payload_torque(), out=here.bias)
+        if self._wrist is not None:
+            self._wrist.external(hand.wrist_axes, self._wrench_halves)
+        return self._state
 
     def command(self, command: Command) -> None:
         """Take a command for the next step; TypeError for a kind the interface does not take."""
@@ -119,7 +117,7 @@ class SimulatedArm:
         compensate its weight, Coriolis forces and configured payload.
         """
         if self._interface == "position":
-            self._feedforward[:] = self._compensated
+            self._feedforward[:] = self._here.bias
             if self._steps_left > 0:
                 self._control += self._increment
                 self._steps_left -= 1
@@ -138,29 +136,50 @@ class SimulatedArm:
         self._configure(NO_PAYLOAD, self.fixed_tool)
 
     def _configure(self, payload: Payload, tool: Pose) -> None:
-        self.payload, self._tool, self._next_mass_time = payload, tool, 0.0
-        self._lever = payload.centre - tool.position
+        self.payload, self._next_mass_time = payload, 0.0
+        self._hand.hold(tool, self._flange.rotation, payload.centre)
+        np.multiply(self._model.opt.gravity, -payload.mass_kg, out=self._weight)
         if self._wrist is not None:
             to_sensor = self._flange.inverse()
             self._wrist.configure(to_sensor @ tool, payload.mass_kg, to_sensor.at(payload.centre))
 
-    def _payload_weight(self, turn: Array, hand: Array) -> Array:
+    def _payload_torque(self) -> Array:
         """Return the joint torques (nv,) that carry the payload: J^T [w; r x w], w = -m g at r from the tool centre."""
-        lift = turn @ (-self.payload.mass_kg * self._gravity)
-        self._load[:3] = lift
-        mujoco.mju_cross(self._load[3:], hand @ self._lever, lift)
-        return np.asarray(self._load @ self._jacobian)
+        np.dot(self._weight, self._base_rotation, out=self._lift)
+        mujoco.mju_cross(self._moment, self._hand.lever, self._lift)
+        np.dot(self._load, self._here.jacobian, out=self._carrying)
+        return self._carrying
 
     def _update_mass_matrix(self) -> None:
         mujoco.mj_fullM(self._model, self._data, self._full_mass)
-        self._mass[:] = self._full_mass[self._dofs, self._dofs]
+        self._here.mass_matrix[:] = self._full_mass[self._dofs, self._dofs]
         if self.payload.mass_kg > 0.0:
             centre = self._link_position + self._link_rotation @ self.payload.centre
             at_centre = np.zeros((3, self._model.nv))
             mujoco.mj_jac(self._model, self._data, at_centre, None, centre, self._link)
             jacobian = at_centre[:, self._dofs]
-            self._mass += self.payload.mass_kg * jacobian.T @ jacobian
+            self._here.mass_matrix[:] += self.payload.mass_kg * jacobian.T @ jacobian
         self._next_mass_time = self._data.time + MASS_MATRIX_PERIOD_S - 1e-9
+
+
+def _blank(joints: int, tool: Pose) -> ArmState:
+    q, dq, bias = (np.zeros(joints) for _ in range(3))
+    return ArmState(q, dq, tool, np.zeros((6, joints)), np.zeros((joints, joints)), bias, np.zeros(6))
+
+
+def _read_only(state: ArmState) -> ArmState:
+    """Return views of the same arrays through which nothing can be written."""
+    tool = Pose(*(_view(part) for part in (state.tool.position, state.tool.rotation)))
+    q, dq, jacobian, mass, bias, wrench = map(
+        _view, (state.q, state.dq, state.jacobian, state.mass_matrix, state.bias, state.wrench)
+    )
+    return ArmState(q, dq, tool, jacobian, mass, bias, wrench)
+
+
+def _view(array: Array) -> Array:
+    view = array.view()
+    view.flags.writeable = False
+    return view
 
 
 def _wrist(facts: ArmFacts, gripper: str | None, model: Any, data: Any) -> Wrist | None:

@@ -19,14 +19,17 @@ from skillc_runtime.simulation.inspection import SimulatedCamera
 from skillc_runtime.simulation.observer import ToolObserver
 from skillc_runtime.simulation.recorder import Recording
 from skillc_runtime.simulation.variation import Variation, draw
+from skillc_runtime.world.changes import SetProperty
 from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.terms import DEVICE_STATE
 
 
 class SimulatedCell:
     """A cell built from the facts of a world model, implementing `Cell`; `variation` is how reality differs from them.
 
     The same facts and the same seed give the same run, bit for bit. Between calls of `advance` all measurements are of
-    the present instant.
+    the present instant. The world model knows which arms can be controlled: all at the start, one that is broken never
+    again.
     """
 
     def __init__(self, world: WorldModel, seed: int = 0, timestep_s: float = 0.001, steps_per_command: int = 1) -> None:
@@ -52,6 +55,7 @@ class SimulatedCell:
             for tool in facts.tools
         }
         self._camera = SimulatedCamera(self.coverage)
+        world.commit([SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(self._drivers)], "start of the cell")
 
     @property
     def now(self) -> float:
@@ -100,8 +104,8 @@ class SimulatedCell:
     def _advance_one(self) -> None:
         now = self.data.time
         if self._step % self._steps_per_command == 0:
-            for one in self._drivers.values():
-                one.step(now)
+            for individual, one in self._drivers.items():
+                self._control(individual, one, now)
         for gripper in self._grippers.values():
             gripper.step(self._timestep)
         for arm in self.arms.values():
@@ -116,6 +120,15 @@ class SimulatedCell:
                 self._carry_along(robot, motion)
         mujoco.mj_step1(self.model, self.data)
         self._step += 1
+
+    def _control(self, individual: str, arm: ArmDriver, now: float) -> None:
+        """Do a control period of one arm; note, once, that it is broken."""
+        worked = arm.broken is None
+        try:
+            arm.step(now)
+        finally:
+            if worked and arm.broken is not None:
+                self._world.commit([SetProperty(individual, DEVICE_STATE, "Fault")], arm.broken)
 
     def _observe(self, now: float) -> None:
         for arm, gripper in self._hands.items():

@@ -27,7 +27,8 @@ class Wrist:
         self._share = 1.0 - math.exp(-model.opt.timestep / time_constant_s) if time_constant_s > 0 else 1.0
         self._filtered, self._started = np.zeros(9), False
         self._hand_mass, self._hand_centre = _hand(model, part(gripper, "palm"))
-        self._gain, self._wrench = np.zeros((6, 9)), np.zeros(6)
+        self._gain, self._wrench, self._change = np.zeros((6, 9)), np.zeros(6), np.zeros(9)
+        self._halves = self._wrench.reshape(2, 3)
 
     def configure(self, tool: Pose, payload_kg: float, payload_centre: Array) -> None:
         """Take a tool centre point and a payload with its centre of mass (3,) m, both in the sensor's frame."""
@@ -41,17 +42,19 @@ class Wrist:
     def sample(self) -> None:
         """Take in the reading of one simulation step; the first one fills the filter."""
         if self._started:
-            self._filtered += self._share * (self._raw - self._filtered)
+            np.subtract(self._raw, self._filtered, out=self._change)
+            self._change *= self._share
+            self._filtered += self._change
         else:
             self._filtered[:], self._started = self._raw, True
 
-    def external(self, axes: Array) -> Array:
-        """Return what the environment does to the tool centre point, (6,) N, N m; zeros before any sample.
+    def external(self, axes: Array, out: Array) -> None:
+        """Write what the environment does to the tool centre point, N and N m; zeros before any sample.
 
-        axes (3, 3): the sensor's axes in the frame in which the wrench is wanted.
+        axes (3, 3): the sensor's axes, a row each, in the frame of the wrench. out (2, 3): [force; moment].
         """
-        np.matmul(self._gain, self._filtered, out=self._wrench)
-        return (self._wrench.reshape(2, 3) @ axes.T).ravel()
+        np.dot(self._gain, self._filtered, out=self._wrench)
+        np.dot(self._halves, axes, out=out)
 
 
 def _hand(model: Any, palm: str) -> tuple[float, Array]:

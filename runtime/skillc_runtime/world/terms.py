@@ -31,6 +31,7 @@ WEIGHT = SKIROS + "Weight"
 GRASP_WIDTH = SKILLC + "graspWidth"
 
 COMPLIANT_CONTROLLER = SKIROS + "CompliantController"
+DEVICE_STATE = SKILLC + "deviceState"
 POSTURE_NAME = SKILLC + "postureName"
 JOINT_VALUES = SKILLC + "jointValues"
 

@@ -1,0 +1,38 @@
+"""Stands between a driver and its arm: nothing is computed from, nor commanded with, something that is not a number."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import NoReturn
+
+from skillc_runtime.controllers.controller import ControlError
+from skillc_runtime.robots.arm import Arm, ArmState, Command, JointPosition, Torque
+
+
+class Guard:
+    """Checks one arm, and keeps it where it was last known to be when a check fails."""
+
+    def __init__(self, arm: Arm, state: ArmState) -> None:
+        self._arm = arm
+        self._q, self._bias = state.q.copy(), state.bias.copy()
+
+    def check(self, state: ArmState) -> None:
+        """Take in what the arm measures. ControlError when some of it is not a number; the arm is told to hold."""
+        if not isfinite(state.q.dot(state.dq) + state.wrench.dot(state.wrench) + state.tool.position[0]):
+            self._give_up("the arm reports something that is not a number")
+        self._q[:], self._bias[:] = state.q, state.bias
+
+    def command(self, command: Command) -> None:
+        """Tell the arm. ControlError when the command is not all numbers; the arm is told to hold instead."""
+        told = command.tau if isinstance(command, Torque) else command.q
+        if not isfinite(told.dot(told)):
+            self._give_up("the control law does not yield a number")
+        self._arm.command(command)
+
+    def holding(self) -> Command:
+        """Return what keeps the arm where it was last known to be."""
+        return Torque(self._bias.copy()) if self._arm.interface == "torque" else JointPosition(self._q.copy())
+
+    def _give_up(self, reason: str) -> NoReturn:
+        self._arm.command(self.holding())
+        raise ControlError(reason)
