@@ -13,11 +13,12 @@ from skillc_ontology import catalogue
 from skillc_runtime.world.documents import Document, SceneError
 from skillc_runtime.world.scene import world_of
 from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import SKIROS
+from skillc_runtime.world.terms import SKILLC, SKIROS
 from skillc_runtime.world.values import Value
 
 LAB = "http://example.org/lab#"
-PREFIXES = f"""@prefix lab: <{LAB}> . @prefix skiros: <{SKIROS}> . @prefix owl: <http://www.w3.org/2002/07/owl#> .
+PREFIXES = f"""@prefix lab: <{LAB}> . @prefix skillc: <{SKILLC}> . @prefix skiros: <{SKIROS}> .
+@prefix owl: <http://www.w3.org/2002/07/owl#> .
 @prefix cora: <http://www.inf.ufrgs.br/phi-group/ontologies/cora.owl#> .
 @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
 @prefix rparts: <http://www.inf.ufrgs.br/phi-group/ontologies/RParts.owl#> .
@@ -33,12 +34,12 @@ lab:Robot-1 a cora:Robot, owl:NamedIndividual ; skiros:SkillMgr "mgr" ; skiros:P
 lab:Drive a owl:class ; rdfs:subClassOf skiros:Skill .
 lab:Drive-6 a lab:Drive ; skiros:hasParam lab:Parameter-7 .
 lab:Parameter-7 a skiros:Parameter ; skiros:DataType "sumo:Agent" ; skiros:ParameterType 2 ; rdfs:comment "" .
-lab:Arm-2 a rparts:ArmDevice ; skiros:MotionExe "exe" ; skiros:CompliantController "compliant" ;
+lab:Arm-2 a rparts:ArmDevice ; skillc:hasSheet skillc:iiwa14-sheet ; skiros:MotionExe "exe" ;
+    skiros:CompliantController "compliant" ;
     skiros:JointConfigurationController "joints" ; skiros:CartesianGoalAction "/goal" ;
     skiros:CartesianStiffnessTopic "/k" ; skiros:CartesianWrenchTopic "/w" ; skiros:OverlayMotionService "/overlay" ;
-    skiros:MoveItGroup "arm" ;
-    skiros:MoveItReferenceFrame "base" ; skiros:MoveItTCPLink "tcp" ; skiros:DriverAddress "/driver" ;
-    skiros:StateProperty "Idle" ; skiros:hasA lab:Gripper-3 .
+    skiros:MoveItGroup "arm" ; skiros:MoveItReferenceFrame "base" ; skiros:MoveItTCPLink "tcp" ;
+    skiros:DriverAddress "/driver" ; skiros:StateProperty "Idle" ; skiros:hasA lab:Gripper-3 .
 lab:Gripper-3 a rparts:GripperEffector ; skiros:ContainerState "Empty" .
 lab:Shelf-4 a skiros:Workstation ; skiros:PushToFrameId "map" ; skiros:LinkedToFrameId "marker" .
 lab:Peg a owl:class ; rdfs:subClassOf skiros:Part .
@@ -53,7 +54,8 @@ def vocabulary() -> Vocabulary:
 
 
 def world(scene: str) -> WorldState:
-    return world_of([Document("scene.turtle", PREFIXES + scene)], vocabulary())
+    sheets = [Document(path, text) for path, text in catalogue.vocabulary_files()]
+    return world_of([*sheets, Document("scene.turtle", PREFIXES + scene)], vocabulary())
 
 
 def value(state: WorldState, individual: str, property_: str) -> Value | None:
