@@ -9,15 +9,29 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from emit.samples import BASE, DRIVE, PICK, library, read, vocabulary, wiping
+from emit.samples import (
+    BASE,
+    DRIVE,
+    HERE,
+    PICK,
+    WIPE,
+    implementation,
+    library,
+    need,
+    parameter,
+    read,
+    vocabulary,
+    wiping,
+)
 from skillc_compiler.emit import pddl
 from skillc_compiler.emit.pddl import DomainRefused, read_back
-from skillc_compiler.library.conditions import Arithmetic, Literal
+from skillc_compiler.library.conditions import Arithmetic, Compare, Literal, Variable
 from skillc_compiler.library.pddl.domain import ComputedCost
 from skillc_compiler.library.pddl.names import KEYWORDS, object_names
 from skillc_compiler.library.pddl.planning import planning_domain
 from skillc_compiler.library.pddl.text import domain_text, temporal_text
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_compiler.library.skills import Compound, Skill, SkillLibrary
+from skillc_compiler.library.tree import Call, Sequence
 
 
 @given(st.sets(st.text(min_size=1, max_size=6), max_size=8))
@@ -72,6 +86,52 @@ def test_hold_conditions_hold_over_all_and_devices_are_locked() -> None:
     assert "(at start (not (idle ?arm)))" in pick
     assert "(at end (idle ?arm))" in pick
     assert text.count("(") == text.count(")")
+
+
+def test_an_action_locks_the_devices_of_the_skills_it_calls() -> None:
+    move = skill_using("Move", ("arm",))
+    grip = skill_using("Grip", ("gripper",))
+    nothing = msgspec.structs.replace(WIPE, uses=())
+    here, there = Variable("arm"), Variable("gripper")
+    calls = (Call("Move", None, {"arm": here}, None, HERE), Call("Grip", None, {"gripper": there}, None, HERE))
+    body = Compound(Sequence(calls, False, HERE))
+    lanes = msgspec.structs.replace(implementation(nothing, "lanes"), body=body)
+    outer = msgspec.structs.replace(nothing, name="Outer", implementations=("all",))
+    call = Call("Wipe", None, {"surface": Variable("surface"), "arm": here}, None, HERE)
+    around = msgspec.structs.replace(implementation(outer, "all"), body=Compound(call))
+    made = planning_domain(library(move, grip, nothing, outer, implementations=(lanes, around)))
+    assert made.action["wipe"].uses == ("?arm", "?gripper")
+    assert made.action["outer"].uses == ("?arm",)
+    text = temporal_text(made)
+    outer_text = text[text.index("(:durative-action outer") : text.index("(:durative-action wipe")]
+    assert [outer_text.count(each) for each in ("(at start (not (idle ?arm)))", "(at end (idle ?arm))")] == [1, 1]
+
+
+def skill_using(name: str, uses: tuple[str, ...]) -> Skill:
+    """Return a skill that a planner does not use, with these devices as its parameters."""
+    kinds = {"arm": "Arm", "gripper": "Gripper"}
+    parameters = tuple(parameter(each, kinds[each]) for each in uses)
+    return Skill(name=name, parameters=parameters, uses=uses, planned=False, implementations=("plain",), source=HERE)
+
+
+def test_where_nothing_is_locked_nothing_is_said_of_it() -> None:
+    assert "idle" not in temporal_text(planning_domain(library(msgspec.structs.replace(WIPE, uses=()))))
+
+
+def test_a_guard_says_which_condition_it_stands_for() -> None:
+    for text in pddl.emit(wiping()).values():
+        lines = [line.strip() for line in text.splitlines()]
+        at = lines.index("(guard-pick-ready ?arm - arm)")
+        assert lines[at - 1] == "; `ready` of Pick: arm.deviceState != Fault"
+
+
+def test_values_that_nothing_reads_are_left_out_of_the_file_and_kept_for_goals() -> None:
+    asks = need("dirty", Compare(read("surface", "isClean"), "==", Literal(False)))
+    reading = library(msgspec.structs.replace(WIPE, pre=(*WIPE.pre, asks)))
+    assert "is-clean-false" in pddl.emit(reading)["domain.pddl"]
+    assert "is-clean-false" not in pddl.emit(wiping())["domain.pddl"]
+    assert "(is-clean ?surface)" in pddl.emit(wiping())["domain.pddl"]
+    assert "is-clean-false" in planning_domain(wiping()).predicate
 
 
 def test_the_table_of_names_may_come_with_the_library() -> None:

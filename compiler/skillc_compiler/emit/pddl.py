@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from skillc_compiler.library.pddl.planning import planning_domain
+from skillc_compiler.library.pddl.pruning import pruned
 from skillc_compiler.library.pddl.text import domain_text, temporal_text
 from skillc_compiler.library.skills import SkillLibrary
 
@@ -13,7 +14,7 @@ class DomainRefused(Exception):
 
 def emit(library: SkillLibrary) -> dict[str, str]:
     """Return the classical and the temporal domain; DomainRefused if the classical one cannot be read back."""
-    domain = planning_domain(library)
+    domain = pruned(planning_domain(library))
     classical = domain_text(domain)
     read_back(classical, {action.name for action in domain.actions})
     return {"domain.pddl": classical, "domain.temporal.pddl": temporal_text(domain)}

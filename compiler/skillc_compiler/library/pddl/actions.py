@@ -27,10 +27,11 @@ class Planned:
 
 
 def planned_action(
-    name: str, skill: Skill, implementations: Sequence[Implementation], symbols: Symbols, taken: Collection[str]
+    name: str, skill: Skill, implementations: Sequence[Implementation], symbols: Symbols, locks: Collection[str]
 ) -> Planned:
-    """Return the action of a skill; Untranslatable says why no planner can reason about it."""
-    return _Builder(name, skill, tuple(implementations), symbols, Guards(skill.name, taken), taken).planned()
+    """Return the action of a skill that locks these parameters; Untranslatable says why a planner cannot reason so."""
+    taken = symbols.names.keys()
+    return _Builder(name, skill, tuple(implementations), symbols, Guards(skill.name, taken), taken, locks).planned()
 
 
 @dataclass(frozen=True)
@@ -41,6 +42,7 @@ class _Builder:
     symbols: Symbols
     guards: Guards
     taken: Collection[str]
+    locks: Collection[str]
 
     def planned(self) -> Planned:
         scope = planned_parameters(self.skill.parameters, self.symbols.hierarchy)
@@ -58,14 +60,14 @@ class _Builder:
             hold=hold,
             effects=effects,
             cost=cost,
-            uses=tuple(scope[each].variable.name for each in self.skill.uses if each in scope),
+            uses=tuple(scope[each].variable.name for each in self.locks if each in scope),
             doc=self.skill.doc,
             source=self.skill.source,
         )
         return Planned(action, tuple(self.guards.found.values()), function)
 
     def _preconditions(self, given: Defaults, scope: Scope) -> Iterator[Formula]:
-        translator = self._translator("")
+        translator = self._translator()
         yield from (translator.membership(place.cls, place) for place in scope.values())
         yield self._requirements(self.skill.pre, "precondition", given, scope)
         yield disjunction(self._alternative(each, scope) for each in self.implementations)
@@ -85,7 +87,7 @@ class _Builder:
         return any(requirement.condition == each.condition for each in (*self.skill.pre, *self.skill.hold))
 
     def _narrower(self, implementation: Implementation, scope: Scope) -> Iterator[Formula]:
-        translator = self._translator("")
+        translator = self._translator()
         for parameter in implementation.parameters:
             place = scope.get(parameter.name)
             if place and isinstance(parameter.type, ClassType) and parameter.type.iri != place.cls:
@@ -96,19 +98,21 @@ class _Builder:
 
     def _requirement(self, requirement: Requirement, kind: str, given: Defaults, scope: Scope) -> Formula:
         try:
-            return self._translator(requirement.label).formula(given.applied(requirement.condition), scope)
+            return self._translator(requirement.label, requirement.text).formula(
+                given.applied(requirement.condition), scope
+            )
         except Untranslatable as reason:
             raise Untranslatable(f"its {kind} `{requirement.text}` {reason}") from reason
 
-    def _translator(self, label: str) -> Translator:
-        return Translator(self.symbols, self.guards.labelled(label), {})
+    def _translator(self, label: str = "", text: str = "") -> Translator:
+        return Translator(self.symbols, self.guards.labelled(label, text), {})
 
     def _effects(self, known: Formula, hold: Formula, scope: Scope) -> tuple[Change, ...]:
         if not self.implementations:
             raise Untranslatable("it has no implementation")
         if known == FALSE:
             raise Untranslatable("its conditions can never hold")
-        changes = Effects(self._translator(""), scope, known).changes(self.skill.post)
+        changes = Effects(self._translator(), scope, known).changes(self.skill.post)
         if not changes:
             raise Untranslatable("it changes nothing that a planner can see")
         for change in changes:

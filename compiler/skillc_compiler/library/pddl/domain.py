@@ -55,13 +55,15 @@ class ClassFact:
 class GuardFact:
     """True of the individuals for which the condition holds in the initial world; it reads nothing a skill changes.
 
-    `variables` are the free variables of the condition, in the order of the predicate's parameters.
+    `variables` are the free variables of the condition, in the order of the predicate's parameters. `text` is the
+    labelled condition as its author wrote it, of which this one is the whole or a part.
     """
 
     variables: tuple[str, ...]
     condition: Condition
     skill: str
     label: str
+    text: str
 
 
 @dataclass(frozen=True)

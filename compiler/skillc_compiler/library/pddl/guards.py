@@ -22,15 +22,15 @@ class Guards:
     taken: Collection[str]
     found: dict[Condition, Predicate] = field(default_factory=dict)
 
-    def labelled(self, label: str) -> Settle:
-        """Return what makes guards of the condition with this label."""
+    def labelled(self, label: str, text: str) -> Settle:
+        """Return what makes guards of the condition with this label, which its author wrote so."""
 
         def settle(condition: Condition, scope: Scope) -> Formula | None:
-            return None if is_plain(condition) else self._guard(label, condition, scope)
+            return None if is_plain(condition) else self._guard(label, text, condition, scope)
 
         return settle
 
-    def _guard(self, label: str, condition: Condition, scope: Scope) -> Atom:
+    def _guard(self, label: str, text: str, condition: Condition, scope: Scope) -> Atom:
         variables = free_variables_in_order(condition)
         for name in variables:
             if name not in scope:
@@ -39,6 +39,6 @@ class Guards:
         if condition not in self.found:
             used = {*self.taken, *(each.name for each in self.found.values())}
             name = fresh(f"guard-{kebab(self.skill)}-{kebab(label)}", used)
-            meaning = GuardFact(variables, condition, self.skill, label)
+            meaning = GuardFact(variables, condition, self.skill, label, text)
             self.found[condition] = Predicate(name, tuple(places), meaning, False)
         return Atom(self.found[condition].name, tuple(each.name for each in places))

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from skillc_compiler.library.pddl.actions import Planned, planned_action
 from skillc_compiler.library.pddl.costs import UNITS_PER_SECOND
+from skillc_compiler.library.pddl.devices import devices
 from skillc_compiler.library.pddl.domain import Excluded, PlanningDomain, Predicate
 from skillc_compiler.library.pddl.effects import changed_terms
 from skillc_compiler.library.pddl.formulas import atoms
@@ -56,12 +57,13 @@ def planning_domain(library: SkillLibrary, combined: Collection[frozenset[str]] 
 
 def _try(skills: Sequence[Skill], library: SkillLibrary, symbols: Symbols) -> _Round:
     action_names = {term: name for name, term in symbols.names.items()}
+    locked = devices(library)
     planned, excluded = [], []
     for skill in skills:
         implementations = library.implementations_of(skill.name)
         try:
             name = action_names[skill.name]
-            planned.append(planned_action(name, skill, implementations, symbols, symbols.names.keys()))
+            planned.append(planned_action(name, skill, implementations, symbols, locked[skill.name]))
         except Untranslatable as reason:
             excluded.append(Excluded(skill.name, str(reason), skill.source))
     return _Round(symbols, tuple(planned), tuple(excluded))

@@ -9,7 +9,15 @@ from typing import assert_never
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 
-from skillc_compiler.library.pddl.domain import Action, ComputedCost, Cost, FixedCost, PlanningDomain
+from skillc_compiler.library.pddl.domain import (
+    Action,
+    ComputedCost,
+    Cost,
+    FixedCost,
+    GuardFact,
+    PlanningDomain,
+    Predicate,
+)
 from skillc_compiler.library.pddl.formulas import (
     TRUE,
     Atom,
@@ -45,12 +53,19 @@ def temporal_text(domain: PlanningDomain) -> str:
 
 def problem_text(problem: Problem) -> str:
     """Return the problem for the classical domain."""
-    return _template("problem.pddl.j2").render(problem=problem, objects=_declared(problem), temporal=False)
+    return _template("problem.pddl.j2").render(problem=problem, objects=_declared(problem), idle=(), temporal=False)
 
 
 def temporal_problem_text(problem: Problem) -> str:
     """Return the problem for the temporal domain: no device is in use at first, and the makespan counts."""
-    return _template("problem.pddl.j2").render(problem=problem, objects=_declared(problem), temporal=True)
+    idle = _lockable(problem)
+    return _template("problem.pddl.j2").render(problem=problem, objects=_declared(problem), idle=idle, temporal=True)
+
+
+def _lockable(problem: Problem) -> list[str]:
+    """Return the objects that some action may lock."""
+    locks = {each.type for action in problem.domain.actions for each in action.parameters if each.name in action.uses}
+    return [each.name for each in problem.objects if any(problem.domain.is_a(each.type, lock) for lock in locks)]
 
 
 def _declared(problem: Problem) -> list[Typed]:
@@ -74,6 +89,7 @@ def _template(name: str) -> Template:
         "effect": effect_text,
         "formula": formula_text,
         "lines": str.splitlines,
+        "meaning": _meaning_lines,
         "precondition": lambda action: formula_text(_classical(action), 4),
         "start": lambda action: conjuncts(_classical(action)),
         "conjuncts": conjuncts,
@@ -157,6 +173,14 @@ def _block(word: str, parts: Sequence[Formula], indent: int) -> str:
     inner = " " * (indent + 2)
     lines = "".join(f"\n{inner}{formula_text(part, indent + 2)}" for part in parts)
     return f"({word}{lines}\n{' ' * indent})"
+
+
+def _meaning_lines(predicate: Predicate) -> list[str]:
+    """Return what is said above a predicate whose name does not tell what it stands for: a condition as written."""
+    match predicate.meaning:
+        case GuardFact(skill=skill, label=label, text=text):
+            return [f"`{label}` of {skill}: {' '.join(text.split())}"]
+    return []
 
 
 def _type_lines(domain: PlanningDomain) -> list[str]:

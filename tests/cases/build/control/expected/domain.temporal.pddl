@@ -11,6 +11,5 @@
     hard-gripper soft-gripper - gripper
   )
   (:predicates
-    (idle ?device - thing)
   )
 )

@@ -12,12 +12,13 @@
   (:predicates
     (base-at ?subject - robot ?value - place)
     (contain ?subject - thing ?value - item)
+    ; `light` of Pick: item.weight <= limit
     (guard-pick-light ?item - item)
+    ; `ready` of Pick: gripper.state != Fault
     (guard-pick-ready ?gripper - gripper)
     (has-gripper ?subject - robot ?value - gripper)
     (is-hard-gripper ?subject - thing)
     (is-open ?subject - gripper)
-    (is-open-false ?subject - gripper)
     (is-soft-gripper ?subject - thing)
   )
   (:functions
@@ -43,7 +44,6 @@
     :precondition (or (is-hard-gripper ?gripper) (is-soft-gripper ?gripper))
     :effect (and
       (is-open ?gripper)
-      (not (is-open-false ?gripper))
       (increase (total-cost) 10)
     )
   )
@@ -63,7 +63,6 @@
     )
     :effect (and
       (contain ?gripper ?item)
-      (is-open-false ?gripper)
       (not (contain ?from ?item))
       (not (is-open ?gripper))
       (increase (total-cost) 80)

@@ -10,15 +10,17 @@
     hard-gripper soft-gripper - gripper
   )
   (:predicates
+    ; nothing is running that locks the device
     (idle ?device - thing)
     (base-at ?subject - robot ?value - place)
     (contain ?subject - thing ?value - item)
+    ; `light` of Pick: item.weight <= limit
     (guard-pick-light ?item - item)
+    ; `ready` of Pick: gripper.state != Fault
     (guard-pick-ready ?gripper - gripper)
     (has-gripper ?subject - robot ?value - gripper)
     (is-hard-gripper ?subject - thing)
     (is-open ?subject - gripper)
-    (is-open-false ?subject - gripper)
     (is-soft-gripper ?subject - thing)
   )
 
@@ -49,7 +51,6 @@
     )
     :effect (and
       (at end (is-open ?gripper))
-      (at end (not (is-open-false ?gripper)))
     )
   )
 
@@ -70,7 +71,6 @@
     )
     :effect (and
       (at end (contain ?gripper ?item))
-      (at end (is-open-false ?gripper))
       (at end (not (contain ?from ?item)))
       (at end (not (is-open ?gripper)))
     )
