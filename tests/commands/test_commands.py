@@ -199,7 +199,52 @@ def test_world_lists_and_queries(scene: Path) -> None:
     assert asked.stdout.split() == ["s", "lab:Table-1"]
 
 
+def test_world_lists_the_scene_itself_with_its_labels_unless_all_is_asked(scene: Path) -> None:
+    own, everything = run("world", scene).stdout, run("world", scene, "--all").stdout
+    assert 'lab:Table-1  "rough table"  a wiping:TableTop' in own
+    assert "skillc:ur5e-sheet  a" in everything
+    assert "skillc:ur5e-sheet  a" not in own
+    listed = json.loads(run("world", scene, "--json").stdout)
+    assert {each["individual"].partition(":")[0] for each in listed} == {"lab"}
+    assert {"individual": "lab:Table-1", "label": "rough table"}.items() <= listed[-1].items()
+
+
+def test_answers_in_json_are_typed(scene: Path) -> None:
+    sparql = (
+        "SELECT ?p ?v { lab:Table-1 ?p ?v FILTER(?p IN (wiping:isClean, wiping:normalForce, rdf:type)) } ORDER BY ?p"
+    )
+    rows = json.loads(run("world", scene, "--query", sparql, "--json").stdout)
+    assert {row["p"]: row["v"] for row in rows} == {
+        "rdf:type": "wiping:TableTop",
+        "wiping:isClean": False,
+        "wiping:normalForce": 18.0,
+    }
+
+
+def test_the_query_that_help_recommends_includes_subclasses(scene: Path) -> None:
+    written = " ".join(run("world", "--help").stdout.split())
+    pattern = written.partition("`")[2].partition("`")[0]
+    assert run("world", scene, "--query", f"SELECT ?x {{ {pattern} }}").stdout.split() == ["x", "lab:Iiwa-1"]
+
+
 def test_a_query_that_is_not_sparql_is_explained(scene: Path) -> None:
     result = run("world", scene, "--query", "SELEC ?s")
     assert result.exit_code == 1
     assert "not SPARQL" in result.stderr
+    assert result.stderr.endswith("\n  SELEC ?s\n  ^\n")
+
+
+def test_a_federated_query_is_refused_without_the_network(scene: Path) -> None:
+    result = run("world", scene, "--query", "SELECT ?x { SERVICE <http://a.invalid/> { ?x ?p ?y } }")
+    assert result.exit_code == 1
+    assert "do not use the network" in result.stderr
+
+
+@pytest.mark.parametrize("content", [bytes(range(255, -1, -1)) * 2, "lab:ä".encode("utf-16")])
+def test_a_scene_that_is_not_utf_8_is_one_clear_error(library: Path, tmp_path: Path, content: bytes) -> None:
+    scene = tmp_path / "binary.ttl"
+    scene.write_bytes(content)
+    expected = f"error[unreadable-scene]: cannot read {scene}: it is not UTF-8 text\n --> {scene}:1:1\n"
+    shown, checked = run("world", scene), run("check", library, "--scene", scene)
+    assert (shown.exit_code, shown.stderr) == (1, expected)
+    assert checked.exit_code == 1 and checked.stdout.startswith(expected) and checked.stdout.count("error[") == 1

@@ -12,12 +12,11 @@ import click
 
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.lexing import decode
 from skillc_dsl.rendering.concise import render as concise
 from skillc_dsl.rendering.full import render as full
 from skillc_dsl.rendering.json import render as as_json
 from skillc_dsl.source import Source, Span
-from skillc_runtime.world.documents import SceneError, SceneProblem
+from skillc_runtime.world.documents import Document, SceneError, SceneProblem
 from skillc_runtime.world.scene import load_scene
 
 
@@ -47,9 +46,6 @@ def of_scene(scene: Path, vocabulary: Vocabulary) -> list[Diagnostic]:
         load_scene(scene, vocabulary)
     except SceneError as error:
         return of_problems(error.problems)
-    except OSError as error:
-        span = Span(str(scene), 1, 1, 1, 1)
-        return [Diagnostic("unreadable-scene", span, f"the scene cannot be read: {error.strerror}")]
     return []
 
 
@@ -61,8 +57,11 @@ def of_problems(problems: Iterable[SceneProblem]) -> list[Diagnostic]:
 
 
 def scene_text(scene: Path) -> dict[str, Source]:
-    """Return the scene's text by its path, for excerpts."""
-    return {str(scene): decode(str(scene), scene.read_bytes())} if scene.is_file() else {}
+    """Return the scene's text by its path, for excerpts; nothing when it cannot be read."""
+    try:
+        return {str(scene): Source(str(scene), Document.read(scene).text)}
+    except SceneError:
+        return {}
 
 
 def _colour(stream: TextIO) -> bool:

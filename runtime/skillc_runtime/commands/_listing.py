@@ -1,4 +1,4 @@
-"""A world state and the answers of queries as text and as JSON."""
+"""What a scene says and the answers of queries, as text and as JSON."""
 
 from __future__ import annotations
 
@@ -6,49 +6,64 @@ import json
 from pathlib import Path
 
 from skillc_ontology.catalogue import vocabulary_files
+from skillc_runtime.world.contents import contents
 from skillc_runtime.world.documents import Document
 from skillc_runtime.world.listing import Entry, listing
-from skillc_runtime.world.query import query
+from skillc_runtime.world.query import Cell, query
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import show
 
 
-def as_text(state: WorldState) -> str:
-    """Return a paragraph for each individual."""
-    return "\n\n".join(_paragraph(entry, state) for entry in listing(state))
+def listed(scene: Path, state: WorldState, everything: bool, as_json: bool) -> str:
+    """Return what is known of the individuals of a scene's own file, or of everything.
 
-
-def as_json(state: WorldState) -> str:
-    """Return a list of objects, one for each individual."""
-    return json.dumps([_object(entry, state) for entry in listing(state)], indent=2)
+    As text it is a paragraph for each individual, as JSON a list of objects.
+    """
+    own = contents([Document.read(scene)])
+    labels = {**contents(_shipped()).labels, **own.labels}
+    entries = listing(state, state.individuals if everything else state.individuals & own.subjects)
+    if as_json:
+        return json.dumps([_object(entry, labels.get(entry.individual), state) for entry in entries], indent=2)
+    return "\n\n".join(_paragraph(entry, labels.get(entry.individual), state) for entry in entries)
 
 
 def answer(scene: Path, sparql: str, state: WorldState, as_json: bool) -> str:
     """Answer a query over the scene and the shipped ontology, as a table or as a list of objects."""
-    documents = [Document.read(scene), *(Document(name, text) for name, text in vocabulary_files())]
-    result = query(documents, sparql, state.vocabulary)
+    result = query([Document.read(scene), *_shipped()], sparql, state.vocabulary)
     if as_json:
         return json.dumps([dict(zip(result.columns, row, strict=True)) for row in result.rows], indent=2)
-    rows = [result.columns, *result.rows]
+    rows = [result.columns, *(tuple(map(_text, row)) for row in result.rows)]
     widths = [max(len(row[i]) for row in rows) for i in range(len(result.columns))]
     return "\n".join("  ".join(text.ljust(w) for text, w in zip(row, widths, strict=True)).rstrip() for row in rows)
 
 
-def _paragraph(entry: Entry, state: WorldState) -> str:
+def _shipped() -> list[Document]:
+    return [Document(name, text) for name, text in vocabulary_files()]
+
+
+def _text(cell: Cell) -> str:
+    if isinstance(cell, bool):
+        return show(cell)
+    return "" if cell is None else str(cell)
+
+
+def _paragraph(entry: Entry, label: str | None, state: WorldState) -> str:
     short = state.vocabulary.short
-    lines = [f"{short(entry.individual)}  a {', '.join(map(short, entry.types))}"]
+    called = "" if label is None else f'  "{label}"'
+    lines = [f"{short(entry.individual)}{called}  a {', '.join(map(short, entry.types))}"]
     lines += [f"    {short(relation)} {short(other)}" for relation, other in entry.relations]
     lines += [f"    {short(name)} {show(value)}" for name, value in entry.properties]
     return "\n".join(lines)
 
 
-def _object(entry: Entry, state: WorldState) -> dict[str, object]:
+def _object(entry: Entry, label: str | None, state: WorldState) -> dict[str, object]:
     short = state.vocabulary.short
     related: dict[str, list[str]] = {}
     for relation, other in entry.relations:
         related.setdefault(short(relation), []).append(short(other))
     return {
         "individual": short(entry.individual),
+        "label": label,
         "types": [short(each) for each in entry.types],
         "relations": related,
         "properties": {short(name): value for name, value in entry.properties},

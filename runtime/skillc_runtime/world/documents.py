@@ -26,7 +26,7 @@ class Document:
     def read(path: Path) -> Document:
         """Read a file; SceneError when it cannot be read or is not UTF-8."""
         try:
-            return Document(str(path), path.read_text("utf-8"))
+            return Document(str(path), path.read_text("utf-8-sig"))
         except (OSError, UnicodeDecodeError) as error:
             reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
             raise SceneError(

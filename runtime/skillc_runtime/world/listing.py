@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from skillc_runtime.world.state import WorldState
@@ -18,9 +19,9 @@ class Entry:
     properties: tuple[tuple[str, Value], ...]
 
 
-def listing(state: WorldState) -> tuple[Entry, ...]:
-    """Return an entry for every individual, sorted by IRI."""
-    return tuple(_entry(state, individual) for individual in sorted(state.individuals))
+def listing(state: WorldState, individuals: Iterable[str]) -> tuple[Entry, ...]:
+    """Return an entry for each of the individuals, sorted by IRI."""
+    return tuple(_entry(state, individual) for individual in sorted(individuals))
 
 
 def _entry(state: WorldState, individual: str) -> Entry:

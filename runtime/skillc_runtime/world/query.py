@@ -2,32 +2,58 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TypeAlias
 
+import msgspec
 import pyoxigraph as ox
 
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_runtime.world.documents import Document, parse
+from skillc_runtime.world.individuals import OWL, RDF, RDFS
+from skillc_runtime.world.literals import INTEGERS, NUMBERS, XSD
+from skillc_runtime.world.sparql import federated, misunderstood
+
+Cell: TypeAlias = bool | int | float | str | None
+"""A value in an answer; individuals are texts, None is a variable without a value."""
+
+WELL_KNOWN = {"rdf": RDF, "rdfs": RDFS, "owl": OWL, "xsd": XSD}
 
 
 class QueryError(ValueError):
-    """A query that is not SPARQL; the message says where it stops making sense."""
+    """A query that has no answer; the message says why, with the place where it stops making sense."""
 
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """The answer of a query: names of the columns and rows of text, individuals shortened by the prefixes."""
+    """The answer of a query: names of the columns and rows of values, individuals shortened by the prefixes."""
 
     columns: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
+    rows: tuple[tuple[Cell, ...], ...]
 
 
 def query(documents: Iterable[Document], sparql: str, vocabulary: Vocabulary) -> Answer:
     """Return the answer of a query over documents; the vocabulary's prefixes need no declaration.
 
-    QueryError for a text that is not SPARQL, SceneError for a document that is not Turtle.
+    QueryError for a text that is not SPARQL, an update, a question to another server, a failure of the evaluation;
+    SceneError for a document that is not Turtle.
     """
+    vocabulary = msgspec.structs.replace(vocabulary, prefixes={**WELL_KNOWN, **vocabulary.prefixes})
+    refusal = federated(sparql)
+    if refusal is not None:
+        raise QueryError(refusal)
+    store = _store(documents)
+    try:
+        return _answer(store.query(sparql, prefixes=dict(vocabulary.prefixes)), vocabulary)
+    except SyntaxError as error:
+        raise QueryError(misunderstood(sparql, str(error), vocabulary.prefixes)) from error
+    except (OSError, RuntimeError, ValueError) as error:
+        raise QueryError(f"the query cannot be answered: {error}") from error
+
+
+def _store(documents: Iterable[Document]) -> ox.Store:
     store = ox.Store()
     for document in documents:
         store.extend(
@@ -35,20 +61,37 @@ def query(documents: Iterable[Document], sparql: str, vocabulary: Vocabulary) ->
             for each in parse(document).statements
             if not isinstance(each.subject, ox.Literal)
         )
-    try:
-        result = store.query(sparql, prefixes=dict(vocabulary.prefixes))
-    except SyntaxError as error:
-        raise QueryError(f"this is not SPARQL: {error}") from error
+    return store
+
+
+def _answer(result: ox.QuerySolutions | ox.QueryBoolean | ox.QueryTriples, vocabulary: Vocabulary) -> Answer:
+    """Return the answer in full: solutions are found while they are read."""
     if isinstance(result, ox.QueryBoolean):
-        return Answer(("answer",), (("yes" if bool(result) else "no",),))
+        return Answer(("answer",), ((bool(result),),))
     if isinstance(result, ox.QueryTriples):
-        rows = [tuple(_text(node, vocabulary) for node in triple) for triple in result]
-        return Answer(("subject", "predicate", "object"), tuple(rows))
+        triples = [tuple(_cell(node, vocabulary) for node in triple) for triple in result]
+        return Answer(("subject", "predicate", "object"), tuple(triples))
     columns = tuple(variable.value for variable in result.variables)
-    return Answer(columns, tuple(tuple(_text(row[name], vocabulary) for name in columns) for row in result))
+    return Answer(columns, tuple(tuple(_cell(row[name], vocabulary) for name in columns) for row in result))
 
 
-def _text(node: object, vocabulary: Vocabulary) -> str:
+def _cell(node: object, vocabulary: Vocabulary) -> Cell:
+    if node is None:
+        return None
     if isinstance(node, ox.NamedNode):
         return vocabulary.short(node.value)
-    return node.value if isinstance(node, ox.Literal) else "" if node is None else str(node)
+    return _value(node) if isinstance(node, ox.Literal) else str(node)
+
+
+def _value(literal: ox.Literal) -> Cell:
+    """Return a literal as a value of its datatype; NaN, infinity and what is not of its datatype stay text."""
+    kind, text = literal.datatype.value, literal.value
+    if kind == XSD + "boolean" and text in ("true", "false", "1", "0"):
+        return text in ("true", "1")
+    if kind not in NUMBERS:
+        return text
+    try:
+        number = int(text) if kind in INTEGERS else float(text)
+    except ValueError:
+        return text
+    return number if math.isfinite(number) else text

@@ -13,21 +13,32 @@ import pyoxigraph as ox
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
 from skillc_ontology.catalogue import vocabulary_files
 from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.contents import contents
 from skillc_runtime.world.documents import Document, Placed, SceneError, SceneProblem, parse, resolved
 from skillc_runtime.world.individuals import facts, iri_of, with_own_classes
 from skillc_runtime.world.literals import LiteralError, read
+from skillc_runtime.world.plausible import flaws
 from skillc_runtime.world.rules import broken
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.turtle import RDF_TYPE
 from skillc_runtime.world.values import Value, equal, show
 
 Written = tuple[Change, Placed]
+LISTED = 12
+"""How many individuals help lists at most."""
 
 
 def load_scene(path: Path, vocabulary: Vocabulary) -> WorldState:
     """Return the world of a scene file and of the packaged data sheets; SceneError with all that is wrong."""
     sheets = [Document(name, text) for name, text in vocabulary_files()]
-    return world_of([Document.read(path), *sheets], vocabulary)
+    own = Document.read(path)
+    state = world_of([own, *sheets], vocabulary)
+    if state.individuals.isdisjoint(contents([own]).subjects):
+        nothing = SceneProblem(
+            own.path, 1, 1, "empty-scene", "there is nothing in this scene", "name a thing: `:x a CLASS .`"
+        )
+        raise SceneError([nothing])
+    return state
 
 
 def world_of(documents: Iterable[Document], vocabulary: Vocabulary) -> WorldState:
@@ -45,9 +56,29 @@ def world_of(documents: Iterable[Document], vocabulary: Vocabulary) -> WorldStat
     written = list(reader.changes())
     state = WorldState.empty(vocabulary).changed(change for change, _ in written)
     breaches = [place.problem(each.axiom, each.message) for change, place in written for each in broken(state, change)]
-    if reader.problems or breaches:
-        raise SceneError(dict.fromkeys([*reader.problems, *breaches]))
+    problems = [*reader.problems, *breaches] or list(_implausible(state, written))
+    if problems:
+        raise SceneError(dict.fromkeys(problems))
     return state
+
+
+def _implausible(state: WorldState, written: Sequence[Written]) -> Iterator[SceneProblem]:
+    places = {_said_by(change): place for change, place in reversed(written)}
+    for flaw in flaws(state):
+        yield places[flaw.individual, flaw.predicate].problem(flaw.name, flaw.message, flaw.help)
+
+
+def _said_by(change: Change) -> tuple[str, str]:
+    """Return the individual and the predicate of the statement that a change was read from."""
+    match change:
+        case AddIndividual(individual, _):
+            return individual, RDF_TYPE
+        case AddRelation(subject, relation, _):
+            return subject, relation
+        case SetProperty(individual, property_, _):
+            return individual, property_
+        case _:
+            raise AssertionError(f"no statement says {change}")
 
 
 class _Reader:
@@ -95,7 +126,7 @@ class _Reader:
             message = f"{short(each.predicate)} is a relation: it leads to an individual, and this is {each.object}"
             self.problems.append(each.problem("relation-range", message, "name an individual of the scene"))
         elif object_ not in self._declared:
-            self._unknown(each, "individual", object_, self._declared)
+            self._unknown(each, "individual", object_, self._declared, self._fitting(each.predicate))
         elif subject in self._known and object_ in self._known:
             yield AddRelation(subject, each.predicate, object_), each
 
@@ -136,11 +167,19 @@ class _Reader:
         else:
             self._unknown(each, "relation", each.predicate, self._vocabulary.relations)
 
-    def _unknown(self, each: Placed, kind: str, iri: str, known: Iterable[str]) -> None:
+    def _fitting(self, relation: str) -> list[str]:
+        """Return the individuals that the relation may lead to, by their short names."""
+        ranges = [each.range for each in self._vocabulary.relations[relation].signatures]
+        types = ((iri_of(each.subject), iri_of(each.object)) for each in self._types)
+        fitting = {one for one, cls in types if any(self._vocabulary.is_a(cls, range_) for range_ in ranges)}
+        return sorted(map(self._vocabulary.short, fitting))
+
+    def _unknown(self, each: Placed, kind: str, iri: str, known: Iterable[str], others: Sequence[str] = ()) -> None:
+        """Note that there is no such term or individual; help is what it is like, else the others there are."""
         short = self._vocabulary.short
         names = {local_name(other): other for other in sorted(known)}
         near = [short(names[name]) for name in get_close_matches(local_name(iri), names, n=3, cutoff=0.6)]
         message = f"there is no {kind} {short(iri)}" if iri else f"{each.object} is no {kind}"
-        self.problems.append(
-            each.problem(f"unknown-{kind}", message, f"did you mean {' or '.join(near)}?" if near else "")
-        )
+        listed = f"there is {', '.join(others[:LISTED])}{', ..' if others[LISTED:] else ''}" if others else ""
+        help_ = f"did you mean {' or '.join(near)}?" if near else listed
+        self.problems.append(each.problem(f"unknown-{kind}", message, help_))

@@ -1,0 +1,103 @@
+"""Scenes that obey the axioms and are no place: each mistake with its line, and what is allowed beside it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from skillc_ontology import catalogue
+from skillc_runtime.commands import _library
+from skillc_runtime.world.documents import SceneError, SceneProblem
+from skillc_runtime.world.scene import load_scene
+
+SHIPPED = _library.compile_library(_library.find(_library.SHIPPED / "wiping")).value.vocabulary
+SCENE = catalogue.scene("iiwa_table").read_text(encoding="utf-8")
+
+
+def problems(tmp_path: Path, text: str) -> tuple[SceneProblem, ...]:
+    path = tmp_path / "scene.ttl"
+    path.write_text(text, encoding="utf-8")
+    try:
+        load_scene(path, SHIPPED)
+    except SceneError as error:
+        return error.problems
+    return ()
+
+
+MISTAKES = [
+    (
+        '"pedestal" ; skiros:BaseFrameId "cell"',
+        '"pedestal" ; skiros:BaseFrameId "cel"',
+        "unknown-frame",
+        "`cel`",
+        "`cell`",
+    ),
+    ('"pedestal" ; skiros:BaseFrameId "cell"', '"pedestal" ; skiros:BaseFrameId "q"', "unknown-frame", "`q`", "map, "),
+    ('skiros:FrameId "robotiq"', 'skiros:FrameId "cell"', "unknown-frame", "have this FrameId", "its own"),
+    (
+        '"cell" ; skiros:BaseFrameId "map"',
+        '"cell" ; skiros:BaseFrameId "cell"',
+        "frame-circle",
+        "in its own frame",
+        "`map`",
+    ),
+    (
+        '"cell" ; skiros:BaseFrameId "map"',
+        '"cell" ; skiros:BaseFrameId "pedestal"',
+        "frame-circle",
+        "lab:Cell and lab:Ped",
+        "`map`",
+    ),
+    (
+        '"cell" ; skiros:BaseFrameId "map"',
+        '"cell" ; skiros:BaseFrameId "robot"',
+        "frame-circle",
+        "lab:Cell and lab:Rob",
+        "`map`",
+    ),
+    ("OrientationW 1.0", "OrientationW 0.0", "no-rotation", "(0, 0, 0, 0) of lab:Iiwa-1", "1.0"),
+    ("OrientationW 1.0", "OrientationW 1e200", "no-rotation", "lab:Iiwa-1", "1.0"),
+    ("SizeX 0.30", "SizeX -0.30", "not-positive", "lab:Pedestal.skiros:SizeX = -0.3", ""),
+    ("SizeZ 0.05", "SizeZ 0", "not-positive", "greater than 0", ""),
+    ("skillc:hasSheet skillc:iiwa14-sheet ;", "", "missing-sheet", "lab:Iiwa-1 has no data sheet", "skillc:hasSheet"),
+    ("PositionZ 0.715", 'PositionZ "NaN"^^<http://www.w3.org/2001/XMLSchema#double>', "wrong-data-type", "NaN", ""),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "name", "words", "cure"), MISTAKES)
+def test_a_mistake_is_reported_at_its_line(
+    tmp_path: Path, old: str, new: str, name: str, words: str, cure: str
+) -> None:
+    assert old in SCENE
+    found = problems(tmp_path, SCENE.replace(old, new, 1))
+    first = found[0]
+    assert (first.name, first.path) == (name, str(tmp_path / "scene.ttl"))
+    assert words in first.message and cure in first.help
+    assert {each.name for each in found} == {name}
+
+
+def test_the_place_is_that_of_the_statement(tmp_path: Path) -> None:
+    line = SCENE[: SCENE.index("SizeZ 0.05")].count("\n") + 1
+    (found,) = problems(tmp_path, SCENE.replace("SizeZ 0.05", "SizeZ -1"))
+    assert found.line == line
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("OrientationW 1.0", "OrientationW 2.0"), ("SizeX 0.30", "SizeX 1e-3"), ("PositionX 0.4", "PositionX -0.4")],
+)
+def test_what_is_merely_unusual_is_accepted(tmp_path: Path, old: str, new: str) -> None:
+    assert old in SCENE
+    assert problems(tmp_path, SCENE.replace(old, new, 1)) == ()
+
+
+@pytest.mark.parametrize("text", ["", "# nothing yet\n", "@prefix lab: <http://example.org/lab#> .\n"])
+def test_an_empty_scene_is_told(tmp_path: Path, text: str) -> None:
+    (found,) = problems(tmp_path, text)
+    assert (found.name, found.message) == ("empty-scene", "there is nothing in this scene")
+
+
+@pytest.mark.parametrize("scene", catalogue.scenes())
+def test_the_shipped_scenes_are_plausible(scene: str) -> None:
+    assert load_scene(catalogue.scene(scene), SHIPPED).individuals
