@@ -30,11 +30,11 @@ def places(program: Program) -> Iterator[Place]:
     """Yield every place where a type is expected of a value."""
     for skill in program.skills.values():
         for parameter in skill.parameters:
-            yield from _head(parameter, parameter.span)
+            yield from _head(parameter, parameter.name, parameter.span)
         yield from _seconds(skill.duration, "by `duration`")
     for implementation in program.implementations:
         for new in implementation.refinements:
-            yield from _head(new, new.written.name.span)
+            yield from _head(new, new.written.name.text, new.written.name.span)
         yield from _seconds(implementation.duration, "by `duration`")
     for call in calls(program):
         yield from arguments(call)
@@ -60,12 +60,12 @@ def arguments(call: Call) -> Iterator[Place]:
             yield Place(argument.value, parameter.type, by, parameter.span)
 
 
-def _head(parameter: Parameter | Refinement, declared: Span) -> Iterator[Place]:
+def _head(parameter: Parameter | Refinement, name: str, declared: Span) -> Iterator[Place]:
     if parameter.default is not None:
-        yield Place(parameter.default, parameter.type, "as default of this parameter", declared)
+        yield Place(parameter.default, parameter.type, f"as the default of `{name}`", declared)
     for bound in (parameter.low, parameter.high):
         if bound is not None:
-            yield Place(bound, parameter.type, "as bound of this parameter", declared)
+            yield Place(bound, parameter.type, f"as a bound of `{name}`", declared)
 
 
 def _seconds(value: Valued | None, by: str) -> Iterator[Place]:

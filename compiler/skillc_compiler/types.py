@@ -109,8 +109,7 @@ def describe(kind: Type) -> str:
         case Thing(cls=iri):
             return _with_article(local_name(iri)) if iri else "an individual"
         case Direction(dimension=dimension):
-            of = f" of dimension {name(dimension)}" if dimension else ""
-            return f"a Vector{of}"
+            return f"a Vector{_measured(dimension)}"
         case ListOf(element=element):
             return f"a list, each {describe(element)}"
         case Measure(dimension=dimension):
@@ -122,6 +121,15 @@ def describe(kind: Type) -> str:
 def name(dimension: Dimension) -> str:
     """Return a dimension's name, in words also for those the language has none for."""
     return "Number" if dimension == NUMBER else dimension.name
+
+
+def _measured(dimension: Dimension | None) -> str:
+    match dimension:
+        case None:
+            return ""
+        case Dimension() if dimension == NUMBER:
+            return " without a unit"
+    return f" that is {_with_article(name(dimension))}"
 
 
 def _with_article(word: str) -> str:

@@ -60,11 +60,21 @@ class Outcome(Generic[T]):
 
 
 def did_you_mean(wrong: str, candidates: Iterable[str]) -> str:
-    """Return a help line that names the candidates closest to `wrong`, or lists them all when few and none is close."""
+    """Return a help line that names the candidates closest to `wrong`, or lists them all when few and none is close.
+
+    Close are those spelt alike, or else those that hold `wrong` as a part, as `ArmDevice` holds `Arm`.
+    """
     names = sorted(set(candidates))
-    near = difflib.get_close_matches(wrong, names, n=3, cutoff=0.6)
+    near = difflib.get_close_matches(wrong, names, n=3, cutoff=0.6) or _holding(wrong, names)
     if near:
         return f"did you mean {' or '.join(f'`{name}`' for name in near)}?"
     if 0 < len(names) <= 8:
         return f"there is {', '.join(f'`{name}`' for name in names)}"
     return ""
+
+
+def _holding(word: str, names: Iterable[str]) -> list[str]:
+    """Return up to three names that `word`, of three letters or more, is a part of: first those that begin with it."""
+    small = word.lower()
+    holding = [name for name in names if len(small) >= 3 and small in name.lower()]
+    return sorted(holding, key=lambda name: (not name.lower().startswith(small), len(name), name))[:3]

@@ -68,8 +68,17 @@ def _problem(span: Span, operator: str, left: Type, right: Type) -> Diagnostic:
         "unlike-dimensions" if unlike else "wrong-operands",
         span,
         f"`{operator}` cannot join {describe(left)} and {describe(right)}",
-        help="bring both sides to one dimension" if unlike else "use values of one type",
+        help=_cure(left, right) if unlike else "use values of one type",
     )
+
+
+def _cure(left: Type, right: Type) -> str:
+    match left, right:
+        case Direction(), Direction():
+            return "bring both vectors to one dimension: multiply one by a quantity, as in `5 cm * normal`"
+        case (Direction(), _) | (_, Direction()):
+            return "make a vector of the number first, as in `5 cm * normal`"
+    return "bring both sides to one dimension"
 
 
 def _is_number(kind: Type) -> bool:

@@ -35,10 +35,11 @@ def check(program: Program) -> Iterator[Diagnostic]:
     for place in places(program):
         if not fits(program.vocabulary, place.value.type, place.wanted):
             name, help_ = _problem(program.vocabulary, place)
+            has = "this number has no unit" if name == "missing-unit" else f"this is {describe(place.value.type)}"
             yield Diagnostic(
                 name,
                 place.value.span,
-                f"this is {describe(place.value.type)}, where {describe(place.wanted)} is expected {place.by}",
+                f"{has}, where {describe(place.wanted)} is expected {place.by}",
                 help=help_,
                 labels=(Label(place.cause, "declared here"),) if place.cause else (),
             )
@@ -49,7 +50,7 @@ def _problem(vocabulary: Vocabulary, place: Place) -> tuple[str, str]:
     given, wanted, meaning = place.value.type, place.wanted, place.value.meaning
     match wanted, given, meaning:
         case Measure(dimension=dimension), _, Literal(value=number) if given in (INT, Measure(NUMBER)):
-            return "missing-unit", f"add a unit: `{number} {units_of(dimension)[0]}`"
+            return "missing-unit", f"write it with its unit: `{number} {units_of(dimension)[0]}`"
         case Measure(dimension=dimension), Measure(), _:
             return "wrong-dimension", f"write it in {' or '.join(units_of(dimension)) or 'no unit'}"
         case Direction(), Direction(), _:

@@ -1,0 +1,38 @@
+"""A file with nothing in it but comments.
+
+Suspicious::
+
+    # skill Knock is still to be written
+
+Good::
+
+    skill Knock {
+        in   surface: Surface
+        post sensed surface.located == true
+    }
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from skillc_compiler.program import Program
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Span
+
+NAMES = ("empty-file",)
+_NOTHING = re.compile(r"(?:\s|#[^\n]*)*")
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a warning for each empty file."""
+    for unit in program.files:
+        if _NOTHING.fullmatch(unit.text):
+            yield Diagnostic(
+                "empty-file",
+                Span(unit.file.path, 1, 1, 1, 2),
+                "this file is empty: it declares nothing",
+                help="declare a skill, an implementation or a task in it, or take it away",
+                severity="warning",
+            )
