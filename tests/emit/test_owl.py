@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from itertools import combinations
 from pathlib import Path
 
 import msgspec
@@ -10,16 +11,18 @@ import owlrl
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from rdflib import OWL, RDF, RDFS, Graph, Literal, Namespace, URIRef
+from rdflib import OWL, RDF, RDFS, XSD, Graph, Literal, Namespace, URIRef
 
-from emit.samples import BASE, WIPE, implementation, library, wiping
+from accept import built, cases
+from emit.samples import BASE, WIPE, holds, implementation, library, need, wiping
 from skillc_compiler.emit import owl
 from skillc_compiler.emit.turtle import Iri, turtle
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_compiler.library.skills import Requirement, SkillLibrary
 
 SAMPLE = Namespace("https://w3id.org/skillc/library/sample#")
 SKILLC = Namespace("https://w3id.org/skillc/core#")
 SKIROS = Namespace("http://rvmi.aau.dk/ontologies/skiros.owl#")
+CSS = Namespace("http://www.w3id.org/hsu-aut/css#")
 CORE = Namespace(BASE)
 ERRORS = URIRef("http://www.daml.org/2002/03/agents/agent-ont#error")
 
@@ -30,9 +33,9 @@ def graph(made: SkillLibrary) -> Graph:
     return Graph().parse(data=owl.emit(made)["skills.ttl"], format="turtle")
 
 
-def two_ways() -> SkillLibrary:
+def two_ways(*own: Requirement) -> SkillLibrary:
     skill = msgspec.structs.replace(WIPE, implementations=("careful", "plain"))
-    careful = implementation(skill, "careful", arm="CompliantArm")
+    careful = implementation(skill, "careful", *own, arm="CompliantArm")
     return library(skill, implementations=(careful, implementation(skill, "plain")))
 
 
@@ -69,6 +72,55 @@ def test_a_description_has_its_parameters_and_conditions() -> None:
         Literal("!="),
         Literal("Fault"),
     )
+
+
+def test_values_are_typed_and_types_are_things() -> None:
+    made = graph(wiping())
+    limit, arm = SAMPLE["Pick.parameter.limit"], SAMPLE["Pick.parameter.arm"]
+    assert made.value(limit, SKILLC.defaultValue) == Literal(2.0, datatype=XSD.double)
+    assert (made.value(limit, SKILLC.parameterType), made.value(limit, SKILLC.unit)) == (SKILLC.Mass, Literal("kg"))
+    assert (SKILLC.Mass, RDF.type, SKILLC.Dimension) in made
+    assert made.value(arm, SKILLC.parameterType) == CORE["Arm"]
+    pick = SAMPLE["Pick"]
+    assert made.value(pick, SKILLC.duration) == Literal(15.0, datatype=XSD.double)
+    assert made.value(pick, SKILLC.durationUnit) == Literal("s")
+
+
+@pytest.mark.parametrize("name", [case.name for case in cases()])
+def test_every_parameter_type_is_a_named_thing_and_no_namespace_has_two_prefixes(name: str) -> None:
+    text = built(Path(__file__).parents[1] / "cases/build" / name)["skills.ttl"]
+    types = list(Graph().parse(data=text, format="turtle").objects(None, SKILLC.parameterType))
+    assert types and all(isinstance(each, URIRef) for each in types)
+    spaces = [line.split()[2] for line in text.splitlines() if line.startswith("@prefix")]
+    assert len(spaces) == len(set(spaces))
+
+
+def test_a_library_with_terms_of_its_own_has_one_prefix_for_them() -> None:
+    made = wiping()
+    words = msgspec.structs.replace(made.vocabulary, prefixes={"core": BASE, "sample": str(SAMPLE)})
+    text = owl.emit(msgspec.structs.replace(made, vocabulary=words))["skills.ttl"]
+    assert text.count(f"<{SAMPLE}>") == 1
+
+
+def test_it_agrees_with_the_axioms_of_capabilities_and_skills() -> None:
+    """The axioms are of https://github.com/CaSkade-Automation/CSS, version 3.0.0, services left out."""
+    made = graph(two_ways(need("free", holds("gripper contain tool"))))
+    assert (SAMPLE["Wipe"], CSS.isRestrictedBy, SAMPLE["Wipe.pre.on"]) in made
+    for skill, capability in list(made.subject_objects(SKILLC.implements)):
+        made.add((capability, CSS.isRealizedBySkill, skill))
+    for relation, domain, range_ in (
+        (CSS.isRealizedBySkill, CSS.Capability, CSS.Skill),
+        (CSS.isRestrictedBy, CSS.Capability, CSS.Constraint),
+    ):
+        made.add((relation, RDFS.domain, domain))
+        made.add((relation, RDFS.range, range_))
+    kinds = (CSS.Capability, CSS.Skill, CSS.SkillParameter)
+    for one, other in (*combinations(kinds, 2), (CSS.Constraint, CSS.Skill), (CSS.Constraint, CSS.SkillParameter)):
+        made.add((one, OWL.disjointWith, other))
+    owlrl.DeductiveClosure(owlrl.OWLRL_Semantics).expand(made)
+    assert (SAMPLE["Wipe"], RDF.type, CSS.Capability) in made
+    assert (SAMPLE["Wipe.careful"], RDF.type, CSS.Skill) in made
+    assert not list(made.subject_objects(ERRORS))
 
 
 def test_an_invocation_is_an_instance_of_the_implementations_that_fit_it() -> None:

@@ -15,11 +15,18 @@ from skillc_compiler.emit.owl_words import OWL, PREFIXES, RDFS, SKILLC, library_
 from skillc_compiler.emit.turtle import RDF_TYPE, Iri, Object, turtle
 from skillc_compiler.library.skills import SkillLibrary
 
+REPEATED = (
+    "Terms of other vocabularies are repeated here as far as these skills need them, so that this file can be read by "
+    "itself; what else is said of them stands where their namespaces are published."
+)
+
 
 def emit(library: SkillLibrary) -> dict[str, str]:
     """Return the ontology of the library's skills."""
     base = library_base(library)
-    prefixes = {**library.vocabulary.prefixes, **PREFIXES, "": base}
+    ours = {**PREFIXES, "": base}
+    theirs = {prefix: iri for prefix, iri in library.vocabulary.prefixes.items() if iri not in ours.values()}
+    prefixes = {**theirs, **ours}
     return {"skills.ttl": turtle(prefixes, _statements(library))}
 
 
@@ -27,6 +34,7 @@ def _statements(library: SkillLibrary) -> Iterator[tuple[str, str, Object]]:
     ontology = library_base(library).removesuffix("#")
     yield ontology, RDF_TYPE, Iri(f"{OWL}Ontology")
     yield ontology, f"{RDFS}label", library.name
+    yield ontology, f"{RDFS}comment", REPEATED
     yield ontology, f"{SKILLC}sha256", library.hash
     for skill in library.skills.values():
         yield from description(skill, library)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from skillc_compiler.emit.owl_values import type_statements, value
 from skillc_compiler.emit.owl_words import (
     ARGUMENT,
     CAPABILITY,
@@ -16,7 +17,6 @@ from skillc_compiler.emit.owl_words import (
     SKIROS,
     library_base,
 )
-from skillc_compiler.emit.phrases import expression_text
 from skillc_compiler.emit.turtle import RDF_TYPE, Anonymous, Iri, Listed, Object
 from skillc_compiler.library.conditions import (
     Compare,
@@ -32,8 +32,8 @@ from skillc_compiler.library.conditions import (
     Variable,
 )
 from skillc_compiler.library.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
-from skillc_compiler.library.vocabulary import ClassType, Position
-from skillc_compiler.library.words import type_text
+from skillc_compiler.library.vocabulary import ClassType, NumberType, Position
+from skillc_compiler.library.words import SI_UNITS
 
 Statement = tuple[str, str, Object]
 KINDS = {"pre": "PreCondition", "hold": "HoldCondition", "post": "PostCondition"}
@@ -47,7 +47,8 @@ def description(skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
     yield iri, f"{RDFS}subClassOf", Iri(CAPABILITY)
     yield from _named(iri, skill.name, skill.doc, skill.source)
     if skill.duration:
-        yield iri, f"{SKILLC}duration", expression_text(skill.duration, library.vocabulary)
+        yield iri, f"{SKILLC}duration", value(skill.duration, NumberType("Time"), library.vocabulary)
+        yield iri, f"{SKILLC}durationUnit", SI_UNITS["Time"]
     for parameter in skill.parameters:
         yield from _parameter(iri, parameter, library)
     for kind, listed in (("pre", skill.pre), ("hold", skill.hold), ("post", skill.post)):
@@ -105,12 +106,9 @@ def _parameter(skill: str, parameter: Parameter, library: SkillLibrary) -> Itera
     yield iri, RDF_TYPE, Iri(f"{CSS}{'OutputParameter' if parameter.direction == 'out' else 'InputParameter'}")
     yield from _named(iri, parameter.name, parameter.doc, parameter.source)
     yield iri, f"{SKILLC}direction", parameter.direction
-    type_: Object = type_text(parameter.type, library.vocabulary)
-    if isinstance(parameter.type, ClassType):
-        type_ = Iri(parameter.type.iri)
-    yield iri, f"{SKILLC}parameterType", type_
+    yield from type_statements(iri, parameter.type)
     if parameter.default is not None:
-        yield iri, f"{SKILLC}defaultValue", expression_text(parameter.default, library.vocabulary)
+        yield iri, f"{SKILLC}defaultValue", value(parameter.default, parameter.type, library.vocabulary)
     for name, bound in (("leastValue", parameter.low), ("greatestValue", parameter.high)):
         if bound is not None:
             yield iri, f"{SKILLC}{name}", float(bound)
@@ -130,7 +128,8 @@ def _condition(
     """Yield a condition of a description, or of an implementation of the description `described`."""
     iri = f"{owner}.{kind}.{requirement.label}"
     yield owner, f"{SKIROS}has{KINDS[kind]}", Iri(iri)
-    yield owner, f"{CSS}isRestrictedBy", Iri(iri)
+    if not described:
+        yield owner, f"{CSS}isRestrictedBy", Iri(iri)
     yield iri, RDF_TYPE, Iri(f"{SKILLC if kind == 'hold' else SKIROS}{KINDS[kind]}")
     yield iri, RDF_TYPE, Iri(f"{CSS}Constraint")
     yield from _named(iri, requirement.label, "", requirement.source)
@@ -138,7 +137,7 @@ def _condition(
     if isinstance(requirement, Post):
         yield iri, f"{SKILLC}sensed", requirement.sensed
     parameters = {each.name: f"{described or owner}.parameter.{each.name}" for each in skill.parameters}
-    yield from ((iri, predicate, value) for predicate, value in _literal(requirement.condition, parameters))
+    yield from ((iri, predicate, part) for predicate, part in _literal(requirement.condition, parameters))
 
 
 def _literal(condition: Condition, parameters: dict[str, str]) -> Iterator[tuple[str, Object]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.emit.owl_words import OWL, RDFS, XSD, frame, library_base
+from skillc_compiler.emit.owl_words import DATATYPES, OWL, RDFS, XSD, frame, library_base
 from skillc_compiler.emit.turtle import RDF_TYPE, Anonymous, Iri, Listed, Object
 from skillc_compiler.library.conditions import IsA
 from skillc_compiler.library.reading import terms_read, walk
@@ -28,7 +28,6 @@ FLAGS = {
     "asymmetric": "AsymmetricProperty",
     "irreflexive": "IrreflexiveProperty",
 }
-DATATYPES = {"Bool": f"{XSD}boolean", "Int": f"{XSD}integer", "Text": f"{XSD}string"}
 
 
 def used_terms(library: SkillLibrary) -> Iterator[Statement]:

@@ -1,4 +1,9 @@
-"""The words of the OWL output: namespaces and the frame every library stands in."""
+"""The words of the OWL output: namespaces and the frame every library stands in.
+
+Those in css: are of the Capability-Skill-Service ontology, https://github.com/CaSkade-Automation/CSS, version 3.0.0:
+a description is a capability restricted by constraints. An implementation is what they call a skill, so no constraint
+restricts it there; it is not said to be one, as reasoners lose a defined class that is also the object of a relation.
+"""
 
 from __future__ import annotations
 
@@ -15,19 +20,25 @@ SKIROS = "http://rvmi.aau.dk/ontologies/skiros.owl#"
 SKILLC = "https://w3id.org/skillc/core#"
 PREFIXES = {"owl": OWL, "rdfs": RDFS, "xsd": XSD, "css": CSS, "skiros": SKIROS, "skillc": SKILLC}
 
+DATATYPES = {"Bool": f"{XSD}boolean", "Int": f"{XSD}integer", "Text": f"{XSD}string"}
+
 INVOCATION = f"{SKILLC}Invocation"
 INVOKES = f"{SKILLC}invokes"
 ARGUMENT = f"{SKILLC}argument"
 CAPABILITY = f"{CSS}Capability"
+DIMENSION = f"{SKILLC}Dimension"
 
 CLASSES = (
     INVOCATION,
     CAPABILITY,
-    *(f"{CSS}{name}" for name in ("Constraint", "InputParameter", "OutputParameter")),
+    DIMENSION,
+    *(f"{CSS}{name}" for name in ("Constraint", "SkillParameter", "InputParameter", "OutputParameter")),
     *(f"{SKIROS}{name}" for name in ("Skill", "Parameter", "Condition", "PreCondition", "PostCondition")),
     f"{SKILLC}HoldCondition",
 )
 SUBCLASSES = (
+    (f"{CSS}InputParameter", f"{CSS}SkillParameter"),
+    (f"{CSS}OutputParameter", f"{CSS}SkillParameter"),
     (f"{SKIROS}PreCondition", f"{SKIROS}Condition"),
     (f"{SKIROS}PostCondition", f"{SKIROS}Condition"),
     (f"{SKILLC}HoldCondition", f"{SKIROS}Condition"),
@@ -41,8 +52,8 @@ RELATIONS = (
 )
 PROPERTIES = tuple(f"{SKILLC}{name}" for name in ("desiredState", "operator", "conditionText"))
 _NOTES = """
-    comparedValue conditionProperty conditionRelation definedAt defaultValue direction duration greatestValue implements
-    leastValue parameterType preference python rank sensed sha256
+    comparedValue conditionProperty conditionRelation definedAt defaultValue direction duration durationUnit
+    greatestValue implements isList leastValue parameterType preference python rank sensed sha256 unit
 """
 ANNOTATIONS = tuple(f"{SKILLC}{name}" for name in _NOTES.split())
 
