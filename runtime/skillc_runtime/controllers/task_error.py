@@ -47,8 +47,9 @@ class TaskError:
         self._measured[:] = measured
         np.dot(self._rows_in_base, self.axes, out=self._rows_in_frame)
         self._scaled *= self.held
-        _clamp(self._error_parts[0], CLAMP_M)
-        _clamp(self._error_parts[1], CLAMP_RAD)
+        if self.error.dot(self.error) > CLAMP_M**2:
+            _clamp(self._error_parts[0], CLAMP_M)
+            _clamp(self._error_parts[1], CLAMP_RAD)
 
 
 def _clamp(vector: Array, longest: float) -> None:

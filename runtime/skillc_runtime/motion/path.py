@@ -40,11 +40,10 @@ class Path:
         last = max(bisect_right(self.starts, time) - 1, 0)
         ended = last == 0 or time >= self.starts[last - 1] + self.segments[last - 1].duration
         if ended:
-            return _reference(self.corners[last], self._motion(last, time))
+            return self._moved_on(last, self.corners[last], self._motion(last, time))
         before, motion = self._motion(last - 1, time), self._motion(last, time)
-        corner = self.corners[last - 1]
-        turned = exp(before[0, 3:]) @ corner.rotation
-        return _reference(Pose(corner.position + before[0, :3], turned), _composed(before, motion))
+        start = self._moved_on(last - 1, self.corners[last - 1], before).pose
+        return self._moved_on(last, start, _composed(before, motion))
 
     def moved(self, frame: Pose) -> Path:
         """Return the same motion, given in `frame`, in the frame's parent."""
@@ -54,12 +53,12 @@ class Path:
     def _motion(self, index: int, time: float) -> Array:
         return self.segments[index].at(time - self.starts[index])
 
-
-def _reference(start: Pose, motion: Array) -> Reference:
-    """Return the reference for way, twist and acceleration (3, 6) since a pose."""
-    way = motion[0, 3:]
-    rotation = exp(way) @ start.rotation if way.any() else start.rotation
-    return Reference(Pose(start.position + motion[0, :3], rotation), motion[1], motion[2])
+    def _moved_on(self, index: int, start: Pose, motion: Array) -> Reference:
+        """Return the reference after the way of a segment from a pose, with twist and acceleration; motion (3, 6)."""
+        way, twist, acceleration = motion
+        turns = self.segments[index].turn.length > 0
+        rotation = exp(way[3:]) @ start.rotation if turns else start.rotation
+        return Reference(Pose(start.position + way[:3], rotation), twist, acceleration)
 
 
 def _composed(before: Array, motion: Array) -> Array:

@@ -48,7 +48,10 @@ class Segment:
 
     def at(self, time: float) -> Array:
         """Return way, twist and acceleration (3, 6), [linear; angular], `time` s after the start."""
-        return np.array((self.way.at(time), self.turn.at(time))).T @ self.axes
+        motion: Array = np.multiply.outer(self.way.at(time), self.axes[0])
+        if self.turn.length > 0:
+            motion += np.multiply.outer(self.turn.at(time), self.axes[1])
+        return motion
 
     def moved(self, frame: Pose) -> Segment:
         """Return the same motion, given in `frame`, in the frame's parent."""

@@ -6,6 +6,7 @@ from math import isfinite
 from typing import NoReturn
 
 from skillc_runtime.controllers.controller import ControlError
+from skillc_runtime.motion.pose import Array
 from skillc_runtime.robots.arm import Arm, ArmState, Command, JointPosition, Torque
 
 
@@ -13,14 +14,14 @@ class Guard:
     """Checks one arm, and keeps it where it was last known to be when a check fails."""
 
     def __init__(self, arm: Arm, state: ArmState) -> None:
-        self._arm = arm
-        self._q, self._bias = state.q.copy(), state.bias.copy()
+        self._arm, self._torque = arm, arm.interface == "torque"
+        self._holding = self._rest(state).copy()
 
     def check(self, state: ArmState) -> None:
         """Take in what the arm measures. ControlError when some of it is not a number; the arm is told to hold."""
         if not isfinite(state.q.dot(state.dq) + state.wrench.dot(state.wrench) + state.tool.position[0]):
             self._give_up("the arm reports something that is not a number")
-        self._q[:], self._bias[:] = state.q, state.bias
+        self._holding[:] = self._rest(state)
 
     def command(self, command: Command) -> None:
         """Tell the arm. ControlError when the command is not all numbers; the arm is told to hold instead."""
@@ -31,7 +32,11 @@ class Guard:
 
     def holding(self) -> Command:
         """Return what keeps the arm where it was last known to be."""
-        return Torque(self._bias.copy()) if self._arm.interface == "torque" else JointPosition(self._q.copy())
+        return Torque(self._holding.copy()) if self._torque else JointPosition(self._holding.copy())
+
+    def _rest(self, state: ArmState) -> Array:
+        """Return what a command to stay in a state consists of: the torques of the bias, or the joints."""
+        return state.bias if self._torque else state.q
 
     def _give_up(self, reason: str) -> NoReturn:
         self._arm.command(self.holding())
