@@ -10,13 +10,16 @@ from pathlib import Path
 
 import click
 
+SEED = 1
+"""With this seed both surfaces lie more than a centimetre away from where the world model believes."""
+
 TASKS = {"ur5e": "clean_whiteboard", "iiwa": "clean_table"}
 
 
 @click.command()
 @click.option("--robot", type=click.Choice([*TASKS, "all"]), default="all", show_default=True, help="Which robot.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="A folder for reports, events and films.")
-@click.option("--seed", default=0, show_default=True, help="How reality differs from the world model.")
+@click.option("--seed", default=SEED, show_default=True, help="How reality differs from the world model.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document: a list with one object a task.")
 def command(robot: str, out: Path | None, seed: int, as_json: bool) -> None:
     """Run the two shipped wiping tasks in simulation."""

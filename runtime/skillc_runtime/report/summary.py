@@ -15,9 +15,7 @@ from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import Execution
 from skillc_runtime.trace.events import Event, ImplementationChosen
 from skillc_runtime.trace.outcome import Outcome
-
-COMPLIANT_CONTROLLER = "http://rvmi.aau.dk/ontologies/skiros.owl#CompliantController"
-
+from skillc_runtime.world.terms import COMPLIANT_CONTROLLER
 
 ENDED: Mapping[Status, Literal["success", "failure", "halted"]] = {
     Status.SUCCESS: "success",

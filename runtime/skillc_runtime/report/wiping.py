@@ -12,9 +12,8 @@ from skillc_runtime.trace.events import ImplementationChosen
 from skillc_runtime.trace.outcome import Outcome
 from skillc_runtime.world.frames import size
 from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.terms import SURFACE, TOOL
 
-SKILLC = "https://w3id.org/skillc/core#"
-SURFACE, TOOL = SKILLC + "Surface", SKILLC + "Tool"
 PATH_SKILL, PUSH_SKILL = "FollowPath", "Push"
 """The standard skills between which a surface is wiped: a path is followed while the tool is pushed."""
 
