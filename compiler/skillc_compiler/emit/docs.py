@@ -7,12 +7,14 @@ from functools import cache
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 
 from skillc_compiler.emit.phrases import expression_text, literal_text
-from skillc_compiler.library.conditions import Literal
+from skillc_compiler.emit.quantities import quantity_texts
+from skillc_compiler.library.conditions import Expression, Literal
+from skillc_compiler.library.pddl.rewriting import constant
 from skillc_compiler.library.reading import walk
 from skillc_compiler.library.skills import Compound, Implementation, Parameter, Skill, SkillLibrary
 from skillc_compiler.library.tree import Call
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.library.words import quantity_text, type_text
+from skillc_compiler.library.words import type_text
 
 KINDS = {"in": "required", "opt": "optional", "infer": "inferred", "out": "output"}
 
@@ -41,21 +43,19 @@ def _page(skill: Skill, library: SkillLibrary) -> str:
 def _parameter(parameter: Parameter, vocabulary: Vocabulary) -> tuple[str, ...]:
     """Return the row of a parameter: name, kind, type, default, range, what it is."""
     kind = KINDS[parameter.direction] + (", any" if parameter.any_ else "")
-    default = "" if parameter.default is None else _default(parameter, vocabulary)
-    bounds = [None if each is None else quantity_text(each, parameter.type) for each in (parameter.low, parameter.high)]
-    range_ = "" if bounds == [None, None] else f"{bounds[0] or ''} .. {bounds[1] or ''}"
+    number = None if parameter.default is None else constant(parameter.default)
+    default, low, high = quantity_texts((number, parameter.low, parameter.high), parameter.type)
+    if parameter.default is not None and number is None:
+        default = _default(parameter.default, vocabulary)
+    range_ = f"{low} .. {high}" if low or high else ""
     row = (parameter.name, kind, type_text(parameter.type, vocabulary), default, range_, parameter.doc)
     return tuple(each.replace("|", "\\|").replace("\n", " ") for each in row)
 
 
-def _default(parameter: Parameter, vocabulary: Vocabulary) -> str:
-    match parameter.default:
-        case Literal(value=bool() | str() as value):
-            return literal_text(value)
+def _default(default: Expression, vocabulary: Vocabulary) -> str:
+    match default:
         case Literal(value=value):
-            return quantity_text(float(value), parameter.type)
-        case None:
-            return ""
+            return literal_text(value)
         case expression:
             return expression_text(expression, vocabulary)
 
