@@ -347,3 +347,27 @@ def test_torques_never_change_faster_than_stated():
     bench.run(1.0)
     assert len(changes) == 1000
     assert np.abs(np.diff(changes, axis=0)).max() <= GAINS["iiwa14"].law.torque_rate * 0.001 + 1e-9
+
+
+def test_an_arm_is_at_rest_once_it_neither_moves_nor_pushes(robot):
+    bench, normal = pushing(robot)
+    driver = bench.driver
+    assert not driver.at_rest
+    driver.push_off()
+    assert not driver.at_rest
+    driver.restore()
+    bench.run(1.5)
+    assert driver.at_rest
+    start = driver.anchor
+    driver.move_along(path([start, Pose(start.position + 0.02 * normal, start.rotation)], LIMITS))
+    bench.run(0.1)
+    assert not driver.at_rest
+    bench.until_done()
+    bench.run(0.5)
+    assert driver.at_rest
+    handle = driver.add_overlay(Circle(0.01, 1.0), np.eye(3), 0.2)
+    bench.run(0.1)
+    assert not driver.at_rest
+    driver.remove_overlay(handle)
+    bench.run(1.0)
+    assert driver.at_rest

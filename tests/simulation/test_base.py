@@ -67,6 +67,36 @@ def test_a_stopped_base_brakes_and_is_not_done() -> None:
     assert not base.done
 
 
+def moving(base: SimulatedBase, seconds: float) -> list[float]:
+    """Step a base and return its distance from the origin along x after every step."""
+    rows = []
+    for _ in range(round(seconds / 0.001)):
+        base.step(0.001)
+        rows.append(float(base.pose.position[0]))
+    return rows
+
+
+@pytest.mark.parametrize("seconds", [0.2, 1.5])
+@pytest.mark.parametrize("stops_first", [True, False])
+def test_a_goal_given_while_the_base_moves_makes_it_brake_first(seconds: float, stops_first: bool) -> None:
+    there = cell("ur5e_whiteboard")
+    base, facts = there.base(HERON), base_facts(there)
+    base.drive_to(Pose.of((2.0, 0.0, 0.0)))
+    way = moving(base, seconds)
+    assert not base.at_rest
+    if stops_first:
+        base.stop()
+        way += moving(base, 0.05)
+    base.drive_to(Pose.of((0.3, 0.0, 0.0)))
+    way += moving(base, 20.0)
+    assert base.done
+    assert base.at_rest
+    assert way[-1] == pytest.approx(0.3, abs=1e-3)
+    speed = np.diff(way) / 0.001
+    assert speed.max() > 0.5 * facts.acceleration * seconds or speed.max() == pytest.approx(facts.speed, rel=0.01)
+    assert np.abs(np.diff(speed)).max() / 0.001 <= facts.acceleration * 1.05
+
+
 def test_the_arm_rides_along_in_its_posture() -> None:
     there = cell("ur5e_whiteboard")
     arm, before = there.arm(ARM["ur5e_whiteboard"]), there.arm(ARM["ur5e_whiteboard"]).q

@@ -19,7 +19,8 @@ class Guard:
 
     def check(self, state: ArmState) -> None:
         """Take in what the arm measures. ControlError when some of it is not a number; the arm is told to hold."""
-        if not isfinite(state.q.dot(state.dq) + state.wrench.dot(state.wrench) + state.tool.position[0]):
+        q, dq, wrench = state.q, state.dq, state.wrench
+        if not isfinite(q.dot(q) + dq.dot(dq) + wrench.dot(wrench) + state.tool.position[0]):
             self._give_up("the arm reports something that is not a number")
         self._holding[:] = self._rest(state)
 
