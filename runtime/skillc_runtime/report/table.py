@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rich.console import Group, RenderableType
+from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
@@ -27,17 +28,22 @@ def render(result: TaskResult) -> RenderableType:
     return Group(*parts, "")
 
 
-def _plan(result: TaskResult) -> Table:
-    table = Table(box=None, pad_edge=False, header_style="dim")
-    for heading in ("step", "", "implementation", "arguments", "why"):
-        table.add_column(heading, overflow="fold")
+def _plan(result: TaskResult) -> RenderableType:
+    """Return each step with what became of it, how it was done and why so, and below it its arguments."""
+    lines: list[RenderableType] = []
     for number, step in enumerate(result.plan, 1):
-        arguments = "\n".join(f"{name}: {value}" for name, value in step.arguments.items())
-        why = reason_of(step.rejected) if step.implementation else "did not start"
-        table.add_row(f"{number} {step.skill}", step.status, step.implementation, arguments, why)
-    for choice in result.choices:
-        table.add_row(f"  {choice.skill}", "", choice.implementation, "", reason_of(choice.rejected))
-    return table
+        arguments = ", ".join(f"{name}: {value}" for name, value in step.arguments.items())
+        how = _how(step.implementation, step.rejected) if step.implementation else "did not start"
+        lines += [
+            Text.assemble(f"{number} {step.skill:<16}", (f"{step.status:<9}", STYLES.get(step.status, "")), how),
+            Padding(Text(arguments, style="dim"), (0, 0, 0, 4)),
+        ]
+    lines += [Text(f"  {each.skill:<25}{_how(each.implementation, each.rejected)}") for each in result.choices]
+    return Group(*lines)
+
+
+def _how(implementation: str, rejected: Sequence[Rejected]) -> str:
+    return f"{implementation}: {reason_of(rejected)}"
 
 
 def reason_of(rejected: Sequence[Rejected]) -> str:
