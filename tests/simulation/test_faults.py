@@ -43,6 +43,24 @@ def test_an_arm_that_reports_no_numbers_is_broken_once(scene: str) -> None:
     assert [event.origin for event in found] == ["the arm reports something that is not a number"]
 
 
+@pytest.mark.parametrize("scene", SCENES)
+def test_after_bad_numbers_a_yielding_arm_can_still_be_made_stiff(scene: str) -> None:
+    there = cell(scene)
+    arm, link = there.arm(ARM[scene]), there.arms[ARM[scene]]._link_position
+    arm.release(arm.pose.rotation[:, 2])
+    there.advance(0.1)
+    before = arm.pose.position
+    link[:] = np.nan
+    with pytest.raises(ControlError, match="not a number"):
+        there.advance(0.001)
+    arm.push_off()
+    arm.restore()
+    mujoco.mj_forward(there.model, there.data)
+    there.advance(0.5)
+    assert np.abs(arm.pose.position - before).max() < 1e-3
+    assert arm.commanded_stiffness.all()
+
+
 def test_a_blocked_arm_is_broken_and_a_new_cell_starts_afresh() -> None:
     scene = "ur5e_whiteboard"
     there = cell(scene)

@@ -79,7 +79,7 @@ class Impedance:
 
     @property
     def tool(self) -> Pose:
-        """The measured tool centre point in base."""
+        """The measured tool centre point in base, changing with every command."""
         return self._tool
 
     @property
@@ -89,7 +89,7 @@ class Impedance:
 
     def reset(self, state: ArmState, q: Array) -> None:
         """Start from rest; `q` becomes the rest posture."""
-        self._tool = Pose(state.tool.position.copy(), state.tool.rotation.copy())
+        self._see(state)
         self._age = INERTIA_PERIOD_S
         self._damping.value[:] = self._floor
         if self._nullspace:
@@ -98,7 +98,7 @@ class Impedance:
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Torque:
         """Return the joint torques."""
         task = self._task
-        self._tool = state.tool
+        self._see(state)
         task.update(state.tool, reference, compliance, np.dot(state.jacobian, state.dq, out=self._velocity))
         self._renew(state, compliance, period)
         self._exert(compliance)
@@ -109,6 +109,10 @@ class Impedance:
         if self._nullspace:
             self._tau += self._nullspace.torque(state)
         return Torque(self._limit.step(self._tau, state, period))
+
+    def _see(self, state: ArmState) -> None:
+        """Keep where the tool is; the state may be the arm's own and turn to nonsense."""
+        self._tool.position[:], self._tool.rotation[:] = state.tool.position, state.tool.rotation
 
     def _exert(self, compliance: Compliance) -> None:
         """Compute W - K sat(e) - D (J_C dq - nu_d)."""

@@ -60,10 +60,8 @@ class SimulatedArm:
         self._hand = Hand()
         self._here = _blank(count, self._hand.tool)
         self._state = _read_only(self._here)
-        self._jacobian_halves, self._wrench_halves = (
-            self._here.jacobian.reshape(2, 3, count),
-            self._here.wrench.reshape(2, 3),
-        )
+        self._jacobian_halves = self._here.jacobian.reshape(2, 3, count)
+        self._wrench_halves = self._here.wrench.reshape(2, 3)
         self._full_mass, self._next_mass_time = np.zeros((model.nv, model.nv)), 0.0
         self._weight, self._load, self._carrying = np.zeros(3), np.zeros(6), np.zeros(count)
         self._lift, self._moment = self._load[:3], self._load[3:]
