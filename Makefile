@@ -49,9 +49,9 @@ clean:           ## remove the environment and all output
 	@touch $@
 
 .venv/.runtime: pyproject.toml constraints.txt .venv/.created
-	$(INSTALL) -e '.[planner,video]'
+	$(INSTALL) -e '.[planner,video,editor]'
 	@touch $@
 
 .venv/.dev: .venv/.runtime
-	$(INSTALL) -e '.[planner,video,dev]'
+	$(INSTALL) -e '.[planner,video,editor,dev]'
 	@touch $@
