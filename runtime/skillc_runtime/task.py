@@ -25,8 +25,8 @@ from skillc_runtime.world.state import WorldState
 TICK_S = 0.01
 """The tree ticks at 100 Hz of the cell's time, between ten control periods each."""
 
-SETTLE_S = 0.5
-"""After the end the arm still gets this long to come to rest and let go of what it pushed."""
+SETTLE_S = 5.0
+"""After the end everything that moves gets this long to come to rest and to let go of what it pushed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,10 +127,17 @@ def execute(
         else:
             _advance(cell, TICK_S, run)
             watch()
-    _advance(cell, SETTLE_S, run)
+    _settle(cell, run)
     for listener in listeners:
         listener(TaskEnded(time=cell.now, task=prepared.assignment.name, status=run.status.value, failure=run.failure))
     return Execution(prepared, run.status, run.failure, run.outcome, cell, perf_counter() - began)
+
+
+def _settle(cell: SimulatedCell, run: Run) -> None:
+    for _ in range(round(SETTLE_S / TICK_S)):
+        if cell.at_rest:
+            return
+        _advance(cell, TICK_S, run)
 
 
 def _advance(cell: SimulatedCell, seconds: float, run: Run) -> None:

@@ -88,6 +88,22 @@ def test_interrupted_while_wiping_it_lets_go_and_is_stiff_again(name: str) -> No
     assert at_rest(execution, ARMS[name])
 
 
+def test_interrupted_while_driving_the_base_comes_to_rest() -> None:
+    prepared, cell = start("clean_whiteboard", 0)
+    moving: list[bool] = []
+
+    def interrupted() -> bool:
+        if cell.now > 2.0:
+            moving.append(cell.at_rest)
+            return True
+        return False
+
+    execution = execute(prepared, library(), cell, interrupted=interrupted)
+    assert moving == [False]
+    assert execution.status is Status.HALTED
+    assert cell.at_rest
+
+
 def test_the_same_seed_gives_the_same_run() -> None:
     recordings = []
     for _ in range(2):

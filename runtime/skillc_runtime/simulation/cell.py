@@ -63,6 +63,11 @@ class SimulatedCell:
         return float(self.data.time)
 
     @property
+    def at_rest(self) -> bool:
+        """Whether nothing moves or pushes any more."""
+        return all(device.at_rest for device in (*self._drivers.values(), *self._bases.values()))
+
+    @property
     def period_s(self) -> float:
         """The control period."""
         return self._timestep * self._steps_per_command
