@@ -23,11 +23,16 @@ class Label:
 
 @dataclass(frozen=True, slots=True)
 class Fix:
-    """An edit that cures the problem: put `text` where `span` is."""
+    """An edit that cures the problem: put `text` where `span` is; `message` says what it does, `write `..``.
+
+    `safe` if nobody who sees the problem could mean something else, so that `check --fix` may apply it unasked; a guess
+    at a name or a deletion of what was written is not.
+    """
 
     span: Span
     text: str
     message: str
+    safe: bool = True
 
 
 @dataclass(frozen=True, slots=True)

@@ -107,7 +107,7 @@ def _keyword(fault: Fault) -> Iterator[Repair]:
     keywords = {words()[t]: t for t in fitting(fault.states) if words().get(t, "").isalpha()}
     for near in difflib.get_close_matches(fault.token, sorted(keywords), n=3, cutoff=0.7):
         if fault.mended_by(keywords[near]):
-            fix = Fix(fault.span, near, f"write `{near}`")
+            fix = Fix(fault.span, near, f"write `{near}`", safe=False)
             message = f"there is no keyword `{fault.token}` that fits here"
             problem = Diagnostic("syntax", fault.span, message, f"did you mean `{near}`?", fix=fix)
             yield Repair(problem, (joined(keywords[near], fault.token, fault.token, near),))
@@ -135,5 +135,5 @@ def _missing(fault: Fault) -> Iterator[Repair]:
 def _superfluous(fault: Fault) -> Iterator[Repair]:
     """A mark or a word too many on its line."""
     if fault.token.type not in _KEPT and not first_on_line(fault.tokens, fault.index) and fault.mended_by():
-        fix = Fix(fault.span, "", "delete it")
+        fix = Fix(fault.span, "", "delete it", safe=False)
         yield Repair(Diagnostic("syntax", fault.span, f"`{fault.token}` is one too many here", fix=fix), ())

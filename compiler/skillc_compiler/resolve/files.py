@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import posixpath
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from skillc_compiler.program import ReadFile
 from skillc_compiler.resolve.near import correction
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
 from skillc_dsl.parser import parse
 from skillc_dsl.source import Source
 
@@ -77,7 +77,7 @@ class _Reader:
                 line.path.span,
                 f'there is no file "{wrong}" in this library or in `std`',
                 help=did_you_mean(wrong, candidates),
-                fix=near and Fix(near.span, f'"{near.text}"', near.message),
+                fix=near and replace(near, text=f'"{near.text}"'),
             )
         )
         return self._find(file.path, near.text, library) if near else None

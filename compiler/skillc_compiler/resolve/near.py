@@ -14,4 +14,4 @@ def correction(wrong: s.Name, candidates: Iterable[str]) -> Fix | None:
     near = difflib.get_close_matches(wrong.text, sorted(set(candidates)), n=2, cutoff=0.75)
     if len(near) != 1:
         return None
-    return Fix(wrong.span, near[0], f"write `{near[0]}`")
+    return Fix(wrong.span, near[0], f"write `{near[0]}`", safe=False)
