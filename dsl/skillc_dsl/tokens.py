@@ -1,0 +1,87 @@
+"""The tokens of the language in one table, which the grammar and every highlighter are tested against."""
+
+from __future__ import annotations
+
+import re
+from types import MappingProxyType
+from typing import Literal, TypeAlias
+
+from skillc_dsl.units import DIMENSIONS, UNITS
+
+Group: TypeAlias = Literal["declaration", "member", "flag", "trait", "step", "property", "logic", "constant"]
+TokenKind: TypeAlias = Literal[
+    "documentation",
+    "comment",
+    "text",
+    "address",
+    "label",
+    "qualified name",
+    "quantity",
+    "number",
+    "name",
+    "operator",
+    "punctuation",
+]
+
+KEYWORDS: MappingProxyType[Group, tuple[str, ...]] = MappingProxyType(
+    {
+        "declaration": (
+            *("use", "prefix", "import", "class", "disjoint", "relation", "property", "function"),
+            *("skill", "impl", "of", "task"),
+        ),
+        "member": (
+            *("in", "opt", "infer", "any", "out", "range", "refine", "pre", "hold", "post", "sensed", "duration"),
+            *("uses", "shares", "let", "prefer", "run", "python", "do", "scene", "goal", "verify"),
+        ),
+        "flag": ("scoped", "noplan", "fallback"),
+        "trait": ("functional", "symmetric", "transitive", "inverse", "sub"),
+        "step": (
+            *("seq", "sel", "reactive", "par", "all", "race", "lead", "try", "invert", "once", "retry", "repeat"),
+            *("timeout", "wait", "until", "if", "else", "while", "max", "for", "check", "apply", "with"),
+        ),
+        "property": ("never", "outside", "before", "after", "eventually"),
+        "logic": ("implies", "or", "and", "not", "exists", "forall", "has", "is", "given"),
+        "constant": ("true", "false", "_"),
+    }
+)
+"""Every keyword, by what it is for. `any` is also a step's word, in `par any`."""
+
+NAMES_ELSEWHERE: frozenset[str] = frozenset(
+    (
+        *("use", "prefix", "import", "disjoint", "of", "any", "range", "sensed", "duration", "prefer", "python"),
+        *("scene", "goal", *KEYWORDS["flag"], *KEYWORDS["trait"], *KEYWORDS["property"]),
+        *("all", "race", "lead", "invert", "once", "retry", "repeat", "timeout", "wait", "until", "max", "check"),
+    )
+)
+"""Keywords that are legal names wherever they cannot stand as keywords."""
+
+TYPES = (*(name for name in DIMENSIONS if name != "Number"), "Bool", "Int", "Number", "Text", "Pose", "Vector")
+"""The types that are no classes of an ontology."""
+
+NAME = r"[^\W\d]\w*"
+NUMBER = r"\d+(\.\d+)?([eE][+-]?\d+)?"
+UNIT = "|".join(re.escape(unit) for unit in sorted(UNITS, key=lambda unit: (-len(unit), unit)))
+OPERATORS = ("->", "..", "==", "!=", "<=", ">=", "=", "<", ">", "+", "-", "*", "/", ".")
+PUNCTUATION = ("{", "}", "(", ")", "[", "]", ",", ":")
+
+PATTERNS: MappingProxyType[TokenKind, str] = MappingProxyType(
+    {
+        "documentation": r"##[^\n]*",
+        "comment": r"#[^\n]*",
+        "text": r'"[^"\n]*"',
+        "address": r"<[^<>\s]*>",
+        "label": rf"{NAME}:(?=\s|$)",
+        "qualified name": rf"{NAME}:[^\W\d][\w-]*",
+        "quantity": rf"{NUMBER}[ \t]*({UNIT})(?!\w)",
+        "number": NUMBER,
+        "name": NAME,
+        "operator": "|".join(re.escape(operator) for operator in OPERATORS),
+        "punctuation": "|".join(re.escape(mark) for mark in PUNCTUATION),
+    }
+)
+"""Each kind of token with its regular expression; where several match, the first one wins. Keywords are names here."""
+
+
+def group_of(word: str) -> Group | None:
+    """Return what a keyword is for, None for a word that is none."""
+    return next((group for group, words in KEYWORDS.items() if word in words), None)
