@@ -11,10 +11,12 @@ from skillc_compiler.followers import without_followers
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.lower.library import lower
-from skillc_compiler.resolve.files import read
+from skillc_compiler.program import Program
+from skillc_compiler.resolve.files import Parse, read
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve
-from skillc_dsl.diagnostics import Outcome
+from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.parser import parse
 from skillc_dsl.source import Source
 
 NO_SCENES: Mapping[str, Individuals] = MappingProxyType({})
@@ -34,12 +36,29 @@ def compile(
     The result holds everything in which no error was found; diagnostics are in the order of the files and lines, those
     of the shelf only where they are errors.
     """
-    files = read(sources, shelf, name)
+    program = understand(sources, vocabulary, shelf, name, scenes)
+    return Outcome(lower(program.value, program.diagnostics), told(program.diagnostics, sources))
+
+
+def understand(
+    sources: Sequence[Source],
+    vocabulary: Vocabulary,
+    shelf: Mapping[str, Source],
+    name: str,
+    scenes: Mapping[str, Individuals] = NO_SCENES,
+    parsed_by: Parse = parse,
+) -> Outcome[Program]:
+    """Read, resolve and check a library as `compile` does; `parsed_by` may remember what it parsed before."""
+    files = read(sources, shelf, name, parsed_by)
     program = resolve(files.value, vocabulary, name, scenes)
     found = (*program.diagnostics, *check(program.value))
     own_faults = without_followers(found, files.diagnostics, files.value)
     problems = (*files.diagnostics, *without_consequences(own_faults, (*files.diagnostics, *found), files.value))
-    library = lower(program.value, problems)
+    return Outcome(program.value, problems)
+
+
+def told(problems: Sequence[Diagnostic], sources: Sequence[Source]) -> tuple[Diagnostic, ...]:
+    """Return the problems that the author of `sources` is told, in order of place: others' only where they are errors."""
     own = {source.path for source in sources}
-    told = {problem for problem in problems if problem.severity == "error" or problem.span.path in own}
-    return Outcome(library, tuple(sorted(told, key=lambda d: (d.span, d.name))))
+    chosen = {problem for problem in problems if problem.severity == "error" or problem.span.path in own}
+    return tuple(sorted(chosen, key=lambda problem: (problem.span, problem.name)))

@@ -14,14 +14,17 @@ from skillc_dsl.parser import parse
 from skillc_dsl.source import Source
 
 SHELF = "std"
+Parse: TypeAlias = Callable[[Source], Outcome[s.File]]
 
 
-def read(sources: Sequence[Source], shelf: Mapping[str, Source], name: str) -> Outcome[tuple[ReadFile, ...]]:
+def read(
+    sources: Sequence[Source], shelf: Mapping[str, Source], name: str, parsed_by: Parse = parse
+) -> Outcome[tuple[ReadFile, ...]]:
     """Parse the sources and what they import; `shelf` is keyed by file name, `name` is the library's.
 
-    Files of the shelf belong to the library `std` if their path says so, else to this one.
+    Files of the shelf belong to the library `std` if their path says so, else to this one. `parsed_by` may remember.
     """
-    reader = _Reader({source.path: source for source in sources}, shelf, name)
+    reader = _Reader({source.path: source for source in sources}, shelf, name, parsed_by)
     for path in sorted(reader.own):
         reader.read(reader.own[path], name, ())
     return Outcome(tuple(reader.files.values()), tuple(reader.problems))
@@ -32,6 +35,7 @@ class _Reader:
     own: Mapping[str, Source]
     shelf: Mapping[str, Source]
     name: str
+    parse: Parse
     files: dict[str, ReadFile] = field(default_factory=dict)
     problems: list[Diagnostic] = field(default_factory=list)
 
@@ -39,7 +43,7 @@ class _Reader:
         """Read a file after the files it imports; `importing` are the files on the way here."""
         if source.path in self.files:
             return
-        parsed = parse(source)
+        parsed = self.parse(source)
         self.problems.extend(parsed.diagnostics)
         imports = tuple(self._imports(parsed.value, library, (*importing, source.path)))
         self.files[source.path] = ReadFile(parsed.value, library, source.text, imports)
