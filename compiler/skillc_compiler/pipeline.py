@@ -58,7 +58,7 @@ def understand(
 
 
 def told(problems: Sequence[Diagnostic], sources: Sequence[Source]) -> tuple[Diagnostic, ...]:
-    """Return the problems that the author of `sources` is told, in order of place: others' only where they are errors."""
+    """Return what the author of `sources` is told, in order of place: problems elsewhere only where they are errors."""
     own = {source.path for source in sources}
     chosen = {problem for problem in problems if problem.severity == "error" or problem.span.path in own}
     return tuple(sorted(chosen, key=lambda problem: (problem.span, problem.name)))
