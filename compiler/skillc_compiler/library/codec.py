@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import msgspec
 
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_compiler.library.skills import FORMAT, SkillLibrary
 
-FORMAT = 1
+AGAIN = "make it anew with `skillc compile`"
 
 
 class LibraryError(ValueError):
     """A text that is not a library this version can load; the message says where and what to do."""
+
+
+class _Head(msgspec.Struct):
+    """What every format of a library has."""
+
+    format: int
 
 
 def dumps(library: SkillLibrary) -> bytes:
@@ -21,11 +27,9 @@ def dumps(library: SkillLibrary) -> bytes:
 def loads(text: bytes, name: str) -> SkillLibrary:
     """Read a library. `name` is what an error calls the text; LibraryError for anything but a whole library."""
     try:
-        library = msgspec.json.decode(text, type=SkillLibrary)
+        found = msgspec.json.decode(text, type=_Head).format
+        if found != FORMAT:
+            raise LibraryError(f"{name} has format {found}, this skillc reads {FORMAT}; {AGAIN}")
+        return msgspec.json.decode(text, type=SkillLibrary)
     except msgspec.DecodeError as error:
-        raise LibraryError(f"{name} is not a compiled library ({error}); make it anew with `skillc compile`") from error
-    if library.format != FORMAT:
-        raise LibraryError(
-            f"{name} has format {library.format}, this skillc reads {FORMAT}; make it anew with `skillc compile`"
-        )
-    return library
+        raise LibraryError(f"{name} is not a compiled library ({error}); {AGAIN}") from error

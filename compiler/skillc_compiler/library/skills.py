@@ -11,6 +11,8 @@ from skillc_compiler.library.conditions import Condition, Effect, Expression
 from skillc_compiler.library.tree import Node
 from skillc_compiler.library.vocabulary import Position, ValueType, Vocabulary
 
+FORMAT = 2
+
 
 class Parameter(msgspec.Struct, frozen=True, kw_only=True):
     """A parameter; `low` and `high` bound a number in SI units; `any_` lets several inferred answers pass."""
@@ -123,11 +125,11 @@ class Task(msgspec.Struct, frozen=True, kw_only=True):
 class SkillLibrary(msgspec.Struct, frozen=True, kw_only=True):
     """A compiled library: what library.json holds and the only thing the runtime loads.
 
-    `implementations` is keyed `Skill.name`; `hash` is of the sources; `names` maps each PDDL name back to the IRI
-    or the skill it stands for.
+    `format` is raised with every change of what the JSON means; `implementations` is keyed `Skill.name`; `hash` is of
+    the sources; `names` maps each PDDL name back to the IRI or the skill it stands for.
     """
 
-    format: int = 1
+    format: int = FORMAT
     name: str
     hash: str
     vocabulary: Vocabulary

@@ -12,7 +12,8 @@ from skillc_runtime.trace.failure import Rejected
 class StepResult(msgspec.Struct, frozen=True, kw_only=True):
     """A step that was planned or asked for, with its arguments by parameter name and the line it comes from.
 
-    `implementation` is empty where the step never started; `rejected` are the implementations that were not taken.
+    `implementation` is empty where the step never started; `alternatives` counts the skill's other implementations,
+    of which `rejected` are those that did not fit.
     """
 
     skill: str
@@ -20,6 +21,7 @@ class StepResult(msgspec.Struct, frozen=True, kw_only=True):
     arguments: dict[str, str]
     source: str
     status: str
+    alternatives: int = 0
     rejected: tuple[Rejected, ...] = ()
 
 

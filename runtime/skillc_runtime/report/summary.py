@@ -75,6 +75,7 @@ def _step(call: Outcome, choice: ImplementationChosen | None, library: SkillLibr
         arguments={name: value for name, value in bindings.items() if name in objects},
         source=str(choice.source if choice else call.source),
         status=call.status,
+        alternatives=len(library.skills[skill].implementations) - 1,
         rejected=call.rejected,
     )
 

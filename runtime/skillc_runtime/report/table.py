@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from rich.console import Group, RenderableType
 from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from skillc_runtime.report.result import TaskResult, WipingResult
-from skillc_runtime.trace.failure import Rejected
+from skillc_runtime.report.result import ChoiceResult, StepResult, TaskResult, WipingResult
 
 STYLES = {"success": "bold green", "failure": "bold red", "refused": "bold red", "halted": "bold yellow"}
 
@@ -33,22 +30,20 @@ def _plan(result: TaskResult) -> RenderableType:
     lines: list[RenderableType] = []
     for number, step in enumerate(result.plan, 1):
         arguments = ", ".join(f"{name}: {value}" for name, value in step.arguments.items())
-        how = _how(step.implementation, step.rejected) if step.implementation else "did not start"
+        how = f"{step.implementation}: {reason_of(step)}" if step.implementation else "did not start"
         lines += [
             Text.assemble(f"{number} {step.skill:<16}", (f"{step.status:<9}", STYLES.get(step.status, "")), how),
             Padding(Text(arguments, style="dim"), (0, 0, 0, 4)),
         ]
-    lines += [Text(f"  {each.skill:<25}{_how(each.implementation, each.rejected)}") for each in result.choices]
+    lines += [Text(f"  {each.skill:<25}{each.implementation}: {reason_of(each)}") for each in result.choices]
     return Group(*lines)
 
 
-def _how(implementation: str, rejected: Sequence[Rejected]) -> str:
-    return f"{implementation}: {reason_of(rejected)}"
-
-
-def reason_of(rejected: Sequence[Rejected]) -> str:
+def reason_of(taken: StepResult | ChoiceResult) -> str:
     """Say why an implementation was taken, from those that were not."""
-    return "; ".join(f"not {each.implementation}: {each.reason}" for each in rejected) or "the first that fits"
+    if taken.rejected:
+        return "; ".join(f"not {each.implementation}: {each.reason}" for each in taken.rejected)
+    return "the only one" if isinstance(taken, StepResult) and not taken.alternatives else "the first that fits"
 
 
 def _numbers(result: TaskResult) -> Table:
