@@ -1,0 +1,65 @@
+"""The files of a new library, made from the templates beside this module and tried before they are written."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+import click
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from skillc_compiler import pipeline
+from skillc_dsl.source import Source
+from skillc_runtime.commands import _library
+
+TEMPLATES = Path(__file__).parent / "_templates"
+FILES = (
+    ("{name}.skill", "library.skill.j2"),
+    ("tasks.skill", "tasks.skill.j2"),
+    ("cell.ttl", "cell.ttl.j2"),
+    ("tests/test_{name}.py", "test_library.py.j2"),
+    (".github/workflows/check.yml", "check.yml.j2"),
+    ("README.md", "README.md.j2"),
+    (".gitignore", "gitignore.j2"),
+)
+NAME = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
+
+
+def library(name: str) -> dict[str, str]:
+    """Return the files of the library `name` by relative path; UsageError for a name that cannot be one."""
+    if not NAME.fullmatch(name):
+        near = re.sub(r"[^a-z0-9]+", "_", name.lower()).strip("_0123456789")
+        hint = f"; try `{near}`" if NAME.fullmatch(near) else ""
+        raise click.UsageError(
+            f"`{name}` is no name for a library: small letters, digits and `_`, a letter first{hint}"
+        )
+    environment = Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        undefined=StrictUndefined,
+        variable_start_string="<<",
+        variable_end_string=">>",
+        keep_trailing_newline=True,
+        autoescape=False,
+    )
+    values = {"name": name, "skill": "".join(part.capitalize() for part in name.split("_"))}
+    texts = {path.format(name=name): environment.get_template(file).render(values) for path, file in FILES}
+    _try(name, texts)
+    return texts
+
+
+def write(texts: Mapping[str, str], folder: Path) -> tuple[Path, ...]:
+    """Write the files into a new folder and return their paths; OSError when that cannot be done."""
+    folder.mkdir(parents=True)
+    for path, text in texts.items():
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_text(text, encoding="utf-8")
+    return tuple(folder / path for path in texts)
+
+
+def _try(name: str, texts: Mapping[str, str]) -> None:
+    """Compile the files; UsageError where the name means something else already."""
+    sources = [Source(path, text) for path, text in texts.items() if path.endswith(".skill")]
+    outcome = pipeline.compile(sources, _library.vocabulary(), _library.find(Path("std")).shelf, name)
+    if outcome.diagnostics:
+        raise click.UsageError(f"the library cannot be called `{name}`: {outcome.diagnostics[0].message}")
