@@ -21,15 +21,14 @@ EXPECTED = """\
 error[missing-space-after-colon]: a space is missing
   --> a.skill:2:5
    |
- 2 | \tin arm:Arm
-   | \t   ^^^^
-  --> a.skill:1:7
-   |
  1 | skill Pick {
-   |       ^^^^ in this skill
-  --> robot.ttl:12:1: the class
-   help: type one
-   fix: insert a space
+   |       ---- in this skill
+ 2 |     in arm:Arm
+   |        ^^^^
+  ::: robot.ttl:12:1: the class
+   = help: type one
+   = fix: insert a space (--fix does it)
+ + |     in arm: Arm
 """
 
 
@@ -53,17 +52,19 @@ def test_concise() -> None:
 
 
 def test_json() -> None:
+    place = {"path": "a.skill", "line": 2, "column": 5, "end_line": 2, "end_column": 9}
+    name = {"path": "a.skill", "line": 1, "column": 7, "end_line": 1, "end_column": 11}
+    term = {"path": "robot.ttl", "line": 12, "column": 1, "end_line": 12, "end_column": 4}
+    gap = {"path": "a.skill", "line": 2, "column": 9, "end_line": 2, "end_column": 9}
     assert standard_json.loads(json.render([PROBLEM], {})) == [
         {
             "name": "missing-space-after-colon",
             "severity": "error",
-            "path": "a.skill",
-            "line": 2,
-            "column": 5,
-            "end_line": 2,
-            "end_column": 9,
+            **place,
             "message": "a space is missing",
             "help": "type one",
+            "labels": [{**name, "message": "in this skill"}, {**term, "message": "the class"}],
+            "fix": {**gap, "text": " ", "message": "insert a space", "safe": True},
         }
     ]
 

@@ -2,68 +2,82 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+import textwrap
+from collections.abc import Iterable, Iterator, Mapping
 
-from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.diagnostics import Diagnostic, Fix
+from skillc_dsl.edits import applied
+from skillc_dsl.rendering.columns import lay_out, window
+from skillc_dsl.rendering.excerpt import Mark, Page, excerpt
+from skillc_dsl.rendering.paint import Paint
 from skillc_dsl.rendering.printable import printable
-from skillc_dsl.source import Source, Span
-
-_COLOURS = {"error": "31", "warning": "33", "place": "36", "label": "34", "help": "32"}
-_LONGEST = 160
+from skillc_dsl.source import Source
 
 
-@dataclass(frozen=True, slots=True)
-class _Paint:
-    """Puts text in a colour of the terminal, or leaves it plain."""
+def render(
+    diagnostics: Iterable[Diagnostic], sources: Mapping[str, Source], *, colour: bool = False, width: int | None = None
+) -> str:
+    """Return each diagnostic with the lines it speaks of; places whose source is not among `sources` are only named.
 
-    on: bool
-
-    def __call__(self, kind: str, text: str) -> str:
-        return f"\x1b[1;{_COLOURS[kind]}m{text}\x1b[0m" if self.on and text else text
-
-
-def render(diagnostics: Iterable[Diagnostic], sources: Mapping[str, Source], *, colour: bool = False) -> str:
-    """Return each diagnostic with the lines it speaks of; places whose source is not among `sources` are only named."""
-    paint = _Paint(colour)
-    return "\n".join("\n".join(_lines(diagnostic, sources, paint)) + "\n" for diagnostic in diagnostics)
+    `width` is that of the page in cells: messages are wrapped there and long lines of source cut around their marks.
+    Without, nothing is wrapped.
+    """
+    paint = Paint(colour)
+    return "\n".join("\n".join(_lines(each, sources, paint, width)) + "\n" for each in diagnostics)
 
 
-def _lines(diagnostic: Diagnostic, sources: Mapping[str, Source], paint: _Paint) -> list[str]:
-    """Return the lines of one diagnostic; a line of its file that is too long for a page is shown around the place."""
+def _lines(diagnostic: Diagnostic, sources: Mapping[str, Source], paint: Paint, width: int | None) -> Iterator[str]:
     severity = diagnostic.severity
-    marks = [(diagnostic.span, "", severity), *((label.span, label.message, "label") for label in diagnostic.labels)]
-    width = max(len(str(span.line)) for span, _, _ in marks)
-    lines = [f"{paint(severity, f'{severity}[{diagnostic.name}]')}: {printable(diagnostic.message)}"]
-    for span, message, kind in marks:
-        lines += _excerpt(span, message, kind, width, sources, paint)
-    if diagnostic.help:
-        lines.append(f"{' ' * width} {paint('help', 'help')}: {printable(diagnostic.help)}")
-    if diagnostic.fix:
-        lines.append(f"{' ' * width} {paint('help', 'fix')}: {printable(diagnostic.fix.message)}")
-    return lines
-
-
-def _excerpt(
-    span: Span, message: str, kind: str, width: int, sources: Mapping[str, Source], paint: _Paint
-) -> list[str]:
-    """Return the first line of `span` under its place, with carets below and `message` beside them."""
-    margin = " " * width
-    place = f"{margin}{paint('place', '-->')} {printable(span.path)}:{span.line}:{span.column}"
-    source = sources.get(span.path)
-    text = source.text.split("\n") if source else []
-    if span.line > len(text):
-        return [f"{place}: {printable(message)}" if message else place]
-    whole = printable(text[span.line - 1].rstrip("\r"))
-    end = span.end_column if span.end_line == span.line else len(whole) + 1
-    left = 0 if len(whole) <= _LONGEST else max(0, span.column - 1 - _LONGEST // 2)
-    line = whole[left : left + _LONGEST]
-    indent = "".join("\t" if character == "\t" else " " for character in line[: span.column - 1 - left])
-    carets = "^" * max(1, min(end, left + len(line) + 1) - span.column)
-    marked = paint(kind, carets + (f" {printable(message)}" if message else ""))
-    return [
-        place,
-        f"{margin} {paint('place', '|')}",
-        f"{span.line:>{width}} {paint('place', '|')} {line}",
-        f"{margin} {paint('place', '|')} {indent}{marked}",
+    marks = [
+        Mark(diagnostic.span, "", severity),
+        *(Mark(each.span, each.message, "label") for each in diagnostic.labels),
     ]
+    page = Page(paint, width, max(len(str(mark.span.line)) for mark in marks))
+    first, *rest = _wrapped(f"{severity}[{diagnostic.name}]: {printable(diagnostic.message)}", width, "  ")
+    head, colon, tail = first.partition(": ")
+    yield f"{paint(severity, head)}{colon}{tail}"
+    yield from rest
+    for number, path in enumerate(dict.fromkeys(mark.span.path for mark in marks)):
+        own = [mark for mark in marks if mark.span.path == path]
+        yield from excerpt(sources.get(path), own, ":::" if number else "-->", page)
+    if diagnostic.help:
+        yield from _note("help", diagnostic.help, page)
+    if diagnostic.fix:
+        yield from _fix(diagnostic, diagnostic.fix, sources, page)
+
+
+def _note(title: str, text: str, page: Page) -> Iterator[str]:
+    """Yield a line below an excerpt, wrapped under its own beginning."""
+    margin = " " * (page.digits + 1)
+    first, *rest = _wrapped(f"{margin}= {title}: {printable(text)}", page.width, f"{margin}{' ' * (len(title) + 4)}")
+    begin = len(f"{margin}= ")
+    yield f"{first[:begin]}{page.paint('help', first[begin : begin + len(title)])}{first[begin + len(title) :]}"
+    yield from rest
+
+
+def _fix(diagnostic: Diagnostic, fix: Fix, sources: Mapping[str, Source], page: Page) -> Iterator[str]:
+    """Yield what a fix does and, unless it is just another word at the place of the problem, the lines it writes."""
+    yield from _note("fix", f"{fix.message}{' (--fix does it)' if fix.safe else ''}", page)
+    source = sources.get(fix.span.path)
+    old = source.text.split("\n") if source else []
+    if source is None or fix.span == diagnostic.span or fix.span.end_line > len(old):
+        return
+    new = applied(source.text, [fix]).split("\n")
+    changed = new[fix.span.line - 1 : fix.span.line + fix.text.count("\n")]
+    for line in (each for each in changed if each.strip() and each not in old):
+        shown = window(lay_out(line), 0, 1, page.room)
+        yield f"{page.gutter('+')} {page.paint('help', shown.text)}"
+
+
+def _wrapped(text: str, width: int | None, indent: str) -> list[str]:
+    """Return text as lines of at most `width` cells, the later ones indented; words are never broken."""
+    lines = text.split("\n")
+    if width is None:
+        return [lines[0], *(f"{indent}{line}" for line in lines[1:])]
+    wrapped: list[str] = []
+    for line in lines:
+        first = indent if wrapped else ""
+        wrapped += textwrap.wrap(
+            line, width, initial_indent=first, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+        ) or [""]
+    return wrapped

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.rendering.printable import escaped
-from skillc_dsl.source import Source
+from skillc_dsl.source import Source, Span
 
 
 def render(diagnostics: Iterable[Diagnostic], sources: Mapping[str, Source]) -> str:
@@ -15,17 +15,25 @@ def render(diagnostics: Iterable[Diagnostic], sources: Mapping[str, Source]) -> 
     return escaped(json.dumps([as_data(diagnostic) for diagnostic in diagnostics], indent=2, ensure_ascii=False)) + "\n"
 
 
-def as_data(diagnostic: Diagnostic) -> dict[str, str | int]:
-    """Return the fields of one diagnostic that machines read."""
-    span = diagnostic.span
+def as_data(diagnostic: Diagnostic) -> dict[str, object]:
+    """Return the fields of one diagnostic that machines read; `fix` is null where there is none."""
+    fix = diagnostic.fix
     return {
         "name": diagnostic.name,
         "severity": diagnostic.severity,
+        **_place(diagnostic.span),
+        "message": diagnostic.message,
+        "help": diagnostic.help,
+        "labels": [{**_place(label.span), "message": label.message} for label in diagnostic.labels],
+        "fix": {**_place(fix.span), "text": fix.text, "message": fix.message, "safe": fix.safe} if fix else None,
+    }
+
+
+def _place(span: Span) -> dict[str, object]:
+    return {
         "path": span.path,
         "line": span.line,
         "column": span.column,
         "end_line": span.end_line,
         "end_column": span.end_column,
-        "message": diagnostic.message,
-        "help": diagnostic.help,
     }

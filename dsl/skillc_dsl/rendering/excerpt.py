@@ -1,0 +1,110 @@
+"""Lines of source with the places of a problem marked under them."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+from skillc_dsl.rendering.columns import Line, Window, lay_out, window
+from skillc_dsl.rendering.paint import Kind, Paint
+from skillc_dsl.rendering.printable import printable
+from skillc_dsl.source import Source, Span
+
+_WIDTH = 160
+"""Cells of a page without a width."""
+_NARROWEST = 24
+"""Cells that a message beside its carets needs at least; with fewer it goes below them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """A place to be underlined, with what is said about it."""
+
+    span: Span
+    message: str
+    kind: Kind
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """What excerpts are written on: colours, cells from edge to edge (None without end), digits of line numbers."""
+
+    paint: Paint
+    width: int | None
+    digits: int
+
+    def gutter(self, text: object = "") -> str:
+        """Return the left margin of a line, with its number or what stands for it."""
+        return f"{text:>{self.digits}} {self.paint('place', '|')}"
+
+    @property
+    def room(self) -> int:
+        """Cells right of the margin."""
+        return max((self.width or _WIDTH) - self.digits - 3, _NARROWEST)
+
+
+def excerpt(source: Source | None, marks: Sequence[Mark], arrow: str, page: Page) -> Iterator[str]:
+    """Yield the marked lines of one file below the place of the first mark, which alone is given without a source."""
+    first = marks[0].span
+    place = f"{' ' * page.digits}{page.paint('place', arrow)} {printable(first.path)}:{first.line}:{first.column}"
+    text = source.text.split("\n") if source else []
+    known = [mark for mark in marks if mark.span.line <= len(text)]
+    if not known:
+        yield place + (f": {printable(marks[0].message)}" if marks[0].message else "")
+        return
+    yield place
+    yield page.gutter()
+    yield from _lines(text, known, page)
+
+
+def _lines(text: Sequence[str], marks: Iterable[Mark], page: Page) -> Iterator[str]:
+    """Yield lines in their order; a single line left out between two is shown, more are dots."""
+    previous = 0
+    by_line = sorted(marks, key=lambda mark: mark.span.line)
+    for number, group in groupby(by_line, key=lambda mark: mark.span.line):
+        if previous and number - previous == 2:
+            yield from _line(text, number - 1, (), page)
+        elif previous and number - previous > 2:
+            yield page.paint("place", "...")
+        yield from _line(text, number, tuple(group), page)
+        previous = number
+
+
+def _line(text: Sequence[str], number: int, marks: Sequence[Mark], page: Page) -> Iterator[str]:
+    """Yield one line, cut around its first mark if it is too long, with a row below it for each mark."""
+    written = text[number - 1].rstrip("\r")
+    line = lay_out(written)
+    edges = [_edges(line, mark.span, len(written)) for mark in marks]
+    start, end = edges[0] if edges else (0, 0)
+    shown = window(line, start, end, page.room)
+    yield f"{page.gutter(number)} {shown.text}".rstrip()
+    for mark, (start, end) in zip(marks, edges, strict=True):
+        yield from _row(mark, start, end, shown, page)
+
+
+def _edges(line: Line, span: Span, length: int) -> tuple[int, int]:
+    """Return the cells where a mark begins and ends on its first line."""
+    end = span.end_column if span.end_line == span.line else length + 1
+    return line.edge(span.column), max(line.edge(end), line.edge(span.column) + 1)
+
+
+def _row(mark: Mark, start: int, end: int, shown: Window, page: Page) -> Iterator[str]:
+    """Yield the carets of a mark, with its message beside them or, where there is no room, below."""
+    indent = min(max(0, start - shown.shift), page.room - 1)
+    sign = "-" if mark.kind == "label" else "^"
+    carets = sign * max(1, min(end, shown.end) - shown.shift - indent)
+    message = printable(mark.message)
+    beside = page.room - indent - len(carets) - 1
+    if page.width is None or len(message) <= max(beside, 0):
+        rows = [" ".join(filter(None, (carets, message)))]
+    elif beside >= _NARROWEST:
+        first, *rest = textwrap.wrap(message, beside, break_long_words=False, break_on_hyphens=False)
+        rows = [f"{carets} {first}", *(f"{' ' * len(carets)} {row}" for row in rest)]
+    else:
+        yield f"{page.gutter()} {' ' * indent}{page.paint(mark.kind, carets)}"
+        indent = min(indent, max(0, page.room - max(len(message), 1)), page.room // 2)
+        rows = textwrap.wrap(message, page.room - indent, break_long_words=False, break_on_hyphens=False)
+    for row in rows:
+        yield f"{page.gutter()} {' ' * indent}{page.paint(mark.kind, row)}"

@@ -1,0 +1,19 @@
+"""Colours of a terminal, or none."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+Kind = Literal["error", "warning", "place", "label", "help"]
+_COLOURS: dict[Kind, str] = {"error": "31", "warning": "33", "place": "36", "label": "34", "help": "32"}
+
+
+@dataclass(frozen=True, slots=True)
+class Paint:
+    """Puts text in a colour of the terminal, or leaves it plain."""
+
+    on: bool
+
+    def __call__(self, kind: Kind, text: str) -> str:
+        return f"\x1b[1;{_COLOURS[kind]}m{text}\x1b[0m" if self.on and text else text
