@@ -1,0 +1,92 @@
+"""Cost of compiling a library of 10,000 lines, beside the bare parse of the same text by lark in the same process.
+
+The library is made of copies of the shipped one, whose skills, files and functions are renamed in each. Run it as
+`python benchmarks/compile.py [LINES]`; it prints the seconds of each stage and the ratio to the bare parse.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from time import process_time
+from typing import TypeVar
+
+from skillc_compiler.checks import checks
+from skillc_compiler.lower.library import lower
+from skillc_compiler.pipeline import compile
+from skillc_compiler.resolve.files import read
+from skillc_compiler.resolve.program import resolve
+from skillc_dsl.grammar import machine
+from skillc_dsl.source import Source
+from skillc_runtime.commands._library import SHIPPED, vocabulary
+
+Result = TypeVar("Result")
+_DECLARED = re.compile(r"^(?:skill|impl|task|function)\s+(\w+)", re.MULTILINE)
+
+
+def generated(lines: int) -> tuple[Source, ...]:
+    """Return a library of at least so many lines, made of renamed copies of the shipped one."""
+    files = {path.relative_to(SHIPPED).as_posix(): path.read_text("utf-8") for path in SHIPPED.glob("*/*.skill")}
+    each = sum(text.count("\n") for text in files.values())
+    return tuple(source for number in range(-(-lines // each)) for source in _copy(files, number))
+
+
+def _copy(files: Mapping[str, str], number: int) -> Iterator[Source]:
+    names = sorted({name for text in files.values() for name in _DECLARED.findall(text)})
+    declared = re.compile(rf"\b({'|'.join(names)})\b(?![\"/]|\.ttl)")
+    for path, text in sorted(files.items()):
+        renamed = re.sub(r'^import "(?:.*/)?(\w+)\.skill"', rf'import "\g<1>_{number}.skill"', text, flags=re.MULTILINE)
+        targets = re.sub(r'"[^"\n]*"|#.*|\b\w+\b', lambda word: _renamed(declared, word.group(), number), renamed)
+        stem = path.rpartition("/")[2].removesuffix(".skill")
+        yield Source(f"{stem}_{number}.skill", targets)
+
+
+def _renamed(declared: re.Pattern[str], word: str, number: int) -> str:
+    return f"{word}_{number}" if declared.fullmatch(word) else word
+
+
+def main() -> None:
+    """Print one line for each stage."""
+    sources = generated(int(sys.argv[1]) if len(sys.argv) > 1 else 10_000)
+    terms = vocabulary()
+    bare = min(_seconds(lambda: _parse(sources))[0] for _ in range(2))
+    lines = sum(source.text.count("\n") for source in sources)
+    print(f"{lines} lines in {len(sources)} files")
+    print(f"{'stage':28} {'seconds':>8} {'ratio':>6}")
+    print(f"{'lark parse alone':28} {bare:8.2f} {1.0:6.2f}")
+    whole, outcome = _seconds(lambda: compile(sources, terms, {}, "generated"))
+    for stage, seconds in (*_stages(sources), ("whole", whole)):
+        print(f"{stage:28} {seconds:8.2f} {seconds / bare:6.2f}")
+    for problem in outcome.diagnostics[:5]:
+        print(f"{problem.span.path}:{problem.span.line}: {problem.name}: {problem.message}", file=sys.stderr)
+
+
+def _stages(sources: Sequence[Source]) -> Iterator[tuple[str, float]]:
+    """Yield the seconds of each stage, one after the other, and of the checks that take longest."""
+    seconds, files = _seconds(lambda: read(sources, {}, "generated"))
+    yield "read", seconds
+    seconds, program = _seconds(lambda: resolve(files.value, vocabulary(), "generated", {}))
+    yield "resolve", seconds
+    found = [(_seconds(lambda one=one: list(one.check(program.value)))[0], one.__name__) for one in checks()]
+    yield "check", sum(seconds for seconds, _ in found)
+    for seconds, name in sorted(found, reverse=True)[:4]:
+        yield f"  {name.rpartition('.')[2]}", seconds
+    seconds, _ = _seconds(lambda: lower(program.value, ()))
+    yield "lower", seconds
+
+
+def _parse(sources: Sequence[Source]) -> None:
+    for source in sources:
+        machine().parse(source.text)
+
+
+def _seconds(work: Callable[[], Result]) -> tuple[float, Result]:
+    """Return the processor time of a call, with its result."""
+    start = process_time()
+    result = work()
+    return process_time() - start, result
+
+
+if __name__ == "__main__":
+    main()
