@@ -1,0 +1,28 @@
+"""Finds the line and column of an offset in a text."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+
+from skillc_compiler.turtle.problems import Place
+
+
+class Lines:
+    """Where the lines of a file begin."""
+
+    def __init__(self, path: str, text: str) -> None:
+        self.path = path
+        self._starts = [0, *(match.end() for match in re.finditer("\n", text))]
+
+    def place(self, start: int, end: int) -> Place:
+        """Return the stretch between two offsets."""
+        return Place(self.path, *self._position(start), *self._position(end))
+
+    def line(self, offset: int) -> int:
+        """Return the line of an offset."""
+        return bisect_right(self._starts, offset)
+
+    def _position(self, offset: int) -> tuple[int, int]:
+        line = self.line(offset)
+        return line, offset - self._starts[line - 1] + 1

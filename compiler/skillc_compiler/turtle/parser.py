@@ -1,0 +1,243 @@
+"""Turtle text to statements. After a mistake the reader goes on at the next `;` or `.` and tells further ones too."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+import pyoxigraph as ox
+
+from skillc_compiler.turtle import complaints
+from skillc_compiler.turtle.complaints import Complaint
+from skillc_compiler.turtle.cursor import Cursor, extent
+from skillc_compiler.turtle.naming import Found, Naming
+from skillc_compiler.turtle.statements import Extent, Node, Parsed, Statement
+from skillc_compiler.turtle.terms import RDF, RDF_TYPE, local_of, named
+from skillc_compiler.turtle.tokens import Token
+
+NOTHING_KNOWN: Mapping[str, str] = MappingProxyType({})
+DEEPEST = 100
+"""How deep brackets may be nested."""
+FIRST, REST, NIL = f"{RDF}first", f"{RDF}rest", f"{RDF}nil"
+
+
+def parse(path: str, text: str, base: str = "", known: Mapping[str, str] = NOTHING_KNOWN) -> Parsed:
+    """Read a Turtle text; relative IRIs are completed by `base`, `known` are the prefixes of the vocabularies."""
+    return _Parser(Cursor(path, text), base, known).document()
+
+
+class _Parser:
+    """Reads by recursive descent; a method takes the tokens of what it is called after."""
+
+    def __init__(self, cursor: Cursor, base: str, known: Mapping[str, str]) -> None:
+        self._cursor = cursor
+        self._naming = Naming(cursor, base, known)
+        self._statements: list[Statement] = []
+        self._depth = 0
+
+    def document(self) -> Parsed:
+        cursor = self._cursor
+        subject: Found = None, Extent(0, 0)
+        while not cursor.at_end:
+            if cursor.at_directive:
+                self._directive()
+                continue
+            if cursor.peek.is_mark(";,."):
+                cursor.complain(cursor.peek, complaints.no_subject(cursor.peek))
+                cursor.take()
+            else:
+                subject = self._subject()
+            self._pairs(*subject)
+            self._end()
+        problems = sorted((*cursor.problems, *self._naming.prefixes.problems()), key=lambda problem: problem.place)
+        prefixes = self._naming.prefixes.all()
+        return Parsed(tuple(self._statements), prefixes, tuple(problems), frozenset(self._naming.doubtful))
+
+    def _directive(self) -> None:
+        keyword = self._cursor.take()
+        word = keyword.text.removeprefix("@")
+        if word.lower() not in ("prefix", "base") or (keyword.kind == "at" and word != word.lower()):
+            self._not_understood(keyword, Complaint(f"there is no `{keyword.text}`", "there is `@prefix` and `@base`"))
+            return
+        name = self._cursor.take() if word.lower() == "prefix" else None
+        if name is not None and (name.kind != "name" or local_of(name)[1]):
+            self._not_understood(name, complaints.no_declaration(word.lower()))
+        elif self._cursor.peek.kind != "iri":
+            self._not_understood(self._cursor.peek, complaints.no_declaration(word.lower()))
+        else:
+            self._naming.declare(name, self._cursor.take())
+            self._end_directive(keyword)
+
+    def _end_directive(self, keyword: Token) -> None:
+        if keyword.kind == "at":
+            self._end()
+        elif self._cursor.peek.is_mark("."):
+            complaint = Complaint(f"`{keyword.text}` is not ended by a `.`", "delete the `.`")
+            self._cursor.complain(self._cursor.take(), complaint)
+
+    def _not_understood(self, token: Token, complaint: Complaint) -> None:
+        """Complain and go on behind the sentence."""
+        self._cursor.complain(token, complaint)
+        while not self._cursor.peek.is_mark(".") and not self._cursor.at_end:
+            self._naming.doubt(self._cursor.take())
+        self._cursor.take_mark(".")
+
+    def _end(self) -> None:
+        """Take the `.` of a sentence, or say that there is none; what else stands here is told as a sentence."""
+        if not self._cursor.take_mark(".") and not self._cursor.peek.is_mark(",;"):
+            self._cursor.put(".")
+            self._cursor.take()
+
+    def _subject(self) -> Found:
+        token = self._cursor.peek
+        if token.kind in ("iri", "name", "blank") or token.is_mark("(["):
+            return self._term()
+        complaint = complaints.no_term(token, self._cursor.names) or complaints.no_subject(token)
+        self._cursor.complain(token, complaint)
+        if not token.is_word("a"):
+            self._cursor.take()
+        return None, extent(token)
+
+    def _pairs(self, subject: Node | None, at: Extent) -> None:
+        """Read `predicate object, .. ; ..` up to a `.` or a `]`; what is broken is left out."""
+        cursor = self._cursor
+        if self._says_nothing(subject):
+            cursor.complain(cursor.before, complaints.nothing_said(cursor.before))
+        while not cursor.peek.is_mark(".])") and not cursor.at_end:
+            if cursor.take_mark(";"):
+                if cursor.at_typed_thing and not self._depth:
+                    cursor.replace_last(".", complaints.new_statement(cursor.peek))
+                continue
+            statements, told = len(self._statements), len(cursor.problems)
+            if not self._pair(subject, at):
+                self._leave_out(statements)
+            if len(cursor.problems) > told and isinstance(subject, ox.NamedNode):
+                self._naming.doubtful.add(subject.value)
+
+    def _says_nothing(self, subject: Node | None) -> bool:
+        """Whether a statement ends behind its subject; what is said within `[ ]` is enough."""
+        if self._cursor.before.is_mark("]") and self._cursor.peek.is_mark("."):
+            return False
+        return subject is not None and not self._cursor.peek.begins_term
+
+    def _pair(self, subject: Node | None, at: Extent) -> bool:
+        """Read a predicate and its objects; whether they were understood."""
+        cursor, written = self._cursor, self._cursor.peek
+        predicate = self._predicate()
+        while predicate is not None:
+            if not cursor.peek.begins_term or self._at_next_statement():
+                self._complain_no_object(written)
+                return False
+            object_, object_at = self._term(written)
+            if object_ is None:
+                return False
+            if subject is not None:
+                places = at, extent(written), object_at
+                self._statements.append(Statement(subject, predicate, object_, *places, cursor.lines))
+            if not cursor.take_mark(","):
+                return cursor.peek.is_mark(";.]") or self._mended()
+        return False
+
+    def _at_next_statement(self) -> bool:
+        """Whether a statement begins on a later line: the one before has lost its end."""
+        return not self._depth and self._cursor.at_typed_thing and self._cursor.at_new_line
+
+    def _complain_no_object(self, predicate: Token) -> None:
+        before = self._cursor.before
+        if before.is_mark(","):
+            self._cursor.complain(before, Complaint("after this `,` a value is missing", "write it, or delete the `,`"))
+        else:
+            self._cursor.complain(predicate, complaints.no_object(self._cursor.peek, predicate))
+
+    def _predicate(self) -> str | None:
+        token = self._cursor.take()
+        if token.is_word("a"):
+            return RDF_TYPE
+        if token.kind in ("iri", "name"):
+            return self._naming.iri(token)
+        self._cursor.complain(token, complaints.no_term(token, self._cursor.names) or complaints.no_predicate(token))
+        return None
+
+    def _mended(self) -> bool:
+        """Say what is wrong between an object and the next mark, and mend it; whether the objects before it count."""
+        token, before = self._cursor.peek, self._cursor.before
+        if token.is_mark(")"):
+            self._cursor.complain(self._cursor.take(), Complaint("this `)` closes nothing", "delete it"))
+        elif before.kind == "number" and token.is_unit:
+            self._cursor.complain(self._cursor.take(), complaints.number_with_unit(before, token))
+        else:
+            mark = self._missing()
+            self._cursor.put(mark)
+            return mark != ","
+        return self._cursor.peek.is_mark(";.],") or self._mended()
+
+    def _missing(self) -> str:
+        """Return the mark that is missing here, judged by how many terms come before the next one."""
+        if self._cursor.at_end or self._cursor.at_directive:
+            return "]" if self._depth else "."
+        count = self._cursor.terms_ahead(most=3)
+        if count == 3 and not self._depth:
+            return "."
+        return ";" if count >= 2 else ","
+
+    def _leave_out(self, count: int) -> None:
+        """Go on behind a pair that is broken, and forget its statements, from the number `count` on.
+
+        More may have been said of all that it names.
+        """
+        for statement in self._statements[count:]:
+            nodes = (statement.subject, statement.object)
+            self._naming.doubtful.update(node.value for node in nodes if isinstance(node, ox.NamedNode))
+        del self._statements[count:]
+        depth = 0
+        while not self._cursor.peek.is_mark(".") and not self._cursor.at_end:
+            if not depth and self._cursor.peek.is_mark(";]"):
+                return
+            if self._at_next_statement():
+                self._cursor.insert(".")
+                return
+            token = self._cursor.take()
+            depth += token.is_mark("[(") - (depth > 0 and token.is_mark("])"))
+            self._naming.doubt(token)
+
+    def _term(self, predicate: Token | None = None) -> Found:
+        token = self._cursor.take()
+        return (self._nested(token), extent(token)) if token.is_mark("[(") else self._naming.term(token, predicate)
+
+    def _nested(self, bracket: Token) -> Node | None:
+        """Read what stands in brackets; None where it goes too deep."""
+        if self._depth >= DEEPEST:
+            complaint = Complaint("brackets are nested too deeply", "give the things in them names")
+            self._cursor.complain(bracket, complaint)
+            return None
+        self._depth += 1
+        node = self._things(bracket) if bracket.text == "[" else self._list(bracket)
+        self._depth -= 1
+        return node
+
+    def _things(self, bracket: Token) -> ox.BlankNode:
+        node = ox.BlankNode()
+        if not self._cursor.peek.is_mark("]"):
+            self._pairs(node, extent(bracket))
+        self._close(bracket, "]")
+        return node
+
+    def _list(self, bracket: Token) -> Node:
+        members: list[tuple[Node, Extent]] = []
+        while self._cursor.peek.begins_term:
+            member, at = self._term()
+            if member is not None:
+                members.append((member, at))
+        self._close(bracket, ")")
+        opened, lines = extent(bracket), self._cursor.lines
+        rest: Node = named(NIL)
+        for member, at in reversed(members):
+            cell = ox.BlankNode()
+            self._statements.append(Statement(cell, FIRST, member, opened, opened, at, lines))
+            self._statements.append(Statement(cell, REST, rest, opened, opened, opened, lines))
+            rest = cell
+        return rest
+
+    def _close(self, bracket: Token, mark: str) -> None:
+        if not self._cursor.take_mark(mark):
+            self._cursor.complain(bracket, Complaint(f"the `{bracket.text}` that begins here has no `{mark}`"))

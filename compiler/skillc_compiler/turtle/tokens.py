@@ -1,0 +1,81 @@
+"""A Turtle text as tokens, each with its kind and its place; what is no token is one of its own kind.
+
+Turtle 1.1, section 6.5: https://www.w3.org/TR/turtle/#sec-grammar
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Literal, NamedTuple, TypeAlias, cast
+
+Kind: TypeAlias = Literal[
+    "iri", "name", "blank", "text", "number", "word", "at", "datatype", "mark", "open-text", "open-iri", "stray", "end"
+]
+"""`at` is a directive or a language tag, `open-text` and `open-iri` lack their end, `stray` is no Turtle at all."""
+
+_LETTER = (
+    "A-Za-z\u00c0-\u00d6\u00d8-\u00f6\u00f8-\u02ff\u0370-\u037d\u037f-\u1fff\u200c\u200d\u2070-\u218f"
+    "\u2c00-\u2fef\u3001-\ud7ff\uf900-\ufdcf\ufdf0-\ufffd\U00010000-\U000effff"
+)
+_START = f"{_LETTER}_0-9"
+_CHARACTER = f"{_START}\u00b7\u0300-\u036f\u203f\u2040\\-"
+_ESCAPED = r"%[0-9A-Fa-f]{2}|\\[_~.\-!$&'()*+,;=/?#@%]"
+_PREFIX = rf"[{_LETTER}](?:[{_CHARACTER}]|\.+(?=[{_CHARACTER}]))*"
+_LOCAL = rf"(?:[{_START}:]|{_ESCAPED})(?:[{_CHARACTER}:]|{_ESCAPED}|\.+(?=[{_CHARACTER}:]|{_ESCAPED}))*"
+_ESCAPE = r"\\[^\r\n]"
+_EXPONENT = r"[eE][+-]?[0-9]+"
+
+_TOKEN = re.compile(
+    rf"""(?P<skip>[ \t\r\n]+|\#[^\r\n]*)
+      | (?P<name>(?:{_PREFIX})?:(?:{_LOCAL})?)
+      | (?P<number>[+-]?(?:[0-9]+\.[0-9]*{_EXPONENT}|\.[0-9]+{_EXPONENT}|[0-9]+{_EXPONENT}|[0-9]*\.[0-9]+|[0-9]+))
+      | (?P<mark>[.;,\[\]()])
+      | (?P<text>\"\"\"(?:\"{{0,2}}(?:[^"\\]|\\.))*\"\"\"|'''(?:'{{0,2}}(?:[^'\\]|\\.))*'''
+          |(?!\"\"\")"(?:[^"\\\r\n]|{_ESCAPE})*"|(?!''')'(?:[^'\\\r\n]|{_ESCAPE})*')
+      | (?P<iri><[^<>"\x00-\x20]*>)
+      | (?P<blank>_:[{_START}](?:[{_CHARACTER}]|\.+(?=[{_CHARACTER}]))*)
+      | (?P<at>@[A-Za-z]+(?:-[A-Za-z0-9]+)*)
+      | (?P<datatype>\^\^)
+      | (?P<word>[{_LETTER}_][{_CHARACTER}]*)
+      | (?P<open_text>(?:\"\"\"|''').*|["'][^\r\n]*)
+      | (?P<open_iri><[^\s<>"]*)
+      | (?P<stray>[^\s"'<>;,\[\]()]+|.)""",
+    re.VERBOSE | re.DOTALL,
+)
+
+
+class Token(NamedTuple):
+    """A token: its kind, its text, and the offsets where it begins and ends."""
+
+    kind: Kind
+    text: str
+    start: int
+    end: int
+
+    def is_mark(self, marks: str) -> bool:
+        """Whether this is one of the marks."""
+        return self.kind == "mark" and self.text in marks
+
+    def is_word(self, word: str) -> bool:
+        """Whether this is the word."""
+        return self.kind == "word" and self.text == word
+
+    @property
+    def is_unit(self) -> bool:
+        """Whether this may be a unit that somebody wrote behind a number."""
+        return self.kind in ("word", "stray") and self.text not in ("a", "true", "false")
+
+    @property
+    def begins_term(self) -> bool:
+        """Whether a term may begin here, possibly a wrong one."""
+        return self.is_mark("[(") or self.kind not in ("mark", "end", "at", "datatype")
+
+
+def tokens(text: str) -> Iterator[Token]:
+    """Yield the tokens of a text, without white space and comments, and one of the kind `end` at last."""
+    for match in _TOKEN.finditer(text):
+        kind = match.lastgroup
+        if kind != "skip":
+            yield Token(cast(Kind, (kind or "stray").replace("_", "-")), match.group(), match.start(), match.end())
+    yield Token("end", "", len(text), len(text))
