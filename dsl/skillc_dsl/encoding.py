@@ -1,4 +1,4 @@
-"""Files that are not UTF-8 text: each is told once."""
+"""From the bytes of a file to its text; files that are not UTF-8 text are told once each."""
 
 from __future__ import annotations
 
@@ -9,6 +9,12 @@ REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
 """What decoding puts in the place of each byte that is not UTF-8."""
 _BYTE_ORDER_MARK = 2 * REPLACEMENT
 _NUL = "\0"
+
+
+def decode(path: str, data: bytes) -> Source:
+    """Return the text of a file; bytes that are not UTF-8 become U+FFFD, which `parse` reports as `encoding`."""
+    text = data.decode("utf-8-sig", errors="replace")
+    return Source(path, text.replace("\r\n", "\n"))
 
 
 def not_text(source: Source) -> Diagnostic | None:

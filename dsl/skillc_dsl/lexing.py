@@ -31,12 +31,6 @@ _HINTS = MappingProxyType(
 )
 
 
-def decode(path: str, data: bytes) -> Source:
-    """Return the text of a file; bytes that are not UTF-8 become U+FFFD, which `parse` reports as `encoding`."""
-    text = data.decode("utf-8-sig", errors="replace")
-    return Source(path, text.replace("\r\n", "\n"))
-
-
 def span_of(token: Token, path: str) -> Span:
     """Return the place of a token."""
     return Span(path, token.line or 1, token.column or 1, token.end_line or 1, token.end_column or 1)

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from skillc_dsl.diagnostics import Fix
+from skillc_dsl.encoding import decode
 from skillc_dsl.grammar import machine
-from skillc_dsl.lexing import decode
 from skillc_dsl.parser import parse
 from skillc_dsl.source import Source
 

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Outcome
-from skillc_dsl.lexing import decode, tokens_of
+from skillc_dsl.encoding import decode
+from skillc_dsl.lexing import tokens_of
 from skillc_dsl.parser import parse
 from skillc_dsl.source import Source
 

@@ -15,7 +15,7 @@ from skillc_compiler.library.skills import SkillLibrary, Task
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
-from skillc_dsl.lexing import decode
+from skillc_dsl.encoding import decode
 from skillc_dsl.source import Source, Span
 from skillc_ontology import catalogue
 
