@@ -1,0 +1,20 @@
+"""A picture before it has a form: boxes that hold boxes, with text in the author's words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+Look: TypeAlias = Literal["heading", "flow", "guard", "call", "time", "code"]
+"""What a box stands for: a declaration, an order of children, a condition, a skill, a wait, Python."""
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """One box: its symbol (one character), its title, further lines, and the boxes under it."""
+
+    look: Look
+    symbol: str
+    title: str
+    lines: tuple[str, ...] = ()
+    children: tuple[Box, ...] = ()

@@ -1,0 +1,113 @@
+"""`skillc graph`: everything is drawn in the author's words, nothing overflows or overlaps."""
+
+from __future__ import annotations
+
+from itertools import combinations, pairwise
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from click.testing import CliRunner
+
+from skillc_compiler.picture import mermaid, svg
+from skillc_compiler.picture.boxes import Box
+from skillc_compiler.picture.find import drawable, picture_of
+from skillc_compiler.picture.layout import Placed, lay_out
+from skillc_compiler.picture.wrapping import cells, wrapped
+from skillc_compiler.resolve.files import read
+from skillc_dsl.source import Source
+from skillc_runtime.commands.graph import command
+
+HERE = Path(__file__).parent / "every_node.skill"
+FILES = read([Source("every_node.skill", HERE.read_text(encoding="utf-8"))], {}, "users").value
+WORDS = {
+    *("reactive seq", "reactive sel", "sel", "par any", "par all", "par race", "par lead", "try", "invert", "once"),
+    *("retry 3", "repeat 2", "timeout", "if", "then", "else", "while", "for", "wait", "wait until", "check"),
+    *("TakePosture[joints]", "with Compliance", "skill Everything", "impl all_of_it of Everything"),
+}
+TEXT = "{http://www.w3.org/2000/svg}text"
+WIDEST_FONT = 0.62 * 12
+
+
+def everything() -> Box:
+    box = picture_of("Everything", FILES)
+    assert box is not None
+    return box
+
+
+def titles(box: Box) -> list[str]:
+    return [box.title, *(title for child in box.children for title in titles(child))]
+
+
+def test_every_node_is_drawn() -> None:
+    assert set(titles(everything())) >= WORDS
+
+
+def test_text_is_the_authors() -> None:
+    texts = "".join(ElementTree.fromstring(svg.document(everything())).itertext())
+    for words in ('arm, posture: "<home> & `日本語`"', "pose in corners(surface)", "prefer 2", "given force", "20 ms"):
+        assert words in texts
+
+
+@pytest.mark.parametrize("box", [everything(), Box("call", "▶", "x" * 200, ("一二三" * 60, "a b " * 90))])
+def test_text_stays_in_its_box_and_boxes_apart(box: Box) -> None:
+    placed = lay_out(box)
+    root = ElementTree.fromstring(svg.document(box))
+    lines = [each for each in root.iter(TEXT) if each.get("class") != "symbol"]
+    assert len(lines) == sum(len(each.title) + len(each.lines) for each in placed)
+    for line in lines:
+        x, y, text = float(line.get("x", 0)), float(line.get("y", 0)), line.text or ""
+        assert any(_holds(each, x, y, cells(text) * WIDEST_FONT) for each in placed), text
+    assert all(one.y + one.height < other.y for one, other in pairwise(placed))
+    assert max(each.x + each.width for each in placed) < float(root.get("width", 0))
+
+
+def _holds(box: Placed, x: float, y: float, width: float) -> bool:
+    return box.x <= x and x + width <= box.x + box.width and box.y + 10 <= y <= box.y + box.height - 4
+
+
+@pytest.mark.parametrize("width", [8, 20, 58])
+def test_wrapped_text_loses_nothing(width: int) -> None:
+    text = "arm, target: first(lanes(surface, tool, 0.2)), 日本語日本語日本語 " + "y" * 90
+    lines = wrapped(text, width)
+    assert max(map(cells, lines)) <= width
+    assert "".join("".join(lines).split()) == "".join(text.split())
+    assert wrapped("", width) == ("",)
+
+
+def test_mermaid_escapes_what_it_would_read() -> None:
+    text = mermaid.draw(everything())
+    labels = [line.split('["', 1)[1].removesuffix('"]') for line in text.splitlines() if '["' in line]
+    assert len(labels) == len(titles(everything()))
+    assert not any(set('"`&') & set(label) for label in labels)
+    names = [line.split("[")[0].strip() for line in text.splitlines() if '["' in line]
+    assert not any(one == other for one, other in combinations(names, 2))
+    assert text.count("-->") == len(labels) - 1
+
+
+def test_a_task_shows_its_scene_and_goal() -> None:
+    box = picture_of("everything", FILES)
+    assert box is not None
+    assert box.lines == ('scene "iiwa_table.ttl"',)
+    assert box.children[0].lines == ("exists surface: Surface (surface.located == true)",)
+    assert drawable(FILES) == ("Everything", "Locate", "everything")
+
+
+def test_python_is_named() -> None:
+    box = picture_of("Locate", FILES)
+    assert box is not None
+    assert box.lines == ("post sensed located: surface.located == true",)
+    assert box.children[0].children[0].lines == ("skillc_runtime.primitives.compliance:Align",)
+
+
+def test_the_command_writes_a_file_and_names_what_exists(tmp_path: Path) -> None:
+    runner = CliRunner()
+    for file, start in (("a.svg", "<?xml"), ("a.mmd", "flowchart")):
+        drawn = runner.invoke(command, [str(HERE), "Everything", "-o", str(tmp_path / file)])
+        assert (drawn.exit_code, drawn.stdout) == (0, "")
+        assert (tmp_path / file).read_text(encoding="utf-8").startswith(start)
+    missing = runner.invoke(command, [str(HERE), "Everythin"])
+    assert missing.exit_code == 2
+    assert "did you mean `Everything`" in missing.stderr
+    nowhere = runner.invoke(command, [str(HERE), "Everything", "-o", str(tmp_path / "no/such/a.svg")])
+    assert nowhere.exit_code == 2
