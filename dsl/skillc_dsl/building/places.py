@@ -71,8 +71,10 @@ class Places(Transformer_NonRecursive[Token, Placed]):
         return " ".join(_STRING_OR_COMMENT.sub(r"\1", self.source.text[start:end]).split())
 
     def doc(self, span: Span) -> str:
-        """Return the `##` lines right above `span`, without their marks."""
+        """Return the `##` lines right above `span`, without their marks; only what begins its line has some."""
         first = span.line - 1
+        if self.lines[first][: span.column - 1].strip():
+            return ""
         while first > 0 and self.lines[first - 1].lstrip().startswith("##"):
             first -= 1
         found = [line.strip()[2:] for line in self.lines[first : span.line - 1]]

@@ -1,0 +1,60 @@
+"""Lines of a block in columns: cells that are as wide as the widest of their column."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from skillc_dsl.formatting import documents as d
+from skillc_dsl.formatting.layout import one_line
+
+KEYWORD = "keyword"
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """A piece of a line in the column of that name, `gap` columns from what follows.
+
+    One that is `loose` widens no column.
+    """
+
+    column: str
+    content: d.Document
+    gap: int = 1
+    loose: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """A line, or several: comments above it, cells, and the rest, which has no column."""
+
+    above: d.Document
+    cells: tuple[Cell, ...]
+    rest: d.Document
+
+
+def aligned(members: Sequence[Member], least: int = 0) -> Iterator[d.Document]:
+    """Yield each member with its cells padded; the keywords' column is `least` wide at least.
+
+    A member with a comment among its cells stays out of the columns.
+    """
+    texts = [_texts(member) for member in members]
+    widths = {KEYWORD: least}
+    for member, row in zip(members, texts, strict=True):
+        for cell, text in zip(member.cells, row, strict=False):
+            if not cell.loose:
+                widths[cell.column] = max(widths.get(cell.column, 0), len(text))
+    for member, row in zip(members, texts, strict=True):
+        if len(row) < len(member.cells):
+            loose = (part for cell in member.cells for part in (cell.content, d.Space()))
+            yield d.joined(member.above, *loose, member.rest)
+        else:
+            cells = zip(member.cells, row, strict=True)
+            padded = "".join(f"{text:<{widths.get(cell.column, 0)}}{' ' * cell.gap}" for cell, text in cells)
+            yield d.joined(member.above, *([d.Text(padded)] if padded else []), member.rest)
+
+
+def _texts(member: Member) -> tuple[str, ...]:
+    """Return the texts of all cells, none where one of them has a comment."""
+    texts = [one_line(cell.content) for cell in member.cells]
+    return () if None in texts else tuple(text or "" for text in texts)

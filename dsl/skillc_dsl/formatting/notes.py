@@ -1,0 +1,63 @@
+"""Comments and blank lines, each at the token it belongs to."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+
+from lark import Token
+
+from skillc_dsl.comments import Comment, comments
+from skillc_dsl.formatting.documents import NOTHING, Blank, Document, Joined, Note, Remark
+from skillc_dsl.source import Source
+
+
+@dataclass(frozen=True, slots=True)
+class Notes:
+    """What stands before and after each token, by the position where the token starts; `last` ends the file."""
+
+    before: Mapping[int, Document]
+    after: Mapping[int, Document]
+    last: Document
+
+    def above(self, token: Token) -> Document:
+        """Return the comments above a token, with the blank lines among and after them."""
+        return self.before.get(token.start_pos or 0, NOTHING)
+
+    def behind(self, token: Token) -> Document:
+        """Return the comment after a token on its line."""
+        return self.after.get(token.start_pos or 0, NOTHING)
+
+
+def notes_of(source: Source, tokens: Sequence[Token], statements: Collection[int]) -> Notes:
+    """Attach every comment to the token before it on its line, else to the next.
+
+    `statements` are the positions of tokens above which a blank line may stand.
+    """
+    lines = source.text.split("\n")
+    starts = [(token.line or 1, token.column or 1) for token in tokens]
+    before: dict[int, list[Document]] = {}
+    after: dict[int, Document] = {}
+    for comment in comments(source):
+        index = bisect_left(starts, (comment.span.line, comment.span.column))
+        if comment.alone:
+            before.setdefault(index, []).extend(_note(comment, lines))
+        else:
+            after[tokens[index - 1].start_pos or 0] = Remark(comment.written)
+    last = Joined(tuple(before.pop(len(tokens), ())))
+    for index, token in enumerate(tokens):
+        first = index == 0 or tokens[index - 1].end_line != token.line
+        if first and token.start_pos in statements and _blank_above(lines, token.line or 1):
+            before.setdefault(index, []).append(Blank())
+    above = {tokens[index].start_pos or 0: Joined(tuple(parts)) for index, parts in before.items()}
+    return Notes(above, after, last)
+
+
+def _note(comment: Comment, lines: Sequence[str]) -> tuple[Document, ...]:
+    note = Note(comment.written)
+    return (Blank(), note) if _blank_above(lines, comment.span.line) else (note,)
+
+
+def _blank_above(lines: Sequence[str], line: int) -> bool:
+    return line > 1 and not lines[line - 2].strip()

@@ -1,0 +1,50 @@
+"""Whether two texts say the same: the same tree and the same comments, wherever they stand."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+
+from skillc_dsl.comments import comments
+from skillc_dsl.parser import parse
+from skillc_dsl.source import Source, Span
+
+_WRITTEN = ("text", "goal_text")
+"""Fields that hold a condition as written."""
+_TEXT_OR_BLANK = re.compile(r'("[^"\n]*")|\s+')
+
+
+def say_the_same(left: Source, right: Source) -> bool:
+    """Whether both parse without errors to the same tree and have the same comments in the same order."""
+    trees = parse(left), parse(right)
+    if not all(tree.ok for tree in trees):
+        return False
+    notes = ([comment.written for comment in comments(source)] for source in (left, right))
+    return _flat(trees[0].value) == _flat(trees[1].value) and next(notes) == next(notes)
+
+
+def _flat(tree: object) -> list[object]:
+    """Return everything in a tree but places, in order; marks show where its pieces begin and end."""
+    result: list[object] = []
+    pending: list[object] = [tree]
+    while pending:
+        node = pending.pop()
+        match node:
+            case Span():
+                continue
+            case tuple():
+                pending += [_END, *reversed(node), "("]
+            case _ if dataclasses.is_dataclass(node):
+                pending += [_END, *reversed([_field(node, field.name) for field in dataclasses.fields(node)])]
+                result.append(type(node))
+            case _:
+                result.append(node)
+    return result
+
+
+_END = ")"
+
+
+def _field(node: object, name: str) -> object:
+    value = getattr(node, name)
+    return _TEXT_OR_BLANK.sub(r"\1", value) if name in _WRITTEN and isinstance(value, str) else value
