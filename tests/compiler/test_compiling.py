@@ -69,7 +69,7 @@ def test_what_has_errors_is_left_out_with_what_calls_it() -> None:
         "skill Bad { in arm: ArmDevise noplan }\n"
         'impl plain of Bad { run python "m:Bad" }\n'
         "skill Good { in arm: ArmDevice noplan }\n"
-        'impl plain of Good { run python "m:Good" }\n'
+        'impl plain of Good { run python "skillc_runtime.primitives.stand_in:StandIn" }\n'
         "impl through_bad of Good { do Bad(arm) }\n"
     )
     assert errors(outcome) == ["unknown-class"]
@@ -146,13 +146,13 @@ def test_only_what_is_imported_is_visible() -> None:
 
 def test_warnings_are_told_of_the_library_itself_only() -> None:
     imported = Source(
-        "std/rest.skill", HEADER + 'skill Rest { in arm: ArmDevice }\nimpl one of Rest { run python "m:R" }\n'
+        "std/rest.skill", HEADER + 'skill Rest { in arm: ArmDevice }\nimpl one of Rest { do wait 1 s }\n'
     )
-    own = Source("own.skill", 'use rparts\nimport "rest.skill"\nimpl two of Rest { run python "m:R" }\n')
+    own = Source("own.skill", 'use rparts\nimport "rest.skill"\nimpl two of Rest { do wait 1 s }\n')
     outcome = compile([own], vocabulary(), {"rest.skill": imported}, "own")
     assert [(d.name, d.span.path) for d in outcome.diagnostics] == [("unused-use", "own.skill")]
     alone = compile([imported], vocabulary(), {}, "std")
-    assert {d.name for d in alone.diagnostics} == {"unused-use", "no-effect"}
+    assert {d.name for d in alone.diagnostics} == {"unused-use", "unused-parameter", "no-effect"}
 
 
 def test_imports_in_a_circle_are_told_and_both_files_are_read() -> None:

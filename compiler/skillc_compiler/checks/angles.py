@@ -1,12 +1,20 @@
 """An angle of more than two turns, which was probably meant in degrees.
 
-Suspicious::
+Bad:
 
-    opt tilt: Angle = 90 rad
+    skill Tilt {
+        opt angle: Angle = 90 rad
+        noplan
+    }
+    impl waiting of Tilt { run python "skillc_runtime.primitives.stand_in:StandIn" }
 
-Good::
+Good:
 
-    opt tilt: Angle = 90 deg
+    skill Tilt {
+        opt angle: Angle = 90 deg
+        noplan
+    }
+    impl waiting of Tilt { run python "skillc_runtime.primitives.stand_in:StandIn" }
 """
 
 from __future__ import annotations

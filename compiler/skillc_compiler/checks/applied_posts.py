@@ -1,14 +1,48 @@
 """An `apply` of something that is no post of the skill, or that only a measurement can establish.
 
-Bad::
+`apply LABEL` writes the post with that label to the world model at this point of the body.
 
-    post gripper contain object
-    do seq { apply held }
+## unknown-label: `apply` names no post
 
-Good::
+Bad:
 
-    post held: gripper contain object
-    do seq { apply held }
+    use skillc
+    skill Clear {
+        in   surface: Surface
+        post seen: surface.located == true
+    }
+    impl at_once of Clear { do apply sen }
+
+Good:
+
+    use skillc
+    skill Clear {
+        in   surface: Surface
+        post seen: surface.located == true
+    }
+    impl at_once of Clear { do apply seen }
+
+## sensed-post-applied: `apply` of a post that only a measurement can establish
+
+Call a skill that measures it instead, or take `sensed` away where the robot may simply believe it.
+
+Bad:
+
+    use skillc
+    skill Clear {
+        in   surface: Surface
+        post sensed seen: surface.located == true
+    }
+    impl at_once of Clear { do apply seen }
+
+Good:
+
+    use skillc
+    skill Clear {
+        in   surface: Surface
+        post seen: surface.located == true
+    }
+    impl at_once of Clear { do apply seen }
 """
 
 from __future__ import annotations

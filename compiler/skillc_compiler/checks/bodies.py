@@ -1,17 +1,45 @@
-"""An implementation without a body, a skill without an implementation, a task without anything to do.
+"""Something that does not say how it is done.
 
-Bad::
+## missing-body: an implementation or a task has no body
 
-    impl simple of Pick {
-        prefer 2
+An implementation has `do NODE` or `run python "module:Class"`, a task has `goal CONDITION` or `do NODE`.
+
+Bad:
+
+    use rparts
+    skill Fold {
+        in arm: ArmDevice
+        noplan
+    }
+    impl once of Fold { prefer 2 }
+
+Good:
+
+    use rparts
+    skill Fold {
+        in arm: ArmDevice
+        noplan
+    }
+    impl once of Fold { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## no-implementation: a skill has no implementation, so nothing can run it
+
+Bad:
+
+    use rparts
+    skill Fold {
+        in arm: ArmDevice
+        noplan
     }
 
-Good::
+Good:
 
-    impl simple of Pick {
-        prefer 2
-        run python "my_robot.pick:Pick"
+    use rparts
+    skill Fold {
+        in arm: ArmDevice
+        noplan
     }
+    impl once of Fold { run python "skillc_runtime.primitives.stand_in:StandIn" }
 """
 
 from __future__ import annotations

@@ -1,13 +1,30 @@
 """A question about classes whose answer is known beforehand.
 
-Bad::
+## disjoint-types: nothing can be of both classes
 
-    pre arm is Location             # no arm is a place
-    pre gripper == arm              # nothing is both
+Disjointness is declared in the vocabulary: no arm is a place.
 
-Good::
+Bad:
 
-    pre arm is CompliantArm
+    use skiros, rparts
+    skill Wait {
+        in arm: ArmDevice
+        in other: GripperEffector
+        pre arm is Location
+        noplan
+    }
+    impl once of Wait { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use rparts
+    skill Wait {
+        in arm: ArmDevice
+        in other: GripperEffector
+        pre arm is skillc:CompliantArm
+        noplan
+    }
+    impl once of Wait { run python "skillc_runtime.primitives.stand_in:StandIn" }
 """
 
 from __future__ import annotations

@@ -1,12 +1,14 @@
 """A number of rounds that is not a whole number above zero.
 
-Bad::
+Bad:
 
-    retry 0 { Pick(arm, object) }
+    skill Rest { noplan }
+    impl patient of Rest { do repeat 0 { wait 1 s } }
 
-Good::
+Good:
 
-    retry 3 { Pick(arm, object) }
+    skill Rest { noplan }
+    impl patient of Rest { do repeat 3 { wait 1 s } }
 """
 
 from __future__ import annotations

@@ -1,15 +1,13 @@
 """A file with nothing in it but comments.
 
-Suspicious::
+Bad:
 
     # skill Knock is still to be written
 
-Good::
+Good:
 
-    skill Knock {
-        in   surface: Surface
-        post sensed surface.located == true
-    }
+    skill Knock { noplan }
+    impl waiting of Knock { run python "skillc_runtime.primitives.stand_in:StandIn" }
 """
 
 from __future__ import annotations

@@ -1,14 +1,29 @@
 """A goal that no skill of the library can bring about.
 
-Suspicious::
+A planner takes only skills whose posts say what they achieve, and which are not `noplan`.
 
-    use wiping                              # and no skill of this library cleans anything
-    task clean { goal lab:Board-1.isClean == true }
+Bad:
 
-Good::
+    use wiping
+    prefix lab: <http://example.org/lab#>
+    task clean {
+        scene "ur5e_whiteboard.ttl"
+        goal  lab:Whiteboard-1.isClean == true
+    }
 
-    import "wipe.skill"                     # Wipe has the post `surface.isClean == true`
-    task clean { goal lab:Board-1.isClean == true }
+Good:
+
+    use wiping
+    prefix lab: <http://example.org/lab#>
+    skill Wipe {
+        in   board: WipeableSurface
+        post board.isClean == true
+    }
+    impl waiting of Wipe { run python "skillc_runtime.primitives.stand_in:StandIn" }
+    task clean {
+        scene "ur5e_whiteboard.ttl"
+        goal  lab:Whiteboard-1.isClean == true
+    }
 """
 
 from __future__ import annotations

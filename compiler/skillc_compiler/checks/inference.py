@@ -1,17 +1,28 @@
 """An inferred parameter that no precondition links to anything.
 
-The value of an `infer` parameter is looked up through the preconditions. Without one, any of its class would do.
+The value of an `infer` parameter is looked up through the preconditions. Without one, any individual of its class
+would do, which is rarely meant.
 
-Bad::
+Bad:
 
-    in    arm:     ArmDevice
-    infer gripper: GripperEffector
+    use rparts
+    skill Open {
+        in    arm:     ArmDevice
+        infer gripper: GripperEffector
+        noplan
+    }
+    impl waiting of Open { run python "skillc_runtime.primitives.stand_in:StandIn" }
 
-Good::
+Good:
 
-    in    arm:     ArmDevice
-    infer gripper: GripperEffector
-    pre   arm hasA gripper
+    use rparts
+    skill Open {
+        in    arm:     ArmDevice
+        infer gripper: GripperEffector
+        pre   arm skiros:hasA gripper
+        noplan
+    }
+    impl waiting of Open { run python "skillc_runtime.primitives.stand_in:StandIn" }
 """
 
 from __future__ import annotations

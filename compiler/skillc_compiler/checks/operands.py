@@ -2,15 +2,53 @@
 
 Only like dimensions are added, subtracted and compared; only numbers have an order; a vector is scaled by a number.
 
-Bad::
+## unlike-dimensions: quantities of different dimensions are added or compared
 
-    let reach = 5 cm + 2 s
-    pre gripper.deviceState < Fault
+Bad:
 
-Good::
+    use skiros, rparts
+    skill Press {
+        in gripper: GripperEffector
+        in object: Product
+        pre object.Weight < 5 N
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
 
-    let reach = 5 cm + 2 s * 1 cm/s
-    pre gripper.deviceState != Fault
+Good:
+
+    use skiros, rparts
+    skill Press {
+        in gripper: GripperEffector
+        in object: Product
+        pre object.Weight < 500 g
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## wrong-operands: an operator does not apply to such values
+
+Bad:
+
+    use skiros, rparts, skillc
+    skill Press {
+        in gripper: GripperEffector
+        in object: Product
+        pre gripper.deviceState < Fault
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skiros, rparts, skillc
+    skill Press {
+        in gripper: GripperEffector
+        in object: Product
+        pre gripper.deviceState != Fault
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
 """
 
 from __future__ import annotations

@@ -1,14 +1,26 @@
 """An optional parameter without a default, read where it may be unset.
 
-Bad::
+Bad:
 
-    opt tool: Tool
-    pre gripper contain tool
+    use skillc
+    skill Mark {
+        in   surface: Surface
+        opt  width:   Length
+        pre  width > 1 cm
+        noplan
+    }
+    impl waiting of Mark { run python "skillc_runtime.primitives.stand_in:StandIn" }
 
-Good::
+Good:
 
-    opt tool: Tool
-    pre given tool implies gripper contain tool
+    use skillc
+    skill Mark {
+        in   surface: Surface
+        opt  width:   Length
+        pre  given width implies width > 1 cm
+        noplan
+    }
+    impl waiting of Mark { run python "skillc_runtime.primitives.stand_in:StandIn" }
 """
 
 from __future__ import annotations

@@ -1,17 +1,105 @@
 """What the planner cannot use: skills without effect, values it cannot choose or count, names it cannot tell apart.
 
-Suspicious::
+## no-effect: a planned skill achieves nothing
 
-    skill LookAround {
-        in arm: ArmDevice
-    }                               # nothing is true afterwards, so no plan will ever contain it
+Nothing is said to be true afterwards, so no plan will ever contain the skill. Say what it achieves, or that it is
+only called: `noplan`.
 
-Good::
+Bad:
 
-    skill LookAround {
-        in arm: ArmDevice
+    use skillc
+    skill Look {
+        in   surface: Surface
+    }
+    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skillc
+    skill Look {
+        in   surface: Surface
         noplan
     }
+    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## unplannable-parameter: a planned skill needs a value that a planner cannot choose
+
+A planner chooses among the individuals of the scene, not among numbers, texts and poses.
+
+Bad:
+
+    use skillc
+    skill Look {
+        in   surface: Surface
+        in   depth:   Length
+        post surface.located == true
+    }
+    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skillc
+    skill Look {
+        in   surface: Surface
+        opt  depth:   Length = 3 cm
+        post surface.located == true
+    }
+    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## numeric-effect: a planned skill changes a number
+
+Classical planners do not count.
+
+Bad:
+
+    use skillc
+    skill Look {
+        in   surface: Surface
+        post surface.friction == 0.5
+    }
+    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skillc
+    skill Look {
+        in   surface: Surface
+        post surface.friction == 0.5
+        noplan
+    }
+    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## colliding-names: two names are one to a planner
+
+Planners take no notice of capitals, nor do some file systems.
+
+Bad:
+
+    use skillc
+    skill Look {
+        in   surface: Surface
+        noplan
+    }
+    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
+    skill LOOK {
+        in   surface: Surface
+        noplan
+    }
+    impl waiting of LOOK { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skillc
+    skill Look {
+        in   surface: Surface
+        noplan
+    }
+    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
+    skill LookAgain {
+        in   surface: Surface
+        noplan
+    }
+    impl waiting of LookAgain { run python "skillc_runtime.primitives.stand_in:StandIn" }
 """
 
 from __future__ import annotations

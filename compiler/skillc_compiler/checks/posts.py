@@ -3,15 +3,110 @@
 What a skill makes true is a conjunction of relations and `property == value`, each possibly with `not`. Anything else
 can only be `sensed`: established by measuring.
 
-Bad::
+## post-not-literal: a post leaves open what is true afterwards
 
-    post gripper contain object or table contain object
-    post arm.pose == target           # a pose follows from other facts, nobody sets it
+Bad:
 
-Good::
+    use skiros, rparts
+    skill Grab {
+        in   gripper: GripperEffector
+        in   object:  Product
+        in   place:   Location
+        post gripper contain object or place contain object
+    }
+    impl waiting of Grab { run python "skillc_runtime.primitives.stand_in:StandIn" }
 
-    post gripper contain object
-    post sensed found: gripper contain object or table contain object
+Good:
+
+    use skiros, rparts
+    skill Grab {
+        in   gripper: GripperEffector
+        in   object:  Product
+        in   place:   Location
+        post sensed gripper contain object or place contain object
+    }
+    impl waiting of Grab { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## computed-property: a post sets what follows from other facts
+
+Nobody sets a pose or a normal: they are computed. A measurement may establish them.
+
+Bad:
+
+    use skiros, rparts, skillc
+    skill Grab {
+        in   gripper: GripperEffector
+        in   object:  Product
+        in   place:   Location
+        post object.pose == place.pose
+    }
+    impl waiting of Grab { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skiros, rparts, skillc
+    skill Grab {
+        in   gripper: GripperEffector
+        in   object:  Product
+        in   place:   Location
+        post sensed object.pose == place.pose
+    }
+    impl waiting of Grab { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## two-values: a relation or property that has one value only is given two
+
+What is asserted of a functional relation takes the place of what was there before, so a skill can only say one value.
+Inverses and sub-relations count.
+
+Bad:
+
+    use skiros, rparts
+    skill Grab {
+        in   gripper: GripperEffector
+        in   object:  Product
+        in   place:   Location
+        post place contain object
+        post gripper contain object
+    }
+    impl waiting of Grab { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skiros, rparts
+    skill Grab {
+        in   gripper: GripperEffector
+        in   object:  Product
+        in   place:   Location
+        post not place contain object
+        post gripper contain object
+    }
+    impl waiting of Grab { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## contradicting-posts: two posts say the opposite of each other
+
+Bad:
+
+    use skiros, rparts
+    skill Grab {
+        in   gripper: GripperEffector
+        in   object:  Product
+        in   place:   Location
+        post gripper contain object
+        post not gripper contain _
+    }
+    impl waiting of Grab { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skiros, rparts
+    skill Grab {
+        in   gripper: GripperEffector
+        in   object:  Product
+        in   place:   Location
+        post gripper contain object
+        post not place contain _
+    }
+    impl waiting of Grab { run python "skillc_runtime.primitives.stand_in:StandIn" }
 """
 
 from __future__ import annotations

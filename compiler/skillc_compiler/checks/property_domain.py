@@ -1,12 +1,26 @@
 """A property read of an individual whose class does not have it.
 
-Bad::
+Bad:
 
-    pre gripper.isClean == true     # surfaces are clean or not, grippers are not
+    use rparts, skillc
+    skill Press {
+        in gripper: GripperEffector
+        in surface: Surface
+        pre gripper.located == true
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
 
-Good::
+Good:
 
-    pre surface.isClean == true
+    use rparts, skillc
+    skill Press {
+        in gripper: GripperEffector
+        in surface: Surface
+        pre surface.located == true
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
 """
 
 from __future__ import annotations

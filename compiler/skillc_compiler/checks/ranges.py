@@ -1,12 +1,52 @@
 """A number outside the range that is declared for it, or a range that holds no number.
 
-Bad::
+## out-of-range: a default or an argument lies outside the range
 
-    opt force: Force = 120 N  range 5 N .. 80 N
+Bad:
 
-Good::
+    use skiros, rparts
+    skill Press {
+        in gripper: GripperEffector
+        in object: Product
+        opt force: Force = 120 N  range 5 N .. 80 N
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
 
-    opt force: Force = 20 N  range 5 N .. 80 N
+Good:
+
+    use skiros, rparts
+    skill Press {
+        in gripper: GripperEffector
+        in object: Product
+        opt force: Force = 20 N  range 5 N .. 80 N
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## empty-range: no number is in a range
+
+Bad:
+
+    use skiros, rparts
+    skill Press {
+        in gripper: GripperEffector
+        in object: Product
+        opt force: Force = 20 N  range 80 N .. 5 N
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skiros, rparts
+    skill Press {
+        in gripper: GripperEffector
+        in object: Product
+        opt force: Force = 20 N  range 5 N .. 80 N
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
 """
 
 from __future__ import annotations

@@ -1,15 +1,25 @@
 """A skill that calls itself, directly or through others, and so never begins.
 
-Bad::
+Bad:
 
-    impl again of Pick {
-        do Pick(arm, object)
+    use rparts
+    skill Fold {
+        in arm: ArmDevice
+        noplan
     }
+    impl again of Fold { do Fold(arm) }
 
-Good::
+Good:
 
-    impl again of Pick {
-        do retry 2 { Pick[simple](arm, object) }
+    use rparts
+    skill Fold {
+        in arm: ArmDevice
+        noplan
+    }
+    impl plain of Fold { run python "skillc_runtime.primitives.stand_in:StandIn" }
+    impl again of Fold {
+        prefer 1
+        do retry 2 { Fold[plain](arm) }
     }
 """
 

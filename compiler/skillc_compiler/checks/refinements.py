@@ -1,16 +1,31 @@
 """A refinement that does not narrow what the description says.
 
-An implementation may ask for a subclass or a smaller range and give another default, but not ask for something else.
+An implementation may ask for a subclass or a smaller range and give another default, but not ask for something else:
+whoever calls the skill knows its description only.
 
-Bad::
+Bad:
 
-    impl any_tool of Grasp {
-        refine gripper: EndEffector          # Grasp promises to work with grippers only
+    use rparts
+    skill Close {
+        in gripper: GripperEffector
+        noplan
+    }
+    impl gently of Close {
+        refine gripper: EndEffector
+        run python "skillc_runtime.primitives.stand_in:StandIn"
+    }
 
-Good::
+Good:
 
-    impl by_contact of Grasp {
-        refine gripper: ParallelGripper
+    use rparts
+    skill Close {
+        in gripper: GripperEffector
+        noplan
+    }
+    impl gently of Close {
+        refine gripper: skillc:ParallelGripper
+        run python "skillc_runtime.primitives.stand_in:StandIn"
+    }
 """
 
 from __future__ import annotations

@@ -2,13 +2,53 @@
 
 Every relation has a domain and a range; an overloaded one has several pairs. The classes of the two sides must fit one.
 
-Bad::
+## relation-domain: the left side of a relation is of the wrong class
 
-    pre object contain gripper      # contain goes from a holder to an object
+Bad:
 
-Good::
+    use skiros, rparts
+    skill Press {
+        in gripper: GripperEffector
+        in object: Product
+        pre object contain gripper
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
 
-    pre gripper contain object
+Good:
+
+    use skiros, rparts
+    skill Press {
+        in gripper: GripperEffector
+        in object: Product
+        pre gripper contain object
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## relation-range: the right side of a relation is of the wrong class
+
+Bad:
+
+    use skiros, rparts
+    skill Press {
+        in gripper: GripperEffector
+        in object: Product
+        pre gripper at object
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skiros, rparts
+    skill Press {
+        in gripper: GripperEffector
+        in object: Product
+        pre gripper contain object
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
 """
 
 from __future__ import annotations

@@ -1,13 +1,117 @@
-"""Something declared and never used: a vocabulary, prefix, import, let or parameter.
+"""Something declared and never used, which can be taken away.
 
-Suspicious::
+## unused-use: a vocabulary is used by none of its bare names
 
-    let above = offset(corner, 5 cm * normal)
-    do MoveLinear(arm, target: corner)
+Bad:
 
-Good::
+    use skiros, rparts
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
 
-    do MoveLinear(arm, target: corner)
+Good:
+
+    use rparts
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## unused-prefix: a prefix is never used
+
+Bad:
+
+    prefix lab: <http://example.org/lab#>
+    skill Rest { noplan }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    prefix lab: <http://example.org/lab#>
+    import "motion.skill"
+    task rest {
+        scene "ur5e_whiteboard.ttl"
+        do    TakePosture(arm: lab:Ur5e-1)
+    }
+
+## unused-import: nothing of an imported file is used
+
+Bad:
+
+    use rparts
+    import "motion.skill"
+    import "driving.skill"
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl folded of Rest { do TakePosture(arm) }
+
+Good:
+
+    use rparts
+    import "motion.skill"
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl folded of Rest { do TakePosture(arm) }
+
+## unused-let: a value is named and never read
+
+Bad:
+
+    use rparts
+    import "motion.skill"
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl folded of Rest {
+        let home = "home"
+        do  TakePosture(arm)
+    }
+
+Good:
+
+    use rparts
+    import "motion.skill"
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl folded of Rest {
+        let home = "home"
+        do  TakePosture(arm, posture: home)
+    }
+
+## unused-parameter: a parameter is never read
+
+Not told where an implementation in Python may read it.
+
+Bad:
+
+    use rparts
+    import "motion.skill"
+    skill Rest {
+        in arm: ArmDevice
+        in object: skiros:Product
+        noplan
+    }
+    impl folded of Rest { do TakePosture(arm) }
+
+Good:
+
+    use rparts
+    import "motion.skill"
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl folded of Rest { do TakePosture(arm) }
 """
 
 from __future__ import annotations

@@ -1,16 +1,58 @@
 """A value of the wrong type, of the wrong dimension, or without its unit.
 
-Bad::
+## wrong-type: a value is of another type
 
-    opt force: Force = "8N"
-    opt speed: Speed = 5 cm
-    opt radius: Length = 15
+Bad:
 
-Good::
+    skill Press {
+        opt force: Force = "8N"
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
 
-    opt force: Force = 8 N
-    opt speed: Speed = 5 cm/s
-    opt radius: Length = 15 mm
+Good:
+
+    skill Press {
+        opt force: Force = 8 N
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## wrong-dimension: a quantity is of another dimension
+
+Bad:
+
+    skill Press {
+        opt speed: Speed = 5 cm
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    skill Press {
+        opt speed: Speed = 5 cm/s
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## missing-unit: a number has no unit
+
+Bad:
+
+    skill Press {
+        opt radius: Length = 15
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    skill Press {
+        opt radius: Length = 15 mm
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
 """
 
 from __future__ import annotations

@@ -26,8 +26,8 @@ _EXAMPLE = re.compile(r"^(Bad|Good):\n\n((?:(?: {4}.*)?\n)+)", re.MULTILINE)
 class Page:
     """What there is to know about a diagnostic.
 
-    `title` is one line, `prose` Markdown, which may be empty. `bad` is a whole file with this problem and no other, `good`
-    one without any; they are `.skill` text, or Turtle where the diagnostic is about that.
+    `title` is one line, `prose` Markdown, which may be empty. `bad` is a whole file with this problem and no other,
+    `good` one without any; they are `.skill` text, or Turtle where the diagnostic is about that.
     """
 
     name: str
@@ -49,14 +49,14 @@ def _in(package: ModuleType) -> Iterator[Page]:
         yield from _of(import_module(f"{package.__name__}.{name}"))
 
 
-def _of(module: ModuleType) -> Iterator[Page]:
+def _of(module: ModuleType) -> list[Page]:
     text = f"{getdoc(module) or ''}\n"
     heads = list(_SECTION.finditer(text))
     if not heads:
         title, _, rest = text.partition("\n")
-        yield _page(module.NAMES[0], title, rest)
-    for head, after in zip(heads, [*(h.start() for h in heads[1:]), len(text)], strict=True):
-        yield _page(head.group(1), head.group(2), text[head.end() : after])
+        return [_page(module.NAMES[0], title, rest)]
+    ends = [*(head.start() for head in heads[1:]), len(text)]
+    return [_page(*head.groups(), text[head.end() : end]) for head, end in zip(heads, ends, strict=True)]
 
 
 def _page(name: str, title: str, text: str) -> Page:
