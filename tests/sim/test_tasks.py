@@ -25,8 +25,9 @@ from skillc_runtime.world.scene import load_scene
 
 pytestmark = pytest.mark.sim
 
-TASKS = ("clean_whiteboard", "clean_table")
-ARMS = {"clean_whiteboard": "http://example.org/lab#Ur5e-1", "clean_table": "http://example.org/lab#Iiwa-1"}
+LAB = "http://example.org/lab#"
+TASKS = ("clean_whiteboard", "clean_table", "clean_desk")
+ARMS = {"clean_whiteboard": LAB + "Ur5e-1", "clean_table": LAB + "Iiwa-1", "clean_desk": LAB + "Panda-1"}
 
 
 @cache
