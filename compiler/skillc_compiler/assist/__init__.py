@@ -1,0 +1,1 @@
+"""What an editor asks while somebody writes: pure functions over an understood library, no protocol."""

@@ -1,0 +1,125 @@
+"""Where the cursor is: in a comment, in a text, or after which tokens of which declaration, in broken files too."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from lark import Token
+
+from skillc_dsl.grammar import END, fits, machine, shifted
+from skillc_dsl.lexing import tokens_of
+from skillc_dsl.source import Source, Span
+
+_HEAD = re.compile(r"\s*(class|relation|property|function|skill|impl|task)\b|(use|prefix|import)\b")
+_NUMBER = re.compile(r"(?<!\w)(?<!\w-)(\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)(?:[ \t]+|(?=[^\W\d]))([^\W\d][\w/]*)?$")
+_WORD = re.compile(r"(?:[^\W\d]\w*:)?[^\W\d][\w-]*$|[^\W\d]\w*:$|[^\W\d]\w*$")
+_BARE = re.compile(r"[^\W\d]\w*$")
+
+
+@dataclass(frozen=True, slots=True)
+class InComment:
+    """In a comment; `text` is what stands before the cursor from the `#` on."""
+
+    text: str
+    word: Span
+
+
+@dataclass(frozen=True, slots=True)
+class InText:
+    """In a text between quotes; `opener` is the word before it (`import`, `scene`, `python`)."""
+
+    opener: str
+    word: Span
+
+
+@dataclass(frozen=True, slots=True)
+class InCode:
+    """Among tokens: `before` are those of the declaration up to the word at the cursor, `states` the parser's.
+
+    `number` tells that the word follows a number. The first of `before` says what is declared, if anything is.
+    """
+
+    before: tuple[Token, ...]
+    states: tuple[int, ...]
+    number: bool
+    word: Span
+
+    @property
+    def types(self) -> tuple[str, ...]:
+        """The types of the tokens before."""
+        return tuple(token.type for token in self.before)
+
+    def fits(self, *terminals: str) -> bool:
+        """Whether these terminals could follow, one after the other."""
+        return fits(self.states, *terminals)
+
+
+Cursor: TypeAlias = InComment | InText | InCode
+
+
+def cursor_at(text: str, path: str, line: int, column: int) -> Cursor:
+    """Return where a place in a text is; line and column count from 1."""
+    lines = text.split("\n")
+    left = (lines[line - 1] if line <= len(lines) else "")[: column - 1]
+    opened = _opened(left)
+    if opened is not None and left[opened] == "#":
+        word = _BARE.search(left)
+        return InComment(left[opened:], _span(path, line, word.start() if word else len(left), len(left)))
+    if opened is not None:
+        words = left[:opened].split()
+        return InText(words[-1] if words else "", _span(path, line, opened + 1, len(left)))
+    number = _NUMBER.search(left)
+    word = _BARE.search(left) if number and not number[2] else _WORD.search(left)
+    start = number.start(2) if number and number[2] else word.start() if word else len(left)
+    first = _first_line(lines, line)
+    before = _tokens([*lines[first - 1 : line - 1], left[:start]], path)
+    return InCode(before, states_after(before), number is not None, _span(path, line, start, len(left)))
+
+
+def states_after(tokens: Sequence[Token]) -> tuple[int, ...]:
+    """Return the parser's states after tokens; what does not fit is passed over, or ends what it stands in."""
+    states: list[int] = list(machine().parse_interactive("").parser_state.state_stack)
+    for token in tokens:
+        after = shifted(states, token.type)
+        if after is not None:
+            states = after
+        elif token.type not in ("NAME", "QNAME"):
+            states = _resumed(states, token.type)
+    return tuple(states)
+
+
+def _resumed(states: list[int], terminal: str) -> list[int]:
+    """Return the states after dropping the least that lets `terminal` follow, unchanged where nothing does."""
+    for kept in range(len(states) - 1, 0, -1):
+        after = shifted(states[:kept], terminal)
+        if after is not None:
+            return after
+    return states
+
+
+def _opened(left: str) -> int | None:
+    """Return where a text or comment begins that is still open at the end of a line's left part."""
+    opened: int | None = None
+    for index, character in enumerate(left):
+        if opened is None and character == "#":
+            return index
+        if character == '"':
+            opened = index if opened is None else None
+    return opened
+
+
+def _first_line(lines: Sequence[str], line: int) -> int:
+    """Return the line on which the cursor's declaration begins, or its `use` or `import`; else its own."""
+    return next((number for number in range(min(line, len(lines)), 0, -1) if _HEAD.match(lines[number - 1])), line)
+
+
+def _tokens(lines: Sequence[str], path: str) -> tuple[Token, ...]:
+    found = tokens_of(Source(path, "\n".join(lines))).value
+    return tuple(token for token in found if token.type != END)
+
+
+def _span(path: str, line: int, start: int, end: int) -> Span:
+    return Span(path, line, start + 1, line, end + 1)

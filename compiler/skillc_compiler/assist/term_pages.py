@@ -1,0 +1,139 @@
+"""What the terms of a vocabulary are, in Markdown."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from skillc_compiler.library.vocabulary import (
+    THING,
+    ClassTerm,
+    ClassType,
+    FunctionTerm,
+    ListType,
+    NumberType,
+    PlainType,
+    PropertyTerm,
+    RelationTerm,
+    ValueType,
+    VectorType,
+    Vocabulary,
+    local_name,
+)
+from skillc_compiler.resolve.names import Kind
+from skillc_dsl.units import DIMENSIONS, UNITS, dimension_of, to_si
+
+
+def term(vocabulary: Vocabulary, kind: Kind, iri: str) -> str:
+    """Return the page of a class, relation or property; empty for an unknown one."""
+    match kind:
+        case "class" if iri == THING:
+            return page("class Thing", "Everything there is.")
+        case "class" if iri in vocabulary.classes:
+            return _class(vocabulary, vocabulary.classes[iri])
+        case "relation" if iri in vocabulary.relations:
+            return _relation(vocabulary, vocabulary.relations[iri])
+        case "property" if iri in vocabulary.properties:
+            return _property(vocabulary, vocabulary.properties[iri])
+        case _:
+            return ""
+
+
+def built_in(name: str) -> str:
+    """Return what a type that is no class is, with its units."""
+    units = [unit for unit, other in UNITS.items() if name in DIMENSIONS and other.dimension == DIMENSIONS[name]]
+    return f"the type **{name}**" + (f", in {', '.join(f'`{unit}`' for unit in units)}" if units else "")
+
+
+def function(term: FunctionTerm) -> str:
+    """Return the page of a function."""
+    return page(function_head(term), term.comment, f"Python: `{term.python}`")
+
+
+def function_head(term: FunctionTerm) -> str:
+    """Return a function as it is declared, without its Python name."""
+    parameters = ", ".join(f"{name}: {type_text(kind)}" for name, kind in term.parameters)
+    return f"function {term.name}({parameters}) -> {type_text(term.result)}"
+
+
+def choice(vocabulary: Vocabulary, text: str) -> str:
+    """Return which properties a text is a value of."""
+    terms = [term for _, term in sorted(vocabulary.properties.items()) if text in term.values]
+    return "\n\n".join(f"`{text}`: a value of {listed([term.iri])}: {', '.join(term.values)}" for term in terms)
+
+
+def type_text(kind: ValueType) -> str:
+    """Return a type as it is written."""
+    match kind:
+        case ClassType(iri=iri):
+            return local_name(iri)
+        case NumberType(dimension=name):
+            return name
+        case VectorType():
+            return "Vector"
+        case PlainType(name=name):
+            return name
+        case ListType(element=element):
+            return f"[{type_text(element)}]"
+
+
+def quantity(value: float, unit: str) -> str:
+    """Return a quantity's dimension and its value in SI units."""
+    dimension = dimension_of(unit)
+    si = next(name for name, other in UNITS.items() if other.dimension == dimension and other.in_si == 1.0)
+    written = f"{value:g} {unit}"
+    other = f"{to_si(value, unit):.6g} {si}"
+    degrees = f" ({math.degrees(to_si(value, unit)):.4g} deg)" if unit == "rad" else ""
+    return f"**{dimension.name}** `{written}`" + (f" = `{other}`" if other != written else "") + degrees
+
+
+def page(code: str, *paragraphs: str) -> str:
+    """Return code and what there is to say about it."""
+    return "\n\n".join((f"```skill\n{code}\n```", *(text for text in paragraphs if text)))
+
+
+def listed(iris: Sequence[str]) -> str:
+    """Return the local names of terms, sorted."""
+    return ", ".join(f"`{local_name(iri)}`" for iri in sorted(iris))
+
+
+def _class(vocabulary: Vocabulary, term: ClassTerm) -> str:
+    parents = f" < {_names(term.parents)}" if term.parents else ""
+    below = [iri for iri, other in vocabulary.classes.items() if term.iri in other.parents]
+    return page(
+        f"class {local_name(term.iri)}{parents}",
+        term.comment,
+        f"disjoint with `{_names(term.disjoint)}`" if term.disjoint else "",
+        f"subclasses: {listed(below)}" if below else "",
+        f"`{vocabulary.short(term.iri)}`",
+    )
+
+
+def _relation(vocabulary: Vocabulary, term: RelationTerm) -> str:
+    name = local_name(term.iri)
+    heads = [f"relation {name}({local_name(x.domain)}, {local_name(x.range)})" for x in term.signatures]
+    traits = {"functional": term.functional, "symmetric": term.symmetric, "transitive": term.transitive}
+    return page(
+        "\n".join(heads) or f"relation {name}",
+        term.comment,
+        ", ".join(trait for trait, has in traits.items() if has),
+        f"inverse of `{local_name(term.inverse)}`" if term.inverse else "",
+        f"implies `{_names(term.parents)}`" if term.parents else "",
+        f"`{vocabulary.short(term.iri)}`",
+    )
+
+
+def _property(vocabulary: Vocabulary, term: PropertyTerm) -> str:
+    name = local_name(term.iri)
+    heads = [f"property {name}({local_name(domain)}): {type_text(term.type)}" for domain in term.domains]
+    return page(
+        "\n".join(heads) or f"property {name}: {type_text(term.type)}",
+        term.comment,
+        f"one of {', '.join(f'`{value}`' for value in term.values)}" if term.values else "",
+        f"computed by `{term.computed_by}`" if term.computed_by else "",
+        f"`{vocabulary.short(term.iri)}`",
+    )
+
+
+def _names(iris: Sequence[str]) -> str:
+    return ", ".join(local_name(iri) for iri in iris)
