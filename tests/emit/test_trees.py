@@ -2,21 +2,29 @@
 
 from __future__ import annotations
 
+import re
+from contextlib import nullcontext
 from xml.etree.ElementTree import fromstring
 
 import msgspec
 import pytest
+from hypothesis import given as hypothesis_given
+from hypothesis import strategies as st
 
 from accept import cases, expected
 from emit.samples import HERE, PICK, WIPE, holds, implementation, library, need, number
-from emit.tree_rules import broken_rules
+from emit.tree_rules import Reader, broken_rules
 from skillc_compiler.emit import bt
-from skillc_compiler.emit.bt_names import Names, port
-from skillc_compiler.library.conditions import Variable
+from skillc_compiler.emit.bt_names import Names, entry, given, port
+from skillc_compiler.emit.bt_ports import plain_value
+from skillc_compiler.emit.bt_rules import TreeRefused, verified
+from skillc_compiler.library.codec import loads
+from skillc_compiler.library.conditions import Literal, Variable
 from skillc_compiler.library.skills import Compound, Primitive, Skill, SkillLibrary
 from skillc_compiler.library.tree import Call
 
 ARTIFACTS = [(case.name, path, text) for case in cases() for path, text in expected(case).items()]
+ARTIFACTS_OF = {case.name: expected(case) for case in cases()}
 FILES = {f"{name}/{path}": text for name, path, text in ARTIFACTS if path.startswith("trees/")}
 
 
@@ -38,13 +46,19 @@ def test_a_file_keeps_the_rules_of_the_format(name: str) -> None:
 BREAKING = {
     "the format is not 4": ('BTCPP_format="4"', 'BTCPP_format="3"'),
     "the main tree is missing": ('main_tree_to_execute="Tour_main"', 'main_tree_to_execute="Detour"'),
-    "Inverter  has 0 children": ("<AlwaysSuccess />", "<Inverter />"),
-    "Action Gone is not declared once": ("<AlwaysSuccess />", '<Action ID="Gone" />'),
-    "SubTree Tour_round calls a tree that is not in the file": ('BehaviorTree ID="Tour_round"', 'BehaviorTree ID="X"'),
-    "SubTree Tour uses an undeclared port": ('<SubTree ID="Tour" ', '<SubTree ID="Tour" spade="1" '),
-    "SubTree Tour leaves out a mandatory port": (' robot="{robot}" first="{first}" stops', " stops"),
-    "SubTree Tour hides the default of a port": ('pause="2"', 'pause="{pause}"'),
-    "Action Look uses an undeclared port": ('<Action ID="Look" robot', '<Action ID="Look" speed="1" robot'),
+    "Inverter has 0 children": ("<AlwaysSuccess />", "<Inverter />"),
+    "Gone is not declared": ("<AlwaysSuccess />", "<Gone />"),
+    "Action is written out, which is refused below a ReactiveSequence": ("<AlwaysSuccess />", '<Action ID="Look" />'),
+    "Tour_round calls a tree that is not in the file": ('BehaviorTree ID="Tour_round"', 'BehaviorTree ID="X"'),
+    "two trees have one ID": ('BehaviorTree ID="Tour_round"', 'BehaviorTree ID="Tour_main"'),
+    "two models have one ID": ('<Action ID="Go">', '<Action ID="Look">'),
+    "a tree has the ID of a node": ('BehaviorTree ID="Tour_round"', 'BehaviorTree ID="Sequence"'),
+    "Tour uses an undeclared port": ('<SubTree ID="Tour" ', '<SubTree ID="Tour" spade="1" '),
+    "Tour has a reserved attribute": ('<SubTree ID="Tour" ', '<SubTree ID="Tour" name="1" '),
+    "Tour leaves out a mandatory port": (' robot="{robot}" first="{first}" stops', " stops"),
+    "Tour hides the default of a port": ('pause="2"', 'pause="{pause}"'),
+    "Tour is passed what is not of the port's type": ('pause="2"', 'pause="2 s"'),
+    "Look uses an undeclared port": ("<Look robot", '<Look speed="1" robot'),
 }
 
 
@@ -55,6 +69,30 @@ def test_the_rules_notice_what_breaks_them(words: str) -> None:
     before, after = BREAKING[words]
     assert before in text
     assert words in broken_rules(text.replace(before, after))
+
+
+@pytest.mark.parametrize("words", BREAKING)
+def test_what_breaks_a_rule_is_not_written(words: str) -> None:
+    text = FILES["control/trees/Tour.xml"].replace('<Sleep msec="1500" />', "<AlwaysSuccess />")
+    verified(fromstring(text))
+    harmless = words == "Tour hides the default of a port"
+    with nullcontext() if harmless else pytest.raises(TreeRefused):
+        verified(fromstring(text.replace(*BREAKING[words])))
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_names_lead_back_to_the_library(name: str) -> None:
+    reader = Reader.of(FILES[name])
+    made = loads(ARTIFACTS_OF[name.split("/")[0]]["library.json"].encode(), name)
+    found = reader.names()
+    assert len(set(found.values())) == len(found)
+    for identity, (skill, *rest) in found.items():
+        assert skill in ({""} | made.skills.keys()), identity
+        assert not rest or not rest[0] or not skill or f"{skill}.{rest[0]}" in made.implementations, identity
+    for skill in made.skills.values():
+        if skill.name in found:
+            ports = set(reader.parameters(skill.name).values())
+            assert ports <= {each.name for each in skill.parameters}
 
 
 def nested(implementation_name: str | None) -> str:
@@ -82,9 +120,9 @@ def test_a_chosen_implementation_is_looked_up_and_guarded_like_any_other() -> No
     called = root.find("BehaviorTree[@ID='Every_one']/SubTree")
     assert called is not None and called.get("ID") == "Wipe_only_plain"
     steps = root.findall("BehaviorTree[@ID='Wipe_only_plain']/Sequence/*")
-    assert [each.get("ID") for each in steps[:2]] == ["Wipe_infer", "Wipe_pre_on"]
+    assert [each.tag for each in steps[:2]] == ["Wipe_infer", "Wipe_pre_on"]
     guarded = root.find("BehaviorTree[@ID='Wipe_only_plain']/Sequence/ReactiveSequence")
-    assert guarded is not None and guarded[-1].get("ID") == "Wipe_plain"
+    assert guarded is not None and guarded[-1].tag == "Wipe_plain"
 
 
 def test_a_computed_value_says_what_it_reads() -> None:
@@ -92,9 +130,9 @@ def test_a_computed_value_says_what_it_reads() -> None:
     declared = root.find("TreeNodesModel/Action[@ID='Tour_round_evaluate_milliseconds__1']")
     assert declared is not None
     assert declared.findtext("description") == "Computes: pause * 1000"
-    assert [(each.tag, each.get("name")) for each in declared[1:]] == [
-        ("input_port", "pause"),
-        ("output_port", "value"),
+    assert [(each.tag, each.get("name"), each.get("type")) for each in declared[2:]] == [
+        ("input_port", "pause", "double"),
+        ("output_port", "value", "unsigned int"),
     ]
 
 
@@ -102,21 +140,22 @@ def test_hold_conditions_guard_the_body_and_nothing_else() -> None:
     root = fromstring(bt.emit(compounded())["trees/Wipe.xml"])
     guarded = root.find("BehaviorTree[@ID='Wipe']/Sequence/ReactiveSequence")
     assert guarded is not None
-    assert [each.get("ID") for each in guarded[:-1]] == ["Wipe_hold_ready", "Wipe_hold_kept"]
+    assert [each.tag for each in guarded[:-1]] == ["Wipe_hold_ready", "Wipe_hold_kept"]
     assert guarded[-1].tag == "IfThenElse"
 
 
 def test_the_first_implementation_that_fits_is_run_and_no_other_after_it_failed() -> None:
     root = fromstring(bt.emit(compounded())["trees/Wipe.xml"])
     choice = next(root.iter("IfThenElse"))
-    assert [each.get("ID") for each in choice[0]] == ["Wipe_careful_type_arm", "Wipe_careful_pre_free"]
+    assert [each.tag for each in choice[0]] == ["Wipe_careful_type_arm", "Wipe_careful_pre_free"]
     assert [each.get("ID") for each in choice[1:]] == ["Wipe_careful", "Wipe_plain"]
 
 
 def test_fallback_lets_the_next_implementation_take_over() -> None:
     root = fromstring(bt.emit(compounded(fallback=True))["trees/Wipe.xml"])
     choice = next(root.iter("Fallback"))
-    assert [each[-1].get("ID") if len(each) else each.get("ID") for each in choice] == ["Wipe_careful", "Wipe_plain"]
+    assert [each[-1].get("ID") for each in choice] == ["Wipe_careful", "Wipe_plain"]
+    assert [each.tag for each in choice[1][:-1]] == [f"Wipe_pre_{each.label}" for each in WIPE.pre]
 
 
 def test_no_file_for_skills_that_are_single_actions() -> None:
@@ -125,6 +164,36 @@ def test_no_file_for_skills_that_are_single_actions() -> None:
 
 def test_names_of_nodes_stay_apart_from_each_other_and_from_built_in_ones() -> None:
     names = Names()
-    chosen = [names.of("Sequence"), names.of("a_b"), names.of("a", "b"), names.of("ä b"), names.of("a_b")]
-    assert chosen == ["Sequence_2", "a_b", "a_b_2", "n__b", "a_b"]
-    assert (port("name"), port("ID"), port("arm-1")) == ("name_", "ID_", "arm_1")
+    chosen = [names.of("Sequence"), names.of("a_b"), names.of("a", "b"), names.of("", "a", "b"), names.of("a_b")]
+    assert chosen == ["Sequence_2", "a_b", "a_b_2", "a_b_3", "a_b"]
+    assert (port("name"), port("name_"), port("arm"), port("ä"), port("_a")) == (
+        "name_",
+        "name__",
+        "arm",
+        "n_xe4_",
+        "n_a",
+    )
+
+
+ODD = r"(name|ID|n|nn)_{0,3}a?|a__(\d|given)_?|(_|n_)?(xe4_|_xe4_|ä)"
+some_names = st.from_regex(rf"[^\W\d]\w{{0,5}}|{ODD}", fullmatch=True)
+
+
+@hypothesis_given(st.sets(some_names, min_size=2, max_size=30))
+def test_no_two_names_have_one_port(written: set[str]) -> None:
+    ports = {port(each) for each in written}
+    assert len(ports) == len(written)
+    assert all(re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", each) and each not in ("ID", "name") for each in ports)
+    made = {entry("a", 1), given("a"), given("name")}
+    assert not made & ports
+
+
+def test_text_that_a_port_would_take_for_something_else_is_computed() -> None:
+    assert [plain_value(Literal(each)) for each in ("", "{a}", "json:1", "a", 1.5, True)] == [
+        None,
+        None,
+        None,
+        "a",
+        "1.5",
+        "true",
+    ]

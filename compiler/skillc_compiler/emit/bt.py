@@ -1,8 +1,10 @@
 """trees/: behaviour trees in the XML of BehaviorTree.CPP, version 4.
 
 A file per skill that has a compound implementation, and per task written by hand. Each can be loaded by itself: it
-holds the trees of all skills it calls and declares every node it uses. Its main tree only passes on what the skill
-requires, from the blackboard, and the defaults of what it does not.
+holds the trees of all skills it calls and declares every node it uses, with the names behind its ID: those of the
+skill, of the implementation (empty: the description) and of what is meant there. Its main tree only passes on what the
+skill requires, from the blackboard, and the defaults of what it does not. Nodes other than trees are written by their
+ID alone: version 4.7 takes no `<Condition ID=..>` in a ReactiveSequence.
 """
 
 from __future__ import annotations
@@ -10,9 +12,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from xml.etree.ElementTree import Element, indent, tostring
 
+from skillc_compiler.emit.bt_calls import is_tree, reached
 from skillc_compiler.emit.bt_model import Model
 from skillc_compiler.emit.bt_names import Names, legal
-from skillc_compiler.emit.bt_nodes import Body, is_tree
+from skillc_compiler.emit.bt_nodes import Body, started
+from skillc_compiler.emit.bt_rules import verified
 from skillc_compiler.emit.bt_skills import fixed_tree, implementation_tree, main_tree, skill_tree
 from skillc_compiler.emit.headers import XML_DECLARATION
 from skillc_compiler.library.reading import walk
@@ -45,48 +49,34 @@ def _names(library: SkillLibrary) -> Names:
 
 def _skill_file(skill: Skill, library: SkillLibrary, names: Names) -> str:
     model = Model()
-    skills = [skill, *(library.skills[name] for name in sorted(_called([skill.name], library) - {skill.name}))]
-    owner = (skill.name, "main")
-    main = main_tree(Body(library, names, model, owner), skill)
-    trees = [tree for each in skills for tree in _trees(each, library, names, model)]
-    return _document(names.of(*owner), [main, *trees], model)
+    skills = [skill, *(library.skills[name] for name in sorted(reached([skill.name], library) - {skill.name}))]
+    main = main_tree(library, names, model, skill)
+    return _document([main, *(tree for each in skills for tree in _trees(each, library, names, model))], model)
 
 
-def _task_file(task: Task, body: Node, library: SkillLibrary, names: Names) -> str:
+def _task_file(task: Task, node: Node, library: SkillLibrary, names: Names) -> str:
     model = Model()
-    identity = names.of("task", task.name)
+    path = ("", "task", task.name)
+    identity = names.of(*path)
+    model.declare("SubTree", identity, path, (), task.doc)
+    body = Body(library, names, model, path)
     tree = Element("BehaviorTree", ID=identity, _description=str(task.source))
-    tree.append(Body(library, names, model, ("task", task.name)).node(body))
-    called = _called([each.skill for each in walk(body) if isinstance(each, Call)], library)
+    tree.append(started(body, [body.node(node)]))
+    called = reached([each.skill for each in walk(node) if isinstance(each, Call)], library)
     others = [each for name in sorted(called) for each in _trees(library.skills[name], library, names, model)]
-    return _document(identity, [tree, *others], model)
-
-
-def _called(start: list[str], library: SkillLibrary) -> set[str]:
-    """Return these skills and all that they call, directly or not."""
-    seen: set[str] = set()
-    todo = list(start)
-    while todo:
-        name = todo.pop()
-        if name not in seen:
-            seen.add(name)
-            bodies = [each.body for each in library.implementations_of(name)]
-            nodes = [body.node for body in bodies if isinstance(body, Compound)]
-            todo += [each.skill for node in nodes for each in walk(node) if isinstance(each, Call)]
-    return seen
+    return _document([tree, *others], model)
 
 
 def _trees(skill: Skill, library: SkillLibrary, names: Names, model: Model) -> Iterator[Element]:
     if not is_tree(library, skill):
         return
-    yield skill_tree(Body(library, names, model, (skill.name,)), skill)
+    yield skill_tree(library, names, model, skill)
     fixed = _fixed(skill.name, library)
     for each in library.implementations_of(skill.name):
         if each.name in fixed:
-            yield fixed_tree(Body(library, names, model, (skill.name,)), skill, each)
+            yield fixed_tree(library, names, model, skill, each)
         if isinstance(each.body, Compound):
-            body = Body(library, names, model, (skill.name, each.name), posts=each.post)
-            yield implementation_tree(body, each)
+            yield implementation_tree(library, names, model, each)
 
 
 def _fixed(skill: str, library: SkillLibrary) -> set[str]:
@@ -97,8 +87,9 @@ def _fixed(skill: str, library: SkillLibrary) -> set[str]:
     return {each.implementation for each in calls if each.skill == skill and each.implementation is not None}
 
 
-def _document(main: str, trees: list[Element], model: Model) -> str:
-    root = Element("root", BTCPP_format="4", main_tree_to_execute=main)
+def _document(trees: list[Element], model: Model) -> str:
+    """Return the file whose main tree is the first; TreeRefused if BehaviorTree.CPP would misread it."""
+    root = Element("root", BTCPP_format="4", main_tree_to_execute=trees[0].get("ID", ""))
     root.extend([*trees, model.element()])
     indent(root)
-    return XML_DECLARATION + tostring(root, encoding="unicode") + "\n"
+    return XML_DECLARATION + tostring(verified(root), encoding="unicode") + "\n"

@@ -7,46 +7,70 @@ from dataclasses import dataclass, field
 from typing import Literal
 from xml.etree.ElementTree import Element, SubElement
 
-Kind = Literal["Action", "Condition", "Control", "Decorator", "SubTree"]
+Kind = Literal["Action", "Condition", "Decorator", "SubTree"]
+Direction = Literal["input", "output"]
 
 
 @dataclass(frozen=True)
 class Port:
-    """A port: what flows through it where, and its default."""
+    """A port: what flows through it where, its type in C++ (None: any) and default, and whose parameter it is."""
 
     name: str
-    direction: Literal["input", "output", "inout"] = "input"
+    direction: Direction = "input"
+    type: str | None = None
     default: str | None = None
     doc: str = ""
+    parameter: str = ""
+
+
+@dataclass(frozen=True)
+class _Declaration:
+    kind: Kind
+    path: tuple[str, ...]
+    ports: tuple[Port, ...]
+    doc: str
 
 
 @dataclass
 class Model:
     """Collects declarations; a node declared twice must be declared alike."""
 
-    _declared: dict[str, tuple[Kind, tuple[Port, ...], str]] = field(default_factory=dict)
+    _declared: dict[str, _Declaration] = field(default_factory=dict)
 
-    def declare(self, kind: Kind, identity: str, ports: Sequence[Port], doc: str = "") -> None:
-        """Declare a node; ValueError if another one has its ID."""
-        declaration = (kind, tuple(ports), doc)
+    def declare(self, kind: Kind, identity: str, path: tuple[str, ...], ports: Sequence[Port], doc: str = "") -> None:
+        """Declare a node that stands for the thing with this path of names; ValueError if another has its ID."""
+        declaration = _Declaration(kind, path, tuple(ports), doc)
         if self._declared.setdefault(identity, declaration) != declaration:
             raise ValueError(f"two nodes are called {identity}")
 
     def element(self) -> Element:
         """Return the TreeNodesModel, in order of the IDs."""
         model = Element("TreeNodesModel")
-        for identity, (kind, ports, doc) in sorted(self._declared.items()):
-            node = SubElement(model, kind, ID=identity)
-            if doc:
-                SubElement(node, "description").text = doc
-            node.extend(_ports(ports))
+        for identity, declared in sorted(self._declared.items()):
+            node = SubElement(model, declared.kind, ID=identity)
+            if declared.doc:
+                SubElement(node, "description").text = declared.doc
+            node.append(_names(declared))
+            node.extend(_ports(declared.ports))
         return model
+
+
+def _names(declared: _Declaration) -> Element:
+    """Return the names behind the ID, and behind each port that is not called as its parameter is."""
+    fields = Element("MetadataFields")
+    SubElement(fields, "Metadata", skillc="/".join(declared.path))
+    for each in declared.ports:
+        if each.parameter not in ("", each.name):
+            SubElement(fields, "Metadata", {f"port_{each.name}": each.parameter})
+    return fields
 
 
 def _ports(ports: Iterable[Port]) -> list[Element]:
     elements = []
     for each in ports:
         element = Element(f"{each.direction}_port", name=each.name)
+        if each.type is not None:
+            element.set("type", each.type)
         if each.default is not None:
             element.set("default", each.default)
         element.text = each.doc or None

@@ -9,22 +9,41 @@ BUILT_IN = """
     Fallback ForceFailure ForceSuccess IfThenElse Inverter KeepRunningUntilFailure LoopBool LoopDouble LoopInt
     LoopString ManualSelector Parallel ParallelAll Precondition ReactiveFallback ReactiveSequence Repeat
     RetryUntilSuccessful RunOnce Script ScriptCondition Sequence SequenceWithMemory SetBlackboard SkipUnlessUpdated
-    Sleep SubTree Switch2 Switch3 Switch4 Switch5 Switch6 Timeout TreeNodesModel UnsetBlackboard WaitValueUpdate
-    WasEntryUpdated WhileDoElse root
+    Sleep SubTree Switch2 Switch3 Switch4 Switch5 Switch6 TestNode Timeout TreeNodesModel UnsetBlackboard
+    WaitValueUpdate WasEntryUpdated WhileDoElse include root
 """
-RESERVED_PORTS = frozenset({"ID", "name"})
+ILLEGAL = re.compile(r"_(?=x[0-9a-f]+_)|[^A-Za-z0-9_]")
+HEADLESS = re.compile(r"n*[0-9_]|$")
+RESERVED = re.compile(r"(ID|name)_*")
+MADE = re.compile(r".*__(\d+|given)_*")
 
 
 def legal(name: str) -> str:
-    """Return the name with `_` for whatever is no letter, digit or `_`; it starts with a letter."""
-    plain = re.sub(r"[^A-Za-z0-9_]", "_", name)
-    return plain if plain[:1].isalpha() else f"n{plain}"
+    """Return the name of ASCII letters, digits and `_` only, beginning with a letter; no two names share one.
+
+    A character that is none of these becomes its code, as in `_xe4_`.
+    """
+    plain = ILLEGAL.sub(lambda found: f"_x{ord(found.group()):x}_", name)
+    return f"n{plain}" if HEADLESS.match(plain) else plain
 
 
 def port(name: str) -> str:
-    """Return the name of a port, which is also that of the entry of the blackboard."""
+    """Return the name of a port, which is also that of the entry of the blackboard; no two names share one.
+
+    A name that the format keeps for itself, or that looks like one that `entry` or `given` makes, gets a `_` more.
+    """
     plain = legal(name)
-    return f"{plain}_" if plain in RESERVED_PORTS else plain
+    return f"{plain}_" if RESERVED.fullmatch(plain) or MADE.fullmatch(plain) else plain
+
+
+def entry(name: str, number: int) -> str:
+    """Return the name of an entry of the blackboard that no parameter has."""
+    return f"{legal(name)}__{number}"
+
+
+def given(name: str) -> str:
+    """Return the port through which a caller passes what would be inferred otherwise."""
+    return f"{legal(name)}__given"
 
 
 class Names:
@@ -35,9 +54,9 @@ class Names:
         self._used = set(BUILT_IN.split())
 
     def of(self, *parts: str) -> str:
-        """Return the ID of the thing with this path of names, always the same."""
+        """Return the ID of the thing with this path of names, always the same; empty ones only tell paths apart."""
         if parts not in self._chosen:
-            wanted = legal("_".join(parts))
+            wanted = legal("_".join(filter(None, parts)))
             name, number = wanted, 1
             while name in self._used:
                 number += 1

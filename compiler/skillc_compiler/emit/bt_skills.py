@@ -5,63 +5,78 @@ from __future__ import annotations
 from collections.abc import Sequence
 from xml.etree.ElementTree import Element
 
-from skillc_compiler.emit.bt_names import port
-from skillc_compiler.emit.bt_nodes import Body
-from skillc_compiler.emit.bt_ports import action_ports, default_text, passed_on
+from skillc_compiler.emit.bt_body import holding, pointer, sequence, types_of
+from skillc_compiler.emit.bt_calls import call, run
+from skillc_compiler.emit.bt_model import Model
+from skillc_compiler.emit.bt_names import Names, given, port
+from skillc_compiler.emit.bt_nodes import Body, started
+from skillc_compiler.emit.bt_ports import default_text, inferring_ports, passed_on
 from skillc_compiler.library.conditions import Expression, IsA, Variable
-from skillc_compiler.library.skills import Compound, Implementation, Post, Requirement, Skill
+from skillc_compiler.library.skills import Compound, Implementation, Post, Requirement, Skill, SkillLibrary
 from skillc_compiler.library.tree import Call
 from skillc_compiler.library.vocabulary import ClassType
 
-
-def skill_tree(body: Body, skill: Skill) -> Element:
-    """Return the tree of a description, which runs the first implementation that fits."""
-    choice = _choice(body, skill, body.library.implementations_of(skill.name))
-    return _tree(body.names.of(skill.name), _guarded(body, skill, choice), str(skill.source))
+DESCRIPTION = ""
+"""Stands in a path of names where that of an implementation would."""
 
 
-def fixed_tree(body: Body, skill: Skill, implementation: Implementation) -> Element:
-    """Return the tree of a description for callers who have chosen the implementation."""
-    identity = body.names.of(skill.name, "only", implementation.name)
-    return _tree(identity, _guarded(body, skill, _choice(body, skill, [implementation])), str(skill.source))
-
-
-def main_tree(body: Body, skill: Skill) -> Element:
+def main_tree(library: SkillLibrary, names: Names, model: Model, skill: Skill) -> Element:
     """Return the tree that runs a skill by itself: what has a default gets it, the rest is read from the blackboard."""
+    path = (skill.name, DESCRIPTION, "main")
     arguments: dict[str, Expression] = {
-        each.name: Variable(each.name) for each in skill.parameters if default_text(each) is None
+        each.name: Variable(each.name)
+        for each in skill.parameters
+        if each.direction != "out" and default_text(each) is None
     }
-    call = Call(skill.name, None, arguments, None, skill.source)
-    return _tree(body.names.of(*body.owner), [body.call(call)], str(skill.source))
+    body = Body(library, names, model, path, types=types_of(skill.parameters))
+    running = call(body, Call(skill.name, None, arguments, None, skill.source))
+    return _tree(body, running, str(skill.source), skill.doc)
 
 
-def implementation_tree(body: Body, implementation: Implementation) -> Element:
+def skill_tree(library: SkillLibrary, names: Names, model: Model, skill: Skill) -> Element:
+    """Return the tree of a description, which runs the first implementation that fits."""
+    body = Body(library, names, model, (skill.name,), types=types_of(skill.parameters))
+    steps = _guarded(body, skill, library.implementations_of(skill.name))
+    return _tree(body, steps, str(skill.source))
+
+
+def fixed_tree(library: SkillLibrary, names: Names, model: Model, skill: Skill, chosen: Implementation) -> Element:
+    """Return the tree of a description for callers who have chosen the implementation."""
+    owner = (skill.name, DESCRIPTION, "only", chosen.name)
+    body = Body(library, names, model, owner, types=types_of(skill.parameters))
+    return _tree(body, _guarded(body, skill, [chosen]), str(skill.source))
+
+
+def implementation_tree(library: SkillLibrary, names: Names, model: Model, implementation: Implementation) -> Element:
     """Return the tree of a compound implementation: its lets, then its body."""
     if not isinstance(implementation.body, Compound):
         raise TypeError(f"{implementation.name} has no tree")
+    owner, types = (implementation.skill, implementation.name), types_of(implementation.parameters)
+    body = Body(library, names, model, owner, posts=implementation.post, types=types)
     steps = [body.evaluate(each.value, port(each.name)) for each in implementation.lets]
     steps.append(body.node(implementation.body.node))
-    return _tree(body.names.of(implementation.skill, implementation.name), steps, str(implementation.source))
+    return _tree(body, started(body, steps), str(implementation.source))
 
 
-def _tree(identity: str, steps: Sequence[Element], source: str) -> Element:
-    tree = Element("BehaviorTree", ID=identity, _description=source)
-    if len(steps) == 1:
-        tree.append(steps[0])
-    else:
-        sequence = Element("Sequence")
-        sequence.extend(steps)
-        tree.append(sequence)
-    return tree
+def _tree(body: Body, root: Element, source: str, doc: str | None = None) -> Element:
+    """Return the tree, declared here if a text is given: one that nobody calls is not declared by its callers."""
+    identity = body.names.of(*body.owner)
+    if doc is not None:
+        body.model.declare("SubTree", identity, body.owner, (), doc)
+    return holding(Element("BehaviorTree", ID=identity, _description=source), root)
 
 
-def _guarded(body: Body, skill: Skill, choice: Element) -> list[Element]:
-    return [
-        *_inference(body, skill),
-        *(_required(body, "pre", each) for each in skill.pre),
-        _held(body, skill.hold, choice),
-        *(_required(body, "post", each) for each in skill.post),
-    ]
+def _guarded(body: Body, skill: Skill, implementations: Sequence[Implementation]) -> Element:
+    choice = _choice(body, skill, implementations)
+    described = (skill.name, DESCRIPTION)
+    return sequence(
+        [
+            *_inference(body, skill),
+            *(_required(body, (*described, "pre"), each) for each in skill.pre),
+            _held(body, described, skill.hold, choice),
+            *(_required(body, (*described, "post"), each) for each in skill.post),
+        ]
+    )
 
 
 def _inference(body: Body, skill: Skill) -> list[Element]:
@@ -69,56 +84,46 @@ def _inference(body: Body, skill: Skill) -> list[Element]:
     if not inferred:
         return []
     parameters = [each for each in skill.parameters if each.direction in ("in", "infer")]
-    identity = body.names.of(skill.name, "infer")
-    doc = f"Finds {', '.join(each.name for each in inferred)} in the world model by the preconditions."
-    body.model.declare("Action", identity, action_ports(parameters), doc)
-    return [Element("Action", {"ID": identity, **passed_on(parameters)})]
+    path = (skill.name, DESCRIPTION, "infer")
+    doc = f"Finds {', '.join(each.name for each in inferred)} in the world model by the preconditions, unless given."
+    body.model.declare("Action", body.names.of(*path), path, inferring_ports(parameters), doc)
+    callers = {given(each.name): pointer(given(each.name)) for each in inferred}
+    return [Element(body.names.of(*path), {**passed_on(parameters), **callers})]
 
 
-def _required(body: Body, kind: str, requirement: Requirement | Post) -> Element:
-    path = (*body.owner, kind, requirement.label)
-    return body.condition(path, requirement.condition, requirement.text, requirement.source)
+def _required(body: Body, path: tuple[str, ...], requirement: Requirement | Post) -> Element:
+    return body.condition((*path, requirement.label), requirement.condition, requirement.text, requirement.source)
 
 
-def _held(body: Body, holds: Sequence[Requirement], inner: Element) -> Element:
+def _held(body: Body, path: tuple[str, ...], holds: Sequence[Requirement], inner: Element) -> Element:
     if not holds:
         return inner
-    guarded = Element("ReactiveSequence")
-    guarded.extend([*(_required(body, "hold", each) for each in holds), inner])
-    return guarded
+    return holding(Element("ReactiveSequence"), *(_required(body, (*path, "hold"), each) for each in holds), inner)
 
 
 def _choice(body: Body, skill: Skill, implementations: Sequence[Implementation]) -> Element:
     """Return the choice among implementations; the next is tried after a failure only where the skill says so."""
     options = [(_demands(body, each, skill), _run(body, each, skill)) for each in implementations]
     if skill.fallback and len(options) > 1:
-        choice = Element("Fallback")
-        choice.extend(_sequence([*demands, run]) for demands, run in options)
-        return choice
+        return _with_fallback(body, skill, options)
     chosen = Element("AlwaysFailure")
-    for demands, run in reversed(options):
-        if not demands:
-            chosen = run
-            continue
-        branch = Element("IfThenElse")
-        branch.extend([_sequence(demands), run, chosen])
-        chosen = branch
+    for demands, option in reversed(options):
+        chosen = holding(Element("IfThenElse"), sequence(demands), option, chosen) if demands else option
     return chosen
 
 
-def _sequence(steps: Sequence[Element]) -> Element:
-    if len(steps) == 1:
-        return steps[0]
-    sequence = Element("Sequence")
-    sequence.extend(steps)
-    return sequence
+def _with_fallback(body: Body, skill: Skill, options: Sequence[tuple[list[Element], Element]]) -> Element:
+    """Return the implementations in turn; after one has failed, the world may be another and is tested again."""
+    choice = Element("Fallback")
+    for number, (demands, option) in enumerate(options):
+        again = [_required(body, (skill.name, DESCRIPTION, "pre"), each) for each in skill.pre] if number else []
+        choice.append(sequence([*again, *demands, option]))
+    return choice
 
 
 def _run(body: Body, implementation: Implementation, skill: Skill) -> Element:
     own = [each for each in implementation.hold if each not in skill.hold]
-    return _held(
-        Body(body.library, body.names, body.model, (skill.name, implementation.name)), own, body.run(implementation)
-    )
+    return _held(body, (skill.name, implementation.name), own, run(body, implementation))
 
 
 def _demands(body: Body, implementation: Implementation, skill: Skill) -> list[Element]:
@@ -132,4 +137,4 @@ def _demands(body: Body, implementation: Implementation, skill: Skill) -> list[E
             condition = IsA(Variable(each.name), each.type.iri)
             tests.append(body.condition((*owner, "type", each.name), condition, text, each.source))
     own = [each for each in implementation.pre if each not in skill.pre]
-    return tests + [body.condition((*owner, "pre", each.label), each.condition, each.text, each.source) for each in own]
+    return tests + [_required(body, (*owner, "pre"), each) for each in own]
