@@ -34,7 +34,7 @@ Good:
     import "motion.skill"
     task rest {
         scene "ur5e_whiteboard.ttl"
-        do    TakePosture(arm: lab:Ur5e-1)
+        do    TakePosture(arm: lab:Iiwa-1)
     }
 
 ## unused-import: nothing of an imported file is used

@@ -1,0 +1,376 @@
+"""Names that mean nothing, or too much.
+
+A bare name is looked up in the vocabularies of the `use` line, in the file and in what it imports. `prefix:name` always
+works.
+
+## unknown-class: there is no such class
+
+Bad:
+
+    use skiros, rparts, skillc
+    skill Hold {
+        in   gripper: GripperEffector
+        in   object:  Product
+        pre  object is Tol
+        noplan
+    }
+    impl waiting of Hold { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skiros, rparts, skillc
+    skill Hold {
+        in   gripper: GripperEffector
+        in   object:  Product
+        pre  object is Tool
+        noplan
+    }
+    impl waiting of Hold { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## unknown-type: there is no such type
+
+A type is a class, a dimension, or `Bool`, `Int`, `Number`, `Text`, `Pose`, `Vector`; `[T]` is a list.
+
+Bad:
+
+    skill Rest {
+        opt time: Tiem = 5 s
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    skill Rest {
+        opt time: Time = 5 s
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## unknown-relation: there is no such relation
+
+Also where the condition must not hold: a misspelt one would never fail.
+
+Bad:
+
+    use skiros, rparts
+    skill Hold {
+        in   gripper: GripperEffector
+        in   object:  Product
+        pre  not gripper contains _
+        noplan
+    }
+    impl waiting of Hold { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skiros, rparts
+    skill Hold {
+        in   gripper: GripperEffector
+        in   object:  Product
+        pre  not gripper contain _
+        noplan
+    }
+    impl waiting of Hold { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## unknown-property: there is no such property
+
+Bad:
+
+    use skiros, rparts, skillc
+    skill Hold {
+        in   gripper: GripperEffector
+        in   object:  Product
+        pre  gripper.deviceStat == Idle
+        pre  object.Weight < 1 kg
+        noplan
+    }
+    impl waiting of Hold { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skiros, rparts, skillc
+    skill Hold {
+        in   gripper: GripperEffector
+        in   object:  Product
+        pre  gripper.deviceState == Idle
+        pre  object.Weight < 1 kg
+        noplan
+    }
+    impl waiting of Hold { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## unknown-value: a property has no such value
+
+Some texts have a few possible values, which the vocabulary lists.
+
+Bad:
+
+    use skiros, rparts, skillc
+    skill Hold {
+        in   gripper: GripperEffector
+        in   object:  Product
+        pre  gripper.deviceState != Falt
+        noplan
+    }
+    impl waiting of Hold { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skiros, rparts, skillc
+    skill Hold {
+        in   gripper: GripperEffector
+        in   object:  Product
+        pre  gripper.deviceState != Fault
+        noplan
+    }
+    impl waiting of Hold { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## unknown-function: there is no such function
+
+Bad:
+
+    use rparts
+    import "motion.skill"
+    skill Rest {
+        in arm:  ArmDevice
+        in goal: Pose
+        in up:   Vector
+        noplan
+    }
+    impl waiting of Rest {
+        let above = ofset(goal, up)
+        do  MoveTo(arm, target: above)
+    }
+
+Good:
+
+    use rparts
+    import "motion.skill"
+    skill Rest {
+        in arm:  ArmDevice
+        in goal: Pose
+        in up:   Vector
+        noplan
+    }
+    impl waiting of Rest {
+        let above = offset(goal, up)
+        do  MoveTo(arm, target: above)
+    }
+
+## unknown-skill: there is no such skill
+
+Bad:
+
+    use rparts
+    import "motion.skill"
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl folded of Rest { do TakePostur(arm) }
+
+Good:
+
+    use rparts
+    import "motion.skill"
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl folded of Rest { do TakePosture(arm) }
+
+## unknown-implementation: a skill has no such implementation
+
+`Skill[name](..)` fixes which implementation is taken.
+
+Bad:
+
+    use rparts
+    import "motion.skill"
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl folded of Rest { do TakePosture[joint](arm) }
+
+Good:
+
+    use rparts
+    import "motion.skill"
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl folded of Rest { do TakePosture[joints](arm) }
+
+## unknown-parameter: a skill, implementation or body has no such name
+
+Values come from the parameters, from `let`, from loops and from outputs of calls before; there is no global
+blackboard. Individuals are written with their prefix.
+
+Bad:
+
+    use skiros, rparts
+    skill Hold {
+        in   gripper: GripperEffector
+        in   object:  Product
+        pre  griper contain object
+        noplan
+    }
+    impl waiting of Hold { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skiros, rparts
+    skill Hold {
+        in   gripper: GripperEffector
+        in   object:  Product
+        pre  gripper contain object
+        noplan
+    }
+    impl waiting of Hold { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## unknown-argument: a called skill has no such parameter
+
+Bad:
+
+    use rparts
+    import "motion.skill"
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl folded of Rest { do TakePosture(arm, pose: "home") }
+
+Good:
+
+    use rparts
+    import "motion.skill"
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl folded of Rest { do TakePosture(arm, posture: "home") }
+
+## unknown-individual: the scene of a task has no such individual
+
+Told where the scene is known: by `skillc check --scene` and whatever runs the task.
+
+Bad:
+
+    import "motion.skill"
+    prefix lab: <http://example.org/lab#>
+    task rest {
+        scene "iiwa_table.ttl"
+        do    TakePosture(arm: lab:Iiwa-2)
+    }
+
+Good:
+
+    import "motion.skill"
+    prefix lab: <http://example.org/lab#>
+    task rest {
+        scene "iiwa_table.ttl"
+        do    TakePosture(arm: lab:Iiwa-1)
+    }
+
+## unknown-prefix: a prefix is not declared
+
+The prefixes of all vocabularies are there; others are declared: `prefix lab: <http://example.org/lab#>`.
+
+Bad:
+
+    skill Rest {
+        in arm: rpart:ArmDevice
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    skill Rest {
+        in arm: rparts:ArmDevice
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## unknown-vocabulary: there is no such vocabulary
+
+Bad:
+
+    use rpart
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use rparts
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## unknown-import: there is no such file
+
+Files are looked for beside the one that imports them, then in the standard library.
+
+Bad:
+
+    use rparts
+    import "motoin.skill"
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl folded of Rest { do TakePosture(arm) }
+
+Good:
+
+    use rparts
+    import "motion.skill"
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl folded of Rest { do TakePosture(arm) }
+
+## ambiguous-name: a bare name is found in several vocabularies
+
+Here the vocabulary `shop` has a class `Part` too. Write the prefix of the one that is meant.
+
+Bad:
+
+    use skiros, shop
+    skill Look {
+        in part: Part
+        noplan
+    }
+    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skiros, shop
+    skill Look {
+        in part: skiros:Part
+        in item: Item
+        in tray: Container
+        noplan
+    }
+    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## missing-prefix: a goal or call given at the command line names an individual without its prefix
+
+Individuals are written with a prefix that the scene file declares.
+
+Bad:
+
+    Whiteboard-1.isClean == true
+
+Good:
+
+    lab:Whiteboard-1.isClean == true
+"""

@@ -1,0 +1,159 @@
+"""Text that is not the language.
+
+## syntax: something is missing, or stands where it does not fit
+
+The message names what would fit. What was not understood is left out, and everything else is checked.
+
+Bad:
+
+    use rparts
+    skill Rest {
+        in arm ArmDevice
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use rparts
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## unclosed-brace: a `{` has no `}`
+
+Told where the brace opens that, as the indentation shows, was left open.
+
+Bad:
+
+    use rparts
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use rparts
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## unopened-brace: a `}` has no `{`
+
+Bad:
+
+    use rparts
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+    }
+
+Good:
+
+    use rparts
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## missing-space-after-colon: a label stands right before its value
+
+A space tells `arm: ArmDevice`, a label, from `rparts:ArmDevice`, a name with its prefix.
+
+Bad:
+
+    use rparts
+    skill Rest {
+        in arm:ArmDevice
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use rparts
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## unknown-character: a character means nothing in the language
+
+Bad:
+
+    use rparts
+    skill Rest {
+        in arm: ArmDevice
+        noplan;
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use rparts
+    skill Rest {
+        in arm: ArmDevice
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## unterminated-string: a text in quotes does not end on its line
+
+Bad:
+
+    function gap() -> Length = python "skillc_runtime.primitives.stand_in:StandIn
+
+Good:
+
+    function gap() -> Length = python "skillc_runtime.primitives.stand_in:StandIn"
+
+## unknown-unit: there is no such unit
+
+A number and its unit are one value, `5 N`, which may be in any unit of its dimension.
+
+Bad:
+
+    skill Rest {
+        opt width: Length = 5 inch
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    skill Rest {
+        opt width: Length = 127 mm
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## repeated-member: a task says something twice
+
+Bad:
+
+    import "motion.skill"
+    prefix lab: <http://example.org/lab#>
+    task rest {
+        scene "ur5e_whiteboard.ttl"
+        scene "iiwa_table.ttl"
+        do    TakePosture(arm: lab:Iiwa-1)
+    }
+
+Good:
+
+    import "motion.skill"
+    prefix lab: <http://example.org/lab#>
+    task rest {
+        scene "iiwa_table.ttl"
+        do    TakePosture(arm: lab:Iiwa-1)
+    }
+"""

@@ -1,0 +1,91 @@
+"""Every diagnostic has a page in the manual, whose bad example has that problem alone and whose good one has none."""
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from shipped import shelf, vocabulary
+
+from skillc_compiler.goals import parse_goal
+from skillc_compiler.manual import Page, pages
+from skillc_compiler.pipeline import compile
+from skillc_compiler.vocabulary.load import load
+from skillc_dsl.source import Source
+from skillc_ontology.catalogue import vocabulary_files
+
+ROOT = Path(__file__).parent.parent.parent
+GIVERS = {"Diagnostic", "report", "report_unknown"}
+NAME = re.compile(r"[a-z]+(-[a-z]+)*")
+LAB = "http://example.org/lab#"
+SCENE = {
+    f"{LAB}Iiwa-1": ["https://w3id.org/skillc/core#Iiwa14"],
+    f"{LAB}Whiteboard-1": ["https://w3id.org/skillc/wiping#Whiteboard"],
+}
+SHOP = """
+@prefix shop: <http://example.org/shop#> .
+@prefix owl: <http://www.w3.org/2002/07/owl#> .
+@prefix vann: <http://purl.org/vocab/vann/> .
+<http://example.org/shop> a owl:Ontology ;
+    vann:preferredNamespacePrefix "shop" ; vann:preferredNamespaceUri "http://example.org/shop#" .
+shop:Part a owl:Class .
+shop:Item a owl:Class .
+"""
+
+
+def problems(page: Page, text: str) -> list[str]:
+    """Return the names of the diagnostics of an example."""
+    if text.startswith("@prefix"):
+        return [d.name for d in load([Source("example.ttl", text)]).diagnostics]
+    if page.name == "missing-prefix":
+        boards = {iri: classes for iri, classes in SCENE.items() if "board" in iri}
+        return [d.name for d in parse_goal(text.strip(), vocabulary(), boards, {"lab": LAB}).diagnostics]
+    terms = vocabulary()
+    if "shop" in text:
+        shipped = [Source(path, turtle) for path, turtle in vocabulary_files()]
+        terms = load([*shipped, Source("shop.ttl", SHOP)]).value
+    outcome = compile([Source("example.skill", text)], terms, shelf(), "example", {"rest": SCENE})
+    return [d.name for d in outcome.diagnostics]
+
+
+@pytest.mark.parametrize("page", pages().values(), ids=lambda page: page.name)
+def test_the_examples_show_the_problem_and_its_cure(page: Page) -> None:
+    assert problems(page, page.bad) == [page.name]
+    assert problems(page, page.good) == []
+
+
+@pytest.mark.parametrize("page", pages().values(), ids=lambda page: page.name)
+def test_pages_are_short_and_complete(page: Page) -> None:
+    assert page.title and "\n" not in page.title and not page.title.endswith(".")
+    assert "Bad:" not in page.prose and "Good:" not in page.prose and "##" not in page.prose
+    assert len(page.bad.splitlines()) <= 20 and len(page.good.splitlines()) <= 20
+
+
+def test_every_diagnostic_has_a_page() -> None:
+    given = {name for folder in ("dsl", "compiler") for file in (ROOT / folder).rglob("*.py") for name in named(file)}
+    assert len(given) > 60
+    assert given - pages().keys() == set()
+
+
+def named(file: Path) -> Iterator[str]:
+    """Yield the names of the diagnostics that a file makes."""
+    tree = ast.parse(file.read_text())
+    for node in ast.walk(tree):
+        match node:
+            case ast.Call(func=ast.Name(id=function) | ast.Attribute(attr=function), args=[first, *_]):
+                if function in GIVERS:
+                    yield from (text for text in texts(first) if NAME.fullmatch(text))
+            case ast.Assign(targets=[ast.Name(id="NAMES")], value=ast.Tuple(elts=elements)) if "checks" in file.parts:
+                yield from (name for element in elements for name in texts(element))
+
+
+def texts(node: ast.expr) -> Iterator[str]:
+    """Yield what an expression may be, where it is a text, one of two texts or `unknown-` with a kind of term."""
+    match node:
+        case ast.Constant(value=str(text)):
+            yield text
+        case ast.IfExp(body=one, orelse=other):
+            yield from (*texts(one), *texts(other))
+        case ast.JoinedStr(values=[ast.Constant(value="unknown-"), _]):
+            yield from (f"unknown-{kind}" for kind in ("class", "relation", "property", "function", "skill"))
