@@ -11,7 +11,8 @@ from lark import Lark, Token
 from lark.parsers.lalr_analysis import Shift
 from lark.parsers.lalr_parser_state import ParseConf
 
-from skillc_dsl.tables import cache_folder, parser_of
+from skillc_dsl.keeping import cache_folder
+from skillc_dsl.tables import parser_of
 from skillc_dsl.units import UNITS
 
 END = "$END"

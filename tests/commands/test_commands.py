@@ -79,7 +79,7 @@ def test_check_reports_every_error_as_json(library: Path) -> None:
         (3, "error"),
     }
     assert set(found[0]) == {
-        "name", "severity", "path", "line", "column", "end_line", "end_column", "message", "help",
+        "name", "severity", "path", "line", "column", "end_line", "end_column", "message", "help", "labels", "fix",
     }  # fmt: skip
 
 

@@ -13,8 +13,7 @@ from skillc_compiler.goals import parse_call, parse_goal
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
-from skillc_ontology import catalogue
-from skillc_runtime.commands import _diagnostics, _library, _scenes
+from skillc_runtime.commands import _diagnostics, _files, _library, _scenes, _telling
 from skillc_runtime.task import Assignment, Perform, Reach
 from skillc_runtime.world.documents import SceneError
 from skillc_runtime.world.scene import load_scene
@@ -50,7 +49,7 @@ def of_task(reference: str) -> Mission:
 def of_scene(scene: Path, goal: str | None, skill: str | None, library_path: Path | None) -> Mission:
     """Take a goal, or a call of a skill, in a scene; the library is the shipped one unless a path is given."""
     library = compiled(_library.find(library_path or _library.SHIPPED / "wiping"))
-    state = loaded(scene_path(scene), library)
+    state = loaded(_files.scene_path(scene), library)
     individuals = {iri: sorted(state.types(iri)) for iri in state.individuals}
     prefixes = state.vocabulary.prefixes
     if goal is not None:
@@ -65,7 +64,7 @@ def compiled(files: _library.LibraryFiles) -> SkillLibrary:
     """Compile a library; exit with its diagnostics if it has errors."""
     outcome = _library.compile_library(files)
     if not outcome.ok:
-        _diagnostics.tell(outcome.diagnostics, _library.texts(files))
+        _telling.tell(outcome.diagnostics, _library.texts(files))
         sys.exit(1)
     return outcome.value
 
@@ -75,25 +74,15 @@ def loaded(scene: Path, library: SkillLibrary) -> WorldState:
     try:
         return load_scene(scene, library.vocabulary)
     except SceneError as error:
-        _diagnostics.tell(_diagnostics.of_problems(error.problems), _diagnostics.scene_text(scene))
+        _telling.tell(_diagnostics.of_problems(error.problems), _diagnostics.scene_text(scene))
     except OSError as error:
         click.echo(f"error: the scene {scene} cannot be read: {error.strerror}", err=True)
     sys.exit(1)
 
 
-def scene_path(scene: Path) -> Path:
-    """Return a scene file: the path itself, or a shipped scene of that name."""
-    if scene.is_file():
-        return scene
-    try:
-        return catalogue.scene(str(scene))
-    except FileNotFoundError as error:
-        raise click.UsageError(f"there is no file {scene}, and {error}") from error
-
-
 def _understood(outcome: Outcome[Any], text: str) -> Any:
     """Return what was understood; exit with the diagnostics if it was not."""
     if outcome.value is None:
-        _diagnostics.tell(outcome.diagnostics, {"goal": Source("goal", text), "call": Source("call", text)})
+        _telling.tell(outcome.diagnostics, {"goal": Source("goal", text), "call": Source("call", text)})
         sys.exit(1)
     return outcome.value

@@ -20,11 +20,11 @@ def command(path: Path, output: Path) -> None:
     """Compile the library at PATH into the folder OUTPUT."""
     from skillc_compiler.emit.artifacts import artifacts
     from skillc_compiler.emit.write import EmitError, write
-    from skillc_runtime.commands import _diagnostics, _library
+    from skillc_runtime.commands import _library, _telling
 
     library = _library.find(path)
     outcome = _library.compile_library(library)
-    _diagnostics.tell(outcome.diagnostics, _library.texts(library))
+    _telling.tell(outcome.diagnostics, _library.texts(library))
     if not outcome.ok:
         sys.exit(1)
     try:

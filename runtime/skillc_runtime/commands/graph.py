@@ -22,12 +22,12 @@ def command(path: Path, name: str, form: str | None, output: Path | None) -> Non
     from skillc_compiler.picture.find import drawable, picture_of
     from skillc_compiler.resolve.files import read
     from skillc_dsl.diagnostics import did_you_mean
-    from skillc_runtime.commands import _diagnostics, _library
+    from skillc_runtime.commands import _library, _telling
 
     library = _library.find(path)
     outcome = _library.compile_library(library)
     if not outcome.ok:
-        _diagnostics.tell(outcome.diagnostics, _library.texts(library))
+        _telling.tell(outcome.diagnostics, _library.texts(library))
         sys.exit(1)
     files = read(library.sources, library.shelf, library.name).value
     box = picture_of(name, files)

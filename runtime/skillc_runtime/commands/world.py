@@ -30,10 +30,10 @@ def command(scene: Path, sparql: str | None, library: Path | None, everything: b
     to include subclasses ask for `?x a/rdfs:subClassOf* skillc:CompliantArm`. Conditions of the language include
     subclasses and sub-relations by themselves.
     """
-    from skillc_runtime.commands import _library, _listing, _mission
+    from skillc_runtime.commands import _files, _library, _listing, _mission
     from skillc_runtime.world.query import QueryError
 
-    path = _mission.scene_path(scene)
+    path = _files.scene_path(scene)
     compiled = _mission.compiled(_library.find(library or _library.SHIPPED / "wiping"))
     state = _mission.loaded(path, compiled)
     try:

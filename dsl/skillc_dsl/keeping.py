@@ -1,0 +1,43 @@
+"""Files in the user's cache folder: found whole and intact, or not at all."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import tempfile
+from pathlib import Path
+
+_DIGEST_BYTES = 32
+
+
+def cache_folder() -> Path | None:
+    """Return skillc's folder in the user's cache, None for a user without a home."""
+    try:
+        base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    except RuntimeError:
+        return None
+    return base / "skillc" if base.is_absolute() else None
+
+
+def kept(path: Path) -> bytes | None:
+    """Return what `keep` wrote there; None where there is nothing, or where it is damaged."""
+    try:
+        content = path.read_bytes()
+    except OSError:
+        return None
+    body = content[_DIGEST_BYTES:]
+    return body if hashlib.sha256(body).digest() == content[:_DIGEST_BYTES] else None
+
+
+def keep(path: Path, body: bytes) -> None:
+    """Write a file whole or not at all, whoever else does; a folder that cannot be written only costs time."""
+    name = None
+    try:
+        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=".new-")
+        with os.fdopen(descriptor, "wb") as file:
+            file.write(hashlib.sha256(body).digest() + body)
+        Path(name).replace(path)
+    except OSError:
+        if name is not None:
+            Path(name).unlink(missing_ok=True)

@@ -1,0 +1,132 @@
+"""Finding and reading the files of a skill library, without the compiler: nothing heavy is imported here."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import click
+
+import skillc_skills
+from skillc_dsl.encoding import decode
+from skillc_dsl.source import Source
+
+SHIPPED = Path(skillc_skills.__path__[0])
+_STDIN = Path("stdin.skill")
+
+
+@dataclass(frozen=True, slots=True)
+class LibraryFiles:
+    """A library: `sources` under paths relative to `root`, `shelf` what may be imported besides, by name.
+
+    `places` are the files of all of them on disk.
+    """
+
+    name: str
+    root: Path
+    sources: tuple[Source, ...]
+    shelf: dict[str, Source]
+    places: dict[str, Path]
+
+    def shown(self, path: str) -> str:
+        """Return a source's path as a user can open it from here; ontology files are below the ontology."""
+        file, here = self.places.get(path) or _in_ontology(path), Path.cwd()
+        return str(file.relative_to(here) if file.is_relative_to(here) else file)
+
+
+def find(path: Path) -> LibraryFiles:
+    """Read the library at a folder, the single file at `path` with its neighbours, or the shipped library of that name.
+
+    UsageError for a path that is none of these, that cannot be read, or that holds no `.skill` file.
+    """
+    if not path.exists() and (SHIPPED / path).is_dir():
+        path = SHIPPED / path
+    if path.is_dir():
+        sources = {file.relative_to(path).as_posix(): file for file in sorted(_skill_files(path))}
+        if not sources:
+            raise click.UsageError(f"there is no .skill file in {path}")
+        texts = tuple(_read(file, shown) for shown, file in sources.items())
+        return _library(path.resolve().name, path, texts, sources, {})
+    if path.is_file():
+        if path.suffix != ".skill":
+            raise click.UsageError(f"{path} is not a .skill file")
+        return of_file(path, _bytes(path))
+    if path.is_symlink():
+        raise click.UsageError(f"{path} is a link that leads nowhere")
+    raise click.UsageError(f"there is no file or folder {path}")
+
+
+def of_file(path: Path | None, content: bytes) -> LibraryFiles:
+    """Take `content` as that of the file at `path`, which can import its neighbours there; None for a file nowhere."""
+    path = path or _STDIN
+    others = (file for file in sorted(path.parent.glob("*.skill")) if file.name != path.name and not file.is_dir())
+    neighbours = {file.name: (file.name, file) for file in others}
+    source = decode(path.name, content)
+    return _library(path.resolve().parent.name, path.parent, (source,), {path.name: path}, neighbours)
+
+
+def texts(library: LibraryFiles) -> dict[str, Source]:
+    """Return every text of the library and its shelf, by the path that diagnostics show."""
+    every = (*library.sources, *library.shelf.values())
+    return {library.shown(s.path): Source(library.shown(s.path), s.text) for s in every}
+
+
+def scene_path(scene: Path) -> Path:
+    """Return a scene file: the path itself, or a shipped scene of that name."""
+    if scene.is_file():
+        return scene
+    from skillc_ontology import catalogue
+
+    try:
+        return catalogue.scene(str(scene))
+    except FileNotFoundError as error:
+        raise click.UsageError(f"there is no file {scene}, and {error}") from error
+
+
+def _library(
+    name: str,
+    root: Path,
+    sources: tuple[Source, ...],
+    places: Mapping[str, Path],
+    neighbours: Mapping[str, tuple[str, Path]],
+) -> LibraryFiles:
+    shelf = {**_shipped(), **neighbours}
+    shelf_sources = {wanted: _read(file, shown) for wanted, (shown, file) in sorted(shelf.items())}
+    return LibraryFiles(name, root, sources, shelf_sources, {**dict(shelf.values()), **places})
+
+
+def _shipped() -> dict[str, tuple[str, Path]]:
+    """Return the shipped files by the name that imports them, with the path that is shown."""
+    files = sorted(SHIPPED.glob("*/*.skill"))
+    named = ((file, f"{file.parent.name}/{file.name}") for file in files)
+    return {file.name if file.parent.name == "std" else shown: (shown, file) for file, shown in named}
+
+
+def _skill_files(folder: Path) -> Iterator[Path]:
+    """Yield the `.skill` files below a folder; hidden folders and links to folders are not entered."""
+    for place, folders, names in os.walk(folder, onerror=_unreadable):
+        folders[:] = [name for name in folders if not name.startswith(".")]
+        yield from (Path(place, name) for name in names if name.endswith(".skill"))
+
+
+def _unreadable(error: OSError) -> None:
+    raise click.UsageError(f"{error.filename} cannot be read: {error.strerror}") from error
+
+
+def _read(file: Path, name: str) -> Source:
+    return decode(name, _bytes(file))
+
+
+def _bytes(file: Path) -> bytes:
+    try:
+        return file.read_bytes()
+    except OSError as error:
+        raise click.UsageError(f"{file} cannot be read: {error.strerror}") from error
+
+
+def _in_ontology(path: str) -> Path:
+    from skillc_ontology import catalogue
+
+    return catalogue.ROOT / path
