@@ -4,29 +4,30 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 from skillc_compiler.emit.headers import COMMENTS, is_ours
 
 HEAD_BYTES = 1000
+WITH_HEADER = frozenset({*COMMENTS, ".html"})
 
 
 class EmitError(OSError):
     """The artifacts could not be written; the message says what, where and why."""
 
 
-def write(artifacts: Mapping[str, str], directory: Path) -> tuple[Path, ...]:
-    """Write the artifacts below the directory and remove those of an earlier compile; return the paths written.
+def write(artifacts: Mapping[str, str], directory: Path, ours: Callable[[str], bool] = is_ours) -> tuple[Path, ...]:
+    """Write the artifacts below the directory and remove those made earlier; return the paths written.
 
-    A file that does not carry our header is never removed. EmitError when the disk is full or not writable.
+    A file whose beginning is not `ours` is never removed. EmitError when the disk is full or not writable.
     """
     written = []
     for relative, text in sorted(artifacts.items()):
         path = directory / relative
         _write_whole(path, text.encode())
         written.append(path)
-    for path in _outdated(directory, set(written)):
+    for path in _outdated(directory, set(written), ours):
         _remove(path)
     return tuple(written)
 
@@ -49,18 +50,18 @@ def _write_whole(path: Path, content: bytes) -> None:
         raise _refused(path, error) from error
 
 
-def _outdated(directory: Path, written: set[Path]) -> Iterator[Path]:
+def _outdated(directory: Path, written: set[Path], ours: Callable[[str], bool]) -> Iterator[Path]:
     for path in sorted(directory.rglob("*")):
-        if path.suffix in COMMENTS and path not in written and path.is_file() and _carries_header(path):
+        if path.suffix in WITH_HEADER and path not in written and path.is_file() and ours(_head(path)):
             yield path
 
 
-def _carries_header(path: Path) -> bool:
+def _head(path: Path) -> str:
     try:
         with path.open("rb") as file:
-            return is_ours(file.read(HEAD_BYTES).decode(errors="replace"))
+            return file.read(HEAD_BYTES).decode(errors="replace")
     except OSError:
-        return False
+        return ""
 
 
 def _remove(path: Path) -> None:
