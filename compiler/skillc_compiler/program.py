@@ -193,7 +193,7 @@ class ReadFile:
     imports: tuple[tuple[s.Import, str], ...] = ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Program:
     """A library understood. `used` holds, by file, the bare and qualified names that were looked up in it."""
 
