@@ -39,12 +39,14 @@ class InText:
 class InCode:
     """Among tokens: `before` are those of the declaration up to the word at the cursor, `states` the parser's.
 
-    `number` tells that the word follows a number. The first of `before` says what is declared, if anything is.
+    `number` tells that the word follows a number, `begins_line` that nothing stands before it on its line. The first
+    of `before` says what is declared, if anything is.
     """
 
     before: tuple[Token, ...]
     states: tuple[int, ...]
     number: bool
+    begins_line: bool
     word: Span
 
     @property
@@ -76,7 +78,9 @@ def cursor_at(text: str, path: str, line: int, column: int) -> Cursor:
     start = number.start(2) if number and number[2] else word.start() if word else len(left)
     first = _first_line(lines, line)
     before = _tokens([*lines[first - 1 : line - 1], left[:start]], path)
-    return InCode(before, states_after(before), number is not None, _span(path, line, start, len(left)))
+    return InCode(
+        before, states_after(before), number is not None, not left[:start].strip(), _span(path, line, start, len(left))
+    )
 
 
 def states_after(tokens: Sequence[Token]) -> tuple[int, ...]:

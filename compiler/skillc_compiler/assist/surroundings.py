@@ -15,6 +15,7 @@ from skillc_compiler.resolve.individuals import narrowest
 from skillc_compiler.types import UNKNOWN, ListOf, Thing, Type, of_library, of_property
 from skillc_compiler.walk import within
 from skillc_dsl import syntax as s
+from skillc_dsl.source import Span
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,9 +76,10 @@ def surroundings(analysis: Analysis, path: str, cursor: InCode) -> Surroundings 
 
 
 def _locals(
-    skill: Skill | None, implementation: Implementation | None, types: Mapping[object, Type]
+    skill: Skill | None, implementation: Implementation | None, types: Mapping[Span, Type]
 ) -> Iterator[tuple[str, Type]]:
-    for parameter in (implementation or skill).parameters if implementation or skill else ():
+    owner = implementation or skill
+    for parameter in owner.parameters if owner else ():
         yield parameter.name, parameter.type
     if implementation is None:
         return

@@ -1,0 +1,112 @@
+"""What a file declares, as a tree, and what can be folded."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Literal, TypeAlias, assert_never
+
+from skillc_dsl import syntax as s
+from skillc_dsl.comments import comments
+from skillc_dsl.lexing import tokens_of
+from skillc_dsl.source import Source, Span
+
+EntryKind: TypeAlias = Literal[
+    "class", "relation", "property", "function", "skill", "implementation", "task", "parameter", "condition", "let"
+]
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """Something declared: its name, a word about it, the whole of it, its name's place, and what it holds."""
+
+    name: str
+    detail: str
+    kind: EntryKind
+    span: Span
+    name_span: Span
+    children: tuple[Entry, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Fold:
+    """Lines that an editor can hide all but the first of."""
+
+    first: int
+    last: int
+    kind: Literal["region", "comment", "imports"] = "region"
+
+
+def outline(file: s.File) -> tuple[Entry, ...]:
+    """Return the declarations of a file."""
+    return tuple(_entry(declaration) for declaration in file.declarations)
+
+
+def folds(source: Source, file: s.File) -> tuple[Fold, ...]:
+    """Return the blocks between braces, runs of comments, and the lines above the declarations."""
+    found = [*_braces(source), *_comments(source)]
+    header = [line.span.line for line in file.header]
+    if header and header[-1] > header[0]:
+        found.append(Fold(header[0], header[-1], "imports"))
+    return tuple(sorted(found, key=lambda fold: (fold.first, fold.last)))
+
+
+def _entry(written: s.Declaration) -> Entry:
+    match written:
+        case s.ClassDeclaration(name=name, parents=parents, span=span):
+            return Entry(name.text, _below(parents), "class", span, name.span)
+        case s.RelationDeclaration(name=name, domain=domain, range=range_, span=span):
+            return Entry(name.text, f"({domain.text}, {range_.text})", "relation", span, name.span)
+        case s.PropertyDeclaration(name=name, domain=domain, span=span):
+            return Entry(name.text, f"({domain.text})", "property", span, name.span)
+        case s.FunctionDeclaration(name=name, parameters=parameters, span=span):
+            return Entry(name.text, f"({', '.join(p.name.text for p in parameters)})", "function", span, name.span)
+        case s.SkillDeclaration(name=name, members=members, span=span):
+            return Entry(name.text, "", "skill", span, name.span, tuple(_members(members)))
+        case s.ImplementationDeclaration(name=name, skill=skill, members=members, span=span):
+            return Entry(name.text, f"of {skill.text}", "implementation", span, name.span, tuple(_members(members)))
+        case s.TaskDeclaration(name=name, scene=scene, span=span):
+            return Entry(name.text, scene.value if scene else "", "task", span, name.span)
+        case _:
+            assert_never(written)
+
+
+def _members(members: Iterable[s.SkillMember | s.ImplementationMember]) -> Iterator[Entry]:
+    for member in members:
+        match member:
+            case s.Parameter(name=name, direction=direction, span=span):
+                yield Entry(name.text, direction, "parameter", span, name.span)
+            case s.Refinement(name=name, span=span):
+                yield Entry(name.text, "refine", "parameter", span, name.span)
+            case s.Requirement(label=s.Name(text=text, span=place), kind=kind, span=span):
+                yield Entry(text, kind, "condition", span, place)
+            case s.Let(name=name, span=span):
+                yield Entry(name.text, "let", "let", span, name.span)
+            case _:
+                pass
+
+
+def _below(parents: tuple[s.Name, ...]) -> str:
+    return f"< {', '.join(parent.text for parent in parents)}" if parents else ""
+
+
+def _braces(source: Source) -> Iterator[Fold]:
+    opened: list[int] = []
+    for token in tokens_of(source).value:
+        if token.type == "LBRACE":
+            opened.append(token.line or 1)
+        elif token.type == "RBRACE" and opened:
+            first = opened.pop()
+            last = (token.line or 1) - 1
+            if last > first:
+                yield Fold(first, last)
+
+
+def _comments(source: Source) -> Iterator[Fold]:
+    lines = [comment.span.line for comment in comments(source) if comment.alone]
+    first = 0
+    for index, line in enumerate(lines):
+        if index + 1 == len(lines) or lines[index + 1] != line + 1:
+            if index > first:
+                yield Fold(lines[first], line, "comment")
+            first = index + 1
