@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
+from skillc_compiler.allowances import heeded
 from skillc_compiler.checks import check
 from skillc_compiler.consequences import without_consequences
 from skillc_compiler.followers import without_followers
@@ -58,7 +59,10 @@ def understand(
 
 
 def told(problems: Sequence[Diagnostic], sources: Sequence[Source]) -> tuple[Diagnostic, ...]:
-    """Return what the author of `sources` is told, in order of place: problems elsewhere only where they are errors."""
+    """Return what the author of `sources` is told, in order of place: problems elsewhere only where they are errors.
+
+    Warnings that the author allows are left out.
+    """
     own = {source.path for source in sources}
-    chosen = {problem for problem in problems if problem.severity == "error" or problem.span.path in own}
-    return tuple(sorted(chosen, key=lambda problem: (problem.span, problem.name)))
+    chosen = [problem for problem in problems if problem.severity == "error" or problem.span.path in own]
+    return tuple(sorted(set(heeded(chosen, sources)), key=lambda problem: (problem.span, problem.name)))

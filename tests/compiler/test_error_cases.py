@@ -10,7 +10,8 @@ from shipped import shelf
 from skillc_compiler.checks import checks
 from skillc_compiler.pipeline import compile
 from skillc_compiler.vocabulary.load import load
-from skillc_dsl.diagnostics import Diagnostic, Fix
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.edits import applied
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
 
@@ -55,8 +56,10 @@ def test_every_check_has_a_case() -> None:
 @pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
 def test_a_fix_cures_its_problem(path: Path) -> None:
     text = path.read_text()
-    for diagnostic in (d for d in diagnostics_of(path, text) if d.fix):
-        cured = edited(text, diagnostic.fix)
+    for diagnostic in diagnostics_of(path, text):
+        if diagnostic.fix is None:
+            continue
+        cured = applied(text, [diagnostic.fix])
         same = [
             d for d in diagnostics_of(path, cured) if (d.name, d.span.line) == (diagnostic.name, diagnostic.span.line)
         ]
@@ -70,12 +73,3 @@ def test_misspelt_names_have_fixes() -> None:
     case = next(path for path in CASES if path.stem == "authoring")
     fixed = {d.name for d in diagnostics_of(case, case.read_text()) if d.fix}
     assert {"unknown-relation", "unknown-property", "unknown-skill", "unknown-value"} <= fixed
-
-
-def edited(text: str, fix: Fix | None) -> str:
-    """Return the text after an edit in one line."""
-    assert fix is not None and fix.span.line == fix.span.end_line
-    lines = text.split("\n")
-    line = lines[fix.span.line - 1]
-    lines[fix.span.line - 1] = line[: fix.span.column - 1] + fix.text + line[fix.span.end_column - 1 :]
-    return "\n".join(lines)
