@@ -93,9 +93,8 @@ class Body(Writer):
                 test = self.test("if", condition, text, source)
                 return holding(Element("IfThenElse"), test, self.node(node.then), orelse)
             case While(child=child, limit=limit, source=source):
-                path = (*self.owner, f"while{self.number('while')}")
-                first, last = (self.condition(path, node.condition, node.text, source) for _ in range(2))
-                return while_((first, last), self.node(child), limit, str(source))
+                test = self.test("while", node.condition, node.text, source)
+                return while_(test, self.node(child), limit, self.entry("done"), self.entry("rounds"))
             case ForEach():
                 return self._for_each(node)
             case Check(condition=condition, text=text, source=source):
@@ -123,11 +122,11 @@ class Body(Writer):
         return parallel
 
     def _reactive(self, node: Sequence) -> Element:
-        """Return the sequence; a child other than a test that worked is kept while what it established still holds."""
+        """Return the sequence; a child that worked, but for tests, is kept while what it relied on still holds."""
         entries: list[str] = []
         reactive = Element("ReactiveSequence", _description=str(node.source))
         for child in node.children:
-            if isinstance(child, Check):
+            if isinstance(child, Check | WaitUntil):
                 reactive.append(self.node(child))
                 continue
             entries.append(self.entry("done"))
@@ -135,15 +134,18 @@ class Body(Writer):
         return sequence_of(Element("Script", code=forget(entries)), reactive) if entries else reactive
 
     def _still(self, child: Node) -> list[Element]:
-        """Return the test whether what the calls of the child established still holds; none if that is nothing."""
+        """Return the test whether what the child established and found still holds; none if that is nothing."""
         calls = [each for each in walk(child) if isinstance(each, Call)]
-        posts = [f"{each.skill}: {post.text}" for each in calls for post in self.library.skills[each.skill].post]
-        if not posts:
+        tested = [each for each in walk(child) if isinstance(each, Check | WaitUntil | If | While)]
+        relied = [f"{each.skill}: {post.text}" for each in calls for post in self.library.skills[each.skill].post]
+        relied += [each.text for each in tested]
+        if not relied:
             return []
         arguments = [value for each in calls for value in each.arguments.values()]
-        read = list(dict.fromkeys(name for value in arguments for name in free_variables_in_order(value)))
+        read = (*arguments, *(each.condition for each in tested))
+        variables = list(dict.fromkeys(name for each in read for name in free_variables_in_order(each)))
         path = (*self.owner, f"still{self.number('still')}")
-        return [self.reading("Condition", path, read, f"Still: {'; '.join(posts)}", child.source)]
+        return [self.reading("Condition", path, variables, f"Still: {'; '.join(relied)}", child.source)]
 
     def _once(self, child: Node) -> Element:
         entry = self.entry("once")

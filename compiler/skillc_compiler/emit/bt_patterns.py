@@ -43,11 +43,16 @@ def kept(child: Element, still: Sequence[Element], entry: str) -> Element:
     return holding(Element("Fallback"), after(tests[:-1], tests[-1]), guarded)
 
 
-def while_(tests: tuple[Element, Element], child: Element, limit: int, source: str) -> Element:
-    """Run up to `limit` rounds that do nothing once the condition fails; it must have failed in the end."""
-    round_ = holding(Element("Fallback"), inverted(tests[0]), child)
-    rounds = holding(Element("Repeat", num_cycles=str(limit)), round_)
-    return holding(Element("Sequence", _description=source), rounds, inverted(tests[1]))
+def while_(condition: Element, child: Element, limit: int, done: str, rounds: str) -> Element:
+    """Run the child again while the condition holds; the loop fails if it still holds after so many rounds.
+
+    A round that finds the condition false fails too, which ends the loop; `done` tells this from a child that failed.
+    """
+    condition.set("_onFailure", f"{done} := {WORKED}")
+    counted = Element("ScriptCondition", code=f"{rounds} < {limit}", _onSuccess=f"{rounds} := {rounds} + 1")
+    loop = holding(Element("Repeat", num_cycles=str(limit + 1)), sequence_of(condition, counted, child))
+    ended = holding(Element("Fallback"), loop, _is(done, WORKED))
+    return sequence_of(Element("Script", code=forget([done, rounds])), ended)
 
 
 def sequence_of(*children: Element) -> Element:

@@ -1,0 +1,315 @@
+"""Runs a file of trees as BehaviorTree.CPP does, on scripted primitives: written after its documentation, not fast.
+
+`Outcome.hold` is what the declared decorators Try and Invert have to know: that a hold condition was broken below.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import NamedTuple
+from xml.etree.ElementTree import Element
+
+from emit.tree_rules import Reader
+
+Blackboard = dict[str, object]
+
+
+class Outcome(NamedTuple):
+    """How a node ended in a tick; None in place of it means that it still runs."""
+
+    ok: bool
+    hold: bool = False
+
+
+class Stage:
+    """What the leaves of a tree do: overridden by the test."""
+
+    now = 0.0
+
+    def action(self, path: tuple[str, ...], values: Blackboard) -> Callable[[], Outcome | None]:
+        """Start an action; the function returned advances it by a tick."""
+        raise NotImplementedError
+
+    def halt(self, path: tuple[str, ...], values: Blackboard) -> None:
+        """Halt an action that runs."""
+
+    def undo(self, path: tuple[str, ...], values: Blackboard) -> None:
+        """Undo what a scoped skill set up."""
+
+    def holds(self, path: tuple[str, ...], source: str, values: Blackboard) -> bool:
+        """Say whether a condition holds."""
+        raise NotImplementedError
+
+
+@dataclass
+class Node:
+    """A node of an instantiated tree."""
+
+    element: Element
+    children: list[Node]
+    board: Blackboard
+    player: Player
+    running: bool = False
+    state: Blackboard = field(default_factory=dict)
+
+    def tick(self) -> Outcome | None:
+        """Advance the node; its memory is lost once it has ended."""
+        if not self.running:
+            self.state.clear()
+        outcome = getattr(self.player, _method(self.element.tag), self.player.declared)(self)
+        self.running = outcome is None
+        if outcome is not None:
+            self.player.script(self.element.get("_onSuccess" if outcome.ok else "_onFailure"), self.board)
+        return outcome
+
+    def halt(self) -> None:
+        """Stop what runs below."""
+        if self.running:
+            self.running = False
+            for child in self.children:
+                child.halt()
+            self.player.halted(self)
+
+
+class Player:
+    """One instance of the main tree of a file."""
+
+    def __init__(self, text: str, stage: Stage) -> None:
+        self.reader = Reader.of(text)
+        self.stage = stage
+        self.names = self.reader.names()
+        main = self.reader.root.attrib["main_tree_to_execute"]
+        self.root = self._built(self.reader.trees[main][0], {})
+
+    def tick(self) -> Outcome | None:
+        return self.root.tick()
+
+    def _built(self, element: Element, board: Blackboard) -> Node:
+        if element.tag == "SubTree":
+            inner: Blackboard = {}
+            return Node(element, [self._built(self.reader.trees[element.attrib["ID"]][0], inner)], board, self)
+        return Node(element, [self._built(each, board) for each in element], board, self)
+
+    def script(self, code: str | None, board: Blackboard) -> None:
+        for part in (code or "").split("; "):
+            if part:
+                name, value = part.split(" := ")
+                board[name] = sum(int(str(board.get(each, each))) for each in value.split(" + "))
+
+    def values(self, node: Node) -> Blackboard:
+        """Return what the input ports of a node read, by the names of the parameters."""
+        parameters = self.reader.parameters(self._identity(node))
+        found = {}
+        for port, parameter in parameters.items():
+            written = node.element.get(port)
+            if written is not None and not written.startswith("{"):
+                found[parameter] = self._converted(node, port, written)
+            elif written is not None and written[1:-1] in node.board:
+                found[parameter] = node.board[written[1:-1]]
+        return found
+
+    def _converted(self, node: Node, port: str, written: str) -> object:
+        model = self.reader.models[self._identity(node)]
+        (kind,) = [each.get("type") for each in model if each.get("name") == port]
+        return {"bool": lambda: written == "true", "double": lambda: float(written)}.get(kind or "", lambda: written)()
+
+    def _identity(self, node: Node) -> str:
+        return node.element.get("ID", "") if node.element.tag == "SubTree" else node.element.tag
+
+    # nodes of the library
+
+    def _sequence(self, node: Node) -> Outcome | None:
+        return self._in_order(node, going_on=True)
+
+    def _fallback(self, node: Node) -> Outcome | None:
+        return self._in_order(node, going_on=False)
+
+    def _in_order(self, node: Node, *, going_on: bool) -> Outcome | None:
+        held = bool(node.state.get("hold"))
+        while (index := int(str(node.state.get("index", 0)))) < len(node.children):
+            outcome = node.children[index].tick()
+            if outcome is None:
+                return None
+            if outcome.ok != going_on:
+                return outcome
+            held = node.state["hold"] = held or outcome.hold
+            node.state["index"] = index + 1
+        return Outcome(going_on, held and not going_on)
+
+    def _reactive_sequence(self, node: Node) -> Outcome | None:
+        return self._reactive(node, going_on=True)
+
+    def _reactive_fallback(self, node: Node) -> Outcome | None:
+        return self._reactive(node, going_on=False)
+
+    def _reactive(self, node: Node, *, going_on: bool) -> Outcome | None:
+        held = False
+        for index, child in enumerate(node.children):
+            outcome = child.tick()
+            if outcome is None or outcome.ok != going_on:
+                for other in node.children[:index] + node.children[index + 1 :]:
+                    other.halt()
+                return outcome
+            held = held or outcome.hold
+        return Outcome(going_on, held and not going_on)
+
+    def _parallel(self, node: Node) -> Outcome | None:
+        ended = node.state.setdefault("ended", {})
+        assert isinstance(ended, dict)
+        size = len(node.children)
+        needed, allowed = (_threshold(node, word, size) for word in ("success_count", "failure_count"))
+        for index, child in enumerate(node.children):
+            if index not in ended:
+                outcome = child.tick()
+                if outcome is not None:
+                    ended[index] = outcome
+            good = sum(each.ok for each in ended.values())
+            bad = [each for each in ended.values() if not each.ok]
+            if good >= needed or size - len(bad) < needed or len(bad) >= allowed:
+                for each in node.children:
+                    each.halt()
+                last = [each for each in bad if each.hold] if needed == 1 and allowed == size else bad[-1:]
+                return Outcome(True) if good >= needed else Outcome(False, any(each.hold for each in last))
+        return None
+
+    def _if_then_else(self, node: Node) -> Outcome | None:
+        if "branch" not in node.state:
+            outcome = node.children[0].tick()
+            if outcome is None:
+                return None
+            node.state["branch"] = 1 if outcome.ok else 2
+        branch = int(str(node.state["branch"]))
+        return node.children[branch].tick() if branch < len(node.children) else Outcome(False)
+
+    def _inverter(self, node: Node) -> Outcome | None:
+        outcome = node.children[0].tick()
+        return None if outcome is None else Outcome(not outcome.ok)
+
+    def _force_success(self, node: Node) -> Outcome | None:
+        return None if node.children[0].tick() is None else Outcome(True)
+
+    def _keep_running_until_failure(self, node: Node) -> Outcome | None:
+        outcome = node.children[0].tick()
+        return None if outcome is None or outcome.ok else outcome
+
+    def _repeat(self, node: Node) -> Outcome | None:
+        return self._rounds(node, int(node.element.attrib["num_cycles"]), until=False)
+
+    def _retry_until_successful(self, node: Node) -> Outcome | None:
+        return self._rounds(node, int(node.element.attrib["num_attempts"]), until=True)
+
+    def _rounds(self, node: Node, count: int, *, until: bool) -> Outcome | None:
+        outcome = node.children[0].tick()
+        if outcome is None:
+            return None
+        done = node.state["done"] = int(str(node.state.get("done", 0))) + 1
+        return outcome if outcome.ok == until or done == count else None
+
+    def _timeout(self, node: Node) -> Outcome | None:
+        until = float(str(node.state.setdefault("until", self.stage.now + self._seconds(node))))
+        if node.running and self.stage.now >= until - 1e-9:
+            node.children[0].halt()
+            return Outcome(False)
+        return node.children[0].tick()
+
+    def _sleep(self, node: Node) -> Outcome | None:
+        until = float(str(node.state.setdefault("until", self.stage.now + self._seconds(node))))
+        return Outcome(True) if self.stage.now >= until - 1e-9 else None
+
+    def _seconds(self, node: Node) -> float:
+        return int(node.element.attrib["msec"]) / 1000
+
+    def _always_success(self, node: Node) -> Outcome:
+        return Outcome(True)
+
+    def _always_failure(self, node: Node) -> Outcome:
+        return Outcome(False)
+
+    def _script(self, node: Node) -> Outcome:
+        self.script(node.element.attrib["code"], node.board)
+        return Outcome(True)
+
+    def _script_condition(self, node: Node) -> Outcome:
+        name, operator, value = node.element.attrib["code"].split(" ")
+        found = int(str(node.board[name]))
+        return Outcome({"==": found == int(value), "<": found < int(value)}[operator])
+
+    def _sub_tree(self, node: Node) -> Outcome | None:
+        """Tick the tree; its entries are the caller's where they are mapped, so both boards are kept alike."""
+        mapped = {port: value for port, value in node.element.attrib.items() if port != "ID" and port[0] != "_"}
+        inner = node.children[0].board
+        inner.update(self.values(node))
+        for port, value in mapped.items():
+            if re.fullmatch(r"\{.*\}", value):
+                inner.pop(port, None)
+                if value[1:-1] in node.board:
+                    inner[port] = node.board[value[1:-1]]
+            else:
+                inner[port] = self._converted(node, port, value)
+        return node.children[0].tick()
+
+    # nodes that a file declares
+
+    def declared(self, node: Node) -> Outcome | None:
+        path = self.names[node.element.tag]
+        match self.reader.models[node.element.tag].tag, path:
+            case "Condition", _:
+                holds = self.stage.holds(path, node.element.get("_description", ""), self.values(node))
+                return Outcome(holds, not holds and "hold" in path[2:3])
+            case "Decorator", ("", "With", skill):
+                return self._with(node, skill)
+            case "Decorator", ("", "Try" | "Invert" as word):
+                outcome = node.children[0].tick()
+                if outcome is None or outcome.hold:
+                    return outcome
+                return Outcome(word == "Try" or not outcome.ok)
+            case "Action", _:
+                return self._action(node, path)
+        raise NotImplementedError(path)
+
+    def _action(self, node: Node, path: tuple[str, ...]) -> Outcome | None:
+        if not node.running:
+            node.state["values"] = self.values(node)
+            node.state["step"] = self.stage.action(path, self.values(node))
+        step = node.state["step"]
+        assert callable(step)
+        outcome = step()
+        assert outcome is None or isinstance(outcome, Outcome)
+        return outcome
+
+    def _with(self, node: Node, skill: str) -> Outcome | None:
+        if not node.state.get("set up"):
+            outcome = self._action(node, (skill,))
+            if outcome is None:
+                return None
+            if not outcome.ok:
+                self.stage.undo((skill,), self.values(node))
+                return outcome
+            node.state["set up"] = True
+        outcome = node.children[0].tick()
+        if outcome is not None:
+            self.stage.undo((skill,), self.values(node))
+        return outcome
+
+    def halted(self, node: Node) -> None:
+        if node.element.tag not in self.names:
+            return
+        path, kind = self.names[node.element.tag], self.reader.models[node.element.tag].tag
+        if kind == "Action":
+            self.stage.halt(path, self.values(node))
+        if path[:2] == ("", "With"):
+            if not node.state.get("set up"):
+                self.stage.halt(path[2:], self.values(node))
+            self.stage.undo(path[2:], self.values(node))
+
+
+def _method(tag: str) -> str:
+    """Return the name of the method that ticks a node of the library."""
+    return re.sub(r"[A-Z]", lambda capital: f"_{capital[0].lower()}", tag)
+
+
+def _threshold(node: Node, word: str, size: int) -> int:
+    count = int(node.element.attrib[word])
+    return count if count >= 0 else max(size + count + 1, 0)

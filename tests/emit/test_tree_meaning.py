@@ -1,0 +1,155 @@
+"""A tree as BehaviorTree.CPP runs it does what the language means: the same words to each primitive in each tick."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+
+import msgspec
+from hypothesis import HealthCheck, event, given, settings
+
+from emit.bt_player import Blackboard, Outcome, Player
+from emit.bt_player import Stage as Leaves
+from skillc_compiler.emit import bt
+from skillc_compiler.emit.bt_calls import may_break_hold
+from skillc_compiler.library import tree
+from skillc_compiler.library.conditions import Condition
+from skillc_compiler.library.reading import walk
+from skillc_compiler.library.skills import Compound, SkillLibrary, Task
+from skillc_runtime.world.changes import SetProperty
+from skillc_runtime.world.conditions import evaluate
+from skillc_runtime.world.expressions import value_of
+from tree.stage import ON, PERIOD_S, Script, here, world
+from tree.strategies import Play, plays
+from tree.test_against_reference import TICKS, by_reference
+
+SLOW = [HealthCheck.too_slow, HealthCheck.data_too_large]
+EXAMPLES = int(os.environ.get("SKILLC_EXAMPLES", "80"))
+
+
+class Scripted(Leaves):
+    """Leaves that follow the scripts of a play, on a world of flags."""
+
+    def __init__(self, play: Play) -> None:
+        self.world = world()
+        self.scripts, self.starts = play.scripts, dict.fromkeys(play.scripts, 0)
+        self.log: list[tuple[float, str, str]] = []
+        self.conditions = dict(conditions(play))
+        self.calls = {str(each.source): each for each in walk(play.body) if isinstance(each, tree.Call)}
+
+    def action(self, path: tuple[str, ...], values: Blackboard) -> Callable[[], Outcome | None]:
+        name = str(values["name"])
+        script = self.scripts[name][self.starts[name] % len(self.scripts[name])]
+        self.starts[name] += 1
+        self._tell("start", values)
+        left = iter(range(script.ticks - 1, -1, -1))
+
+        def step() -> Outcome | None:
+            self._tell("tick", values)
+            if next(left):
+                return None
+            if script.ending == "success" and "flag" in values and "value" in values:
+                self.world.commit([SetProperty(str(values["flag"]), ON, bool(values["value"]))])
+            if script.ending != "success":
+                self._tell("halt", values)
+            return Outcome(script.ending == "success")
+
+        return step
+
+    def halt(self, path: tuple[str, ...], values: Blackboard) -> None:
+        self._tell("halt", values)
+
+    def undo(self, path: tuple[str, ...], values: Blackboard) -> None:
+        self._tell("release", values)
+
+    def holds(self, path: tuple[str, ...], source: str, values: Blackboard) -> bool:
+        if path[-1].startswith("still"):
+            call = self.calls[source]
+            bindings = {name: value_of(value, self.world.snapshot(), {}) for name, value in call.arguments.items()}
+            return self.world.snapshot().value(str(bindings["flag"]), ON) == bindings["value"]
+        return evaluate(self.conditions[source], self.world.snapshot(), values)  # type: ignore[arg-type]
+
+    def _tell(self, what: str, values: Blackboard) -> None:
+        self.log.append((self.now, what, str(values["name"])))
+
+
+def conditions(play: Play) -> Iterator[tuple[str, Condition]]:
+    """Yield every condition by its place."""
+    bodies = [each.body.node for each in play.library.implementations.values() if isinstance(each.body, Compound)]
+    for body in (play.body, *bodies):
+        for each in walk(body):
+            if isinstance(each, tree.Check | tree.WaitUntil | tree.If | tree.While):
+                yield str(each.source), each.condition
+    for skill in play.library.skills.values():
+        yield from ((str(each.source), each.condition) for each in (*skill.pre, *skill.hold, *skill.post))
+
+
+def comparable(play: Play) -> Play:
+    """Return the play without what a tree cannot tell: how a start failed, locks, ties, what more keeps a result."""
+    scripts = {
+        name: [Script("success" if each.ending == "success" else "fail", each.ticks) for each in several]
+        for name, several in play.scripts.items()
+    }
+    skills = {name: msgspec.structs.replace(skill, uses=()) for name, skill in play.library.skills.items()}
+    library = msgspec.structs.replace(play.library, skills=skills)
+    implementations = {
+        key: msgspec.structs.replace(each, body=Compound(plain(each.body.node, library)))
+        if isinstance(each.body, Compound)
+        else each
+        for key, each in library.implementations.items()
+    }
+    library = msgspec.structs.replace(library, implementations=implementations)
+    return Play(plain(play.body, library), library, scripts, play.switches, None)
+
+
+def plain(node: tree.Node, library: SkillLibrary) -> tree.Node:
+    """Return the node with what cannot be compared made simpler."""
+    match node:
+        case tree.Sequence(children=children, reactive=reactive):
+            simple = all(isinstance(each, tree.Check | tree.WaitUntil | tree.Wait | tree.Call) for each in children)
+            inner = tuple(plain(each, library) for each in children)
+            return tree.Sequence(children=inner, reactive=reactive and simple, source=node.source)
+        case tree.Selector(children=children):
+            return msgspec.structs.replace(node, children=tuple(plain(each, library) for each in children))
+        case tree.Parallel(policy=policy, children=children):
+            inner = tuple(plain(each, library) for each in children)
+            return msgspec.structs.replace(node, children=inner, policy="any" if policy == "race" else policy)
+        case tree.Call(skill="Setup"):
+            return msgspec.structs.replace(node, skill="Act")
+        case tree.Once(child=child) if may_break_hold(library, child):
+            return plain(child, library)
+        case tree.If(then=then, orelse=orelse):
+            other = plain(orelse, library) if orelse else None
+            return msgspec.structs.replace(node, then=plain(then, library), orelse=other)
+        case _ if hasattr(node, "child"):
+            return msgspec.structs.replace(node, child=plain(node.child, library))
+    return node
+
+
+def by_player(play: Play, stage: Scripted) -> list[str]:
+    """Return the status after each tick."""
+    task = Task(name="play", body=play.body, source=here())
+    player = Player(bt.emit(msgspec.structs.replace(play.library, tasks={"play": task}))["trees/task_play.xml"], stage)
+    statuses: list[str] = []
+    for number in range(TICKS):
+        stage.now = number * PERIOD_S
+        stage.world.commit([SetProperty(flag, ON, on) for tick, flag, on in play.switches if tick == number])
+        outcome = player.tick()
+        if outcome is not None:
+            return [*statuses, "success" if outcome.ok else "failure"]
+        statuses.append("running")
+    player.root.halt()
+    return [*statuses, "halted"]
+
+
+@given(plays())
+@settings(
+    max_examples=EXAMPLES, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large]
+)
+def test_a_tree_does_what_the_language_means(drawn: Play) -> None:
+    play = comparable(drawn)
+    statuses, log, _ = by_reference(play)
+    stage = Scripted(play)
+    assert by_player(play, stage) == statuses
+    assert sorted(stage.log) == sorted(log)
+    event(f"ended {statuses[-1]}")
