@@ -18,6 +18,7 @@ UNUSED = UNUSED_IN_HEADER | {"unused-let", "unused-parameter"}
 TERMS = frozenset({"unknown-class", "unknown-type", "unknown-relation", "unknown-property"})
 NAMES = TERMS | {"unknown-function", "unknown-skill", "unknown-prefix"}
 TYPES = frozenset({"relation-domain", "relation-range", "property-domain", "wrong-type", "disjoint-types"})
+LOGIC = frozenset({"contradicting-conditions", "always-true", "always-false", "duplicate-condition", "breaks-axiom"})
 WHOLE = frozenset({"unachievable-goal", "no-implementation"})
 
 
@@ -30,6 +31,7 @@ def without_consequences(
         *_of_second_skills(problems, files),
         *_of_terms(problems, files),
         *_of_implemented(problems, files),
+        *_of_conditions(problems),
     )
     return (problem for problem in found if not any(explains(problem) for explains in explanations))
 
@@ -96,6 +98,17 @@ def _of_implemented(problems: Iterable[Diagnostic], files: Sequence[ReadFile]) -
     helps = [problem.help for problem in problems if problem.name == "unknown-skill" and problem.span in of]
     names = {d.name.span: f"`{d.name.text}`" for unit in files for d in unit.file.declarations if _is_skill(d)}
     yield lambda d: d.name == "no-implementation" and any(names[d.span] in help_ for help_ in helps)
+
+
+def _of_conditions(problems: Iterable[Diagnostic]) -> Iterator[Explains]:
+    """What is wrong in a condition explains that it seems to be always so, or to go ill with another."""
+    wrong = [problem.span for problem in problems if problem.name not in LOGIC and problem.severity == "error"]
+    yield (
+        lambda d: (
+            d.name in LOGIC
+            and any(_inside(place, whole) for place in wrong for whole in (d.span, *(label.span for label in d.labels)))
+        )
+    )
 
 
 def _is_skill(declaration: s.Declaration) -> bool:

@@ -1,30 +1,28 @@
-"""A question about classes whose answer is known beforehand.
+"""Something asked to be of two classes that have nothing in common.
 
-## disjoint-types: nothing can be of both classes
-
-Disjointness is declared in the vocabulary: no arm is a place.
+Disjointness is declared in the vocabulary: no arm is a place, no gripper an arm.
 
 Bad:
 
-    use skiros, rparts
+    use rparts
     skill Wait {
-        in arm: ArmDevice
-        in other: GripperEffector
-        pre arm is Location
+        in  arm:     ArmDevice
+        in  gripper: GripperEffector
+        pre gripper == arm
         noplan
     }
-    impl once of Wait { run python "skillc_runtime.primitives.stand_in:StandIn" }
+    impl waiting of Wait { run python "skillc_runtime.primitives.stand_in:StandIn" }
 
 Good:
 
     use rparts
     skill Wait {
-        in arm: ArmDevice
-        in other: GripperEffector
-        pre arm is skillc:CompliantArm
+        in  arm:     ArmDevice
+        in  other:   ArmDevice
+        pre not other == arm
         noplan
     }
-    impl once of Wait { run python "skillc_runtime.primitives.stand_in:StandIn" }
+    impl waiting of Wait { run python "skillc_runtime.primitives.stand_in:StandIn" }
 """
 
 from __future__ import annotations
@@ -38,11 +36,11 @@ from skillc_compiler.types import Thing, Type, describe
 from skillc_compiler.walk import clauses
 from skillc_dsl.diagnostics import Diagnostic
 
-NAMES = ("disjoint-types", "always-true")
+NAMES = ("disjoint-types",)
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each `is` and `==` that can never hold, a warning for each `is` that always does."""
+    """Yield a problem for each `is` and `==` that can never hold."""
     for clause in clauses(program):
         match clause.meaning:
             case IsA(cls=cls):
@@ -58,25 +56,10 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 f"this never holds: nothing is both {describe(asked[0])} and {describe(asked[1])}",
                 help="take the condition away, or ask for another class",
             )
-        elif isinstance(clause.meaning, IsA) and _always(program.vocabulary, *asked):
-            yield Diagnostic(
-                "always-true",
-                clause.span,
-                f"this always holds: it is declared to be {describe(asked[0])}",
-                help="take the condition away, or ask for a narrower class",
-                severity="warning",
-            )
 
 
 def _disjoint(vocabulary: Vocabulary, one: Type, other: Type) -> bool:
     match one, other:
         case Thing(cls=str(a)), Thing(cls=str(b)):
             return vocabulary.disjoint(a, b)
-    return False
-
-
-def _always(vocabulary: Vocabulary, one: Type, other: Type) -> bool:
-    match one, other:
-        case Thing(cls=str(a)), Thing(cls=str(b)):
-            return vocabulary.is_a(a, b)
     return False

@@ -46,9 +46,11 @@ def check(program: Program) -> Iterator[Diagnostic]:
         return
     changed = _changed(program)
     for task in program.tasks:
+        told: set[str] = set()
         for clause in clauses_in(task.goal) if task.goal else ():
             term = _term(clause)
-            if term is not None and term not in changed:
+            if term is not None and term not in changed | told:
+                told.add(term)
                 yield Diagnostic(
                     "unachievable-goal",
                     clause.span,

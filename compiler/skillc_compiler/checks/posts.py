@@ -113,8 +113,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from skillc_compiler.library.conditions import Assert, Assign, Effect, Literal, Retract
-from skillc_compiler.library.vocabulary import RelationTerm, Vocabulary, local_name
+from skillc_compiler.conflicts import Conflicts, covers
+from skillc_compiler.library.conditions import Assert, Assign, Effect, Holds, Literal, Retract
+from skillc_compiler.library.vocabulary import Vocabulary, local_name
 from skillc_compiler.lower.effects import NoEffect, effects
 from skillc_compiler.program import Program, Requirement
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -124,13 +125,14 @@ NAMES = ("post-not-literal", "computed-property", "two-values", "contradicting-p
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield what is wrong with the posts of each skill, and with those an implementation adds."""
+    conflicts = Conflicts(program.vocabulary)
     for skill in program.skills.values():
-        yield from _check(program.vocabulary, skill.requirements, ())
+        yield from _check(conflicts, skill.requirements, ())
     for implementation in program.implementations:
-        yield from _check(program.vocabulary, implementation.requirements, implementation.skill.requirements)
+        yield from _check(conflicts, implementation.requirements, implementation.skill.requirements)
 
 
-def _check(vocabulary: Vocabulary, own: Sequence[Requirement], given: Sequence[Requirement]) -> Iterator[Diagnostic]:
+def _check(conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Requirement]) -> Iterator[Diagnostic]:
     known = [(effect, post) for post in given if post.kind == "post" for effect in effects(post.clause)]
     for post in (requirement for requirement in own if requirement.kind == "post"):
         for effect in effects(post.clause):
@@ -139,10 +141,10 @@ def _check(vocabulary: Vocabulary, own: Sequence[Requirement], given: Sequence[R
                     yield _not_literal(effect)
                 continue
             if not post.sensed:
-                yield from _computed(vocabulary, effect, post)
+                yield from _computed(conflicts.vocabulary, effect, post)
             for other, earlier in known:
                 if not isinstance(other, NoEffect):
-                    yield from _conflict(vocabulary, effect, post, other, earlier)
+                    yield from _conflict(conflicts, effect, post, other, earlier)
             known.append((effect, post))
 
 
@@ -168,27 +170,26 @@ def _computed(vocabulary: Vocabulary, effect: Effect, post: Requirement) -> Iter
 
 
 def _conflict(
-    vocabulary: Vocabulary, effect: Effect, post: Requirement, other: Effect, earlier: Requirement
+    conflicts: Conflicts, effect: Effect, post: Requirement, other: Effect, earlier: Requirement
 ) -> Iterator[Diagnostic]:
-    labels = (Label(earlier.clause.span, "the other one"),)
     match effect, other:
-        case Assert(), Assert() if _two_values(vocabulary.relations.get(effect.relation), effect, other):
-            message = f"`{local_name(effect.relation)}` can have one value only, and another post gives it a second"
-            yield Diagnostic("two-values", post.clause.span, message, "keep one of the two", labels=labels)
+        case Assert(), Assert():
+            relation = conflicts.two_values(_holds(effect), _holds(other))
+            if relation is not None:
+                message = f"`{local_name(relation)}` can have one value only, and another post gives it a second"
+                yield _either("two-values", post, earlier, message)
         case Assign(value=Literal() as one), Assign(value=Literal() as two):
             if (effect.subject, effect.property) == (other.subject, other.property) and one != two:
-                message = f"`{local_name(effect.property)}` is given two values"
-                yield Diagnostic("two-values", post.clause.span, message, "keep one of the two", labels=labels)
+                yield _either("two-values", post, earlier, f"`{local_name(effect.property)}` is given two values")
         case (Assert() as true, Retract() as false) | (Retract() as false, Assert() as true):
-            if (true.subject, true.relation, true.object) == (false.subject, false.relation, false.object):
-                message = "another post says the opposite"
-                yield Diagnostic("contradicting-posts", post.clause.span, message, "keep one of the two", labels=labels)
+            if any(covers(_holds(false), link) for link in conflicts.implied(_holds(true))):
+                yield _either("contradicting-posts", post, earlier, "another post says the opposite")
 
 
-def _two_values(relation: RelationTerm | None, one: Assert, other: Assert) -> bool:
-    if relation is None or one.relation != other.relation:
-        return False
-    same_subject, same_object = one.subject == other.subject, one.object == other.object
-    return (relation.functional and same_subject and not same_object) or (
-        relation.inverse_functional and same_object and not same_subject
-    )
+def _either(name: str, post: Requirement, earlier: Requirement, message: str) -> Diagnostic:
+    labels = (Label(earlier.clause.span, "the other one"),)
+    return Diagnostic(name, post.clause.span, message, "keep one of the two", labels=labels)
+
+
+def _holds(effect: Assert | Retract) -> Holds:
+    return Holds(effect.subject, effect.relation, effect.object)

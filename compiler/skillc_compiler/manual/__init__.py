@@ -56,7 +56,7 @@ def _of(module: ModuleType) -> list[Page]:
         title, _, rest = text.partition("\n")
         return [_page(module.NAMES[0], title, rest)]
     ends = [*(head.start() for head in heads[1:]), len(text)]
-    return [_page(*head.groups(), text[head.end() : end]) for head, end in zip(heads, ends, strict=True)]
+    return [_page(head[1], head[2], text[head.end() : end]) for head, end in zip(heads, ends, strict=True)]
 
 
 def _page(name: str, title: str, text: str) -> Page:

@@ -1,0 +1,69 @@
+"""A called skill whose precondition does not hold where it starts, or is not known to.
+
+An error is a precondition that does not hold on some way through the body, a warning one that is not guaranteed: neither the
+skill's own preconditions promise it, nor does anything before the call establish it. Where the failure of the call is dealt
+with, by `sel`, `try`, `retry` or `invert`, only a precondition that never holds is told. What the called skill
+infers by itself is found when it starts, so that nothing is said of conditions on it unless they are certainly false.
+
+Bad:
+
+    use rparts, skiros
+    import "gripper.skill"
+    skill Drop {
+        in   arm:     ArmDevice
+        in   gripper: GripperEffector
+        in   object:  Product
+        in   to:      Location
+        post not gripper contain object
+        post to contain object
+    }
+    impl plain of Drop { do Release(arm, gripper, object, to) }
+
+Good:
+
+    use rparts, skiros
+    import "gripper.skill"
+    skill Drop {
+        in   arm:     ArmDevice
+        in   gripper: GripperEffector
+        in   object:  Product
+        in   to:      Location
+        pre  gripper contain object
+        post not gripper contain object
+        post to contain object
+    }
+    impl plain of Drop { do Release(arm, gripper, object, to) }
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.program import Program
+from skillc_compiler.proof.findings import Unguaranteed
+from skillc_compiler.proof.proving import found
+from skillc_compiler.proof.trail import labels
+from skillc_dsl.diagnostics import Diagnostic, Label
+
+NAMES = ("child-precondition",)
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a problem for each such precondition of each call."""
+    for one in found(program, Unguaranteed):
+        name, text = one.call.written.skill.text, one.requirement.text
+        what = "does not hold" if one.false else "is not guaranteed"
+        yield Diagnostic(
+            "child-precondition",
+            one.call.written.skill.span,
+            f"`{name}` needs `{text}`, which {what} here",
+            help=_help(one),
+            severity="error" if one.false else "warning",
+            labels=(Label(one.requirement.span, "needed here"), *labels(one.way)),
+        )
+
+
+def _help(one: Unguaranteed) -> str:
+    if one.false:
+        return "call it where its precondition holds, or bring that about before"
+    return "promise it in a `pre` of the calling skill, establish it before, or look: `check(..)`"

@@ -1,0 +1,79 @@
+"""A condition that is stated twice.
+
+Conditions are a set: their order means nothing, and a second one adds nothing. A `pre` and a `hold` may say the same:
+the one is asked at the start, and parameters are inferred by it; the other is asked at every tick.
+
+Bad:
+
+    use skiros, rparts
+    skill Take {
+        in   gripper: GripperEffector
+        in   object:  Product
+        pre  held: gripper contain object
+        pre  kept: gripper contain object
+        noplan
+    }
+    impl waiting of Take { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skiros, rparts
+    skill Take {
+        in   gripper: GripperEffector
+        in   object:  Product
+        pre  held: gripper contain object
+        hold kept: gripper contain object
+        noplan
+    }
+    impl waiting of Take { run python "skillc_runtime.primitives.stand_in:StandIn" }
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from skillc_compiler.conjuncts import Fact, conjuncts
+from skillc_compiler.library.conditions import Condition
+from skillc_compiler.program import Clause, Program, Requirement
+from skillc_compiler.walk import steps
+from skillc_dsl.diagnostics import Diagnostic, Label
+
+NAMES = ("duplicate-condition",)
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a warning for each fact stated before in the same kind of condition."""
+    for skill in program.skills.values():
+        for kind in ("pre", "hold", "post"):
+            yield from _repeated(_facts(skill.requirements, kind), ())
+    for implementation in program.implementations:
+        for kind in ("pre", "hold", "post"):
+            given = _facts(implementation.skill.requirements, kind)
+            yield from _repeated(_facts(implementation.requirements, kind), given)
+    for clause in _alone(program):
+        yield from _repeated(conjuncts(clause), ())
+
+
+def _alone(program: Program) -> Iterator[Clause]:
+    yield from (task.goal for task in program.tasks if task.goal)
+    for step in steps(program):
+        yield from step.clauses
+
+
+def _facts(requirements: Iterable[Requirement], kind: str) -> list[Fact]:
+    return [fact for r in requirements if r.kind == kind for fact in conjuncts(r.clause)]
+
+
+def _repeated(facts: Iterable[Fact], given: Iterable[Fact]) -> Iterator[Diagnostic]:
+    first: dict[tuple[Condition, bool], Fact] = {(fact.meaning, fact.holds): fact for fact in given}
+    for fact in facts:
+        former = first.setdefault((fact.meaning, fact.holds), fact)
+        if former is not fact:
+            yield Diagnostic(
+                "duplicate-condition",
+                fact.source.span,
+                "this is stated already",
+                help="take one of the two away",
+                severity="warning",
+                labels=(Label(former.source.span, "stated here"),),
+            )

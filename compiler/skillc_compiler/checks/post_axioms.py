@@ -1,0 +1,103 @@
+"""A postcondition that an axiom of its relation forbids, so that the world model would refuse it.
+
+A relation with one value only takes care of itself: the new value takes the place of the old one. But nothing is
+related to itself by an irreflexive relation, and an asymmetric one goes one way only: where a precondition says that it
+goes the other way, the skill has to say that it does so no longer.
+
+## breaks-axiom: a post makes a relation go both ways, or from a thing to itself
+
+Bad:
+
+    use skiros
+    skill Swap {
+        in   inner: Container
+        in   outer: Container
+        pre  outer contain inner
+        post inner contain outer
+    }
+    impl waiting of Swap { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skiros
+    skill Swap {
+        in   inner: Container
+        in   outer: Container
+        pre  outer contain inner
+        post inner contain outer
+        post not outer contain inner
+    }
+    impl waiting of Swap { run python "skillc_runtime.primitives.stand_in:StandIn" }
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.conflicts import Conflicts, covers
+from skillc_compiler.conjuncts import Fact, conjuncts
+from skillc_compiler.library.conditions import Holds
+from skillc_compiler.library.vocabulary import local_name
+from skillc_compiler.program import Program, Requirement, Skill
+from skillc_dsl.diagnostics import Diagnostic, Fix, Label
+from skillc_dsl.source import Span
+
+NAMES = ("breaks-axiom",)
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a problem for each relation that cannot be made true."""
+    conflicts = Conflicts(program.vocabulary)
+    for skill in program.skills.values():
+        yield from _in_skill(conflicts, skill)
+
+
+def _in_skill(conflicts: Conflicts, skill: Skill) -> Iterator[Diagnostic]:
+    posts = [(fact, r) for r in skill.requirements if r.kind == "post" for fact in conjuncts(r.clause)]
+    gone = [fact.meaning for fact, _ in posts if not fact.holds and isinstance(fact.meaning, Holds)]
+    known = [fact for r in skill.requirements if r.kind == "pre" for fact in conjuncts(r.clause) if fact.holds]
+    staying = [fact for fact in known if not _undone(conflicts, fact, gone)]
+    for number, (fact, post) in enumerate(posts):
+        if not fact.holds or not isinstance(fact.meaning, Holds):
+            continue
+        others = [*(each for each, _ in posts[:number] if each.holds), *staying]
+        yield from _breaks(conflicts, fact, fact.meaning, post, others)
+
+
+def _undone(conflicts: Conflicts, fact: Fact, gone: list[Holds]) -> bool:
+    if not isinstance(fact.meaning, Holds):
+        return True
+    return any(covers(absent, link) for absent in gone for link in conflicts.implied(fact.meaning))
+
+
+def _breaks(
+    conflicts: Conflicts, fact: Fact, meaning: Holds, post: Requirement, others: list[Fact]
+) -> Iterator[Diagnostic]:
+    name = local_name(meaning.relation)
+    if conflicts.impossible(meaning):
+        message = f"nothing can be related to itself by `{name}`"
+        yield Diagnostic("breaks-axiom", fact.source.span, message, "name another individual on one side")
+    back = next((o for o in others if isinstance(o.meaning, Holds) and conflicts.opposite(meaning, o.meaning)), None)
+    if back is not None:
+        text = f"post not {_written(back)}"
+        yield Diagnostic(
+            "breaks-axiom",
+            fact.source.span,
+            f"`{name}` goes one way only, and it still goes the other way",
+            f"say that it does so no longer: `{text}`",
+            labels=(Label(back.clause.span, "the other way"),),
+            fix=Fix(_after(post.span), f"\n{' ' * (post.span.column - 1)}{text}", f"add `{text}`"),
+        )
+
+
+def _written(fact: Fact) -> str:
+    """Return a relation between two names as it is written."""
+    match fact.meaning:
+        case Holds(subject=subject, relation=relation, object=object_):
+            ends = [getattr(end, "name", getattr(end, "iri", "_")) for end in (subject, object_)]
+            return f"{ends[0]} {local_name(relation)} {ends[1]}"
+    raise AssertionError(fact)
+
+
+def _after(span: Span) -> Span:
+    return Span(span.path, span.end_line, span.end_column, span.end_line, span.end_column)

@@ -1,0 +1,35 @@
+"""A body with more possible states than are told apart.
+
+After every node, up to 64 states of the world are followed one by one. Where there are more, only what all of them have
+in common is used, so that something may seem not to be guaranteed that is.
+
+Bad:
+
+    use skillc
+    import "compliance.skill"
+    skill Show { in surface: Surface  in other: Surface  out seen: Bool  noplan }
+    impl waiting of Show { run python "skillc_runtime.primitives.stand_in:StandIn" }
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.program import Program
+from skillc_compiler.proof.findings import Undecided
+from skillc_compiler.proof.proving import found
+from skillc_dsl.diagnostics import Diagnostic
+
+NAMES = ("not-decided",)
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a note for each body that was followed only in part."""
+    for one in found(program, Undecided):
+        yield Diagnostic(
+            "not-decided",
+            one.span,
+            "this can end in more ways than are followed one by one, so what is told of it may be too careful",
+            help="make skills of parts of it",
+            severity="warning",
+        )

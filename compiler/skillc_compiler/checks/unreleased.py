@@ -1,0 +1,55 @@
+"""Something that is set up, or changed, and not put back when a child fails.
+
+A `scoped` skill that is called as a plain node lasts until an enclosing `with`, or the whole run, ends. And what one child
+changes and a later one changes back stays changed when a child between the two fails. `with` undoes what its skill set up
+on success, failure and halt.
+
+Bad:
+
+    use skillc
+    import "compliance.skill"
+    skill Feel { in arm: CompliantArm  in surface: Surface  noplan }
+    impl soft of Feel {
+        do seq {
+            Compliance(arm, along: surface.normal)
+            Align(arm, surface)
+        }
+    }
+
+Good:
+
+    use skillc
+    import "compliance.skill"
+    skill Feel { in arm: CompliantArm  in surface: Surface  noplan }
+    impl soft of Feel {
+        do with Compliance(arm, along: surface.normal) {
+            Align(arm, surface)
+        }
+    }
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.program import Program
+from skillc_compiler.proof.findings import Unreleased
+from skillc_compiler.proof.proving import found
+from skillc_compiler.proof.trail import labels
+from skillc_dsl.diagnostics import Diagnostic, Label
+
+NAMES = ("not-released",)
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a problem for each call that sets up what is not put back."""
+    for one in found(program, Unreleased):
+        name = one.call.written.skill
+        if one.post is None:
+            message = f"what `{name.text}` sets up is not undone when this skill ends"
+            help_, cause = f"write `with {name.text}(..) {{ .. }}` around what needs it", ()
+        else:
+            message = f"`{name.text}` makes true `{one.post.text}`, which stays so when a later child fails"
+            help_ = f"declare `{name.text}` `scoped` and write `with {name.text}(..) {{ .. }}`"
+            cause = (Label(one.post.span, "the effect"), *labels(one.way))
+        yield Diagnostic("not-released", name.span, message, help_, "warning", labels=cause)

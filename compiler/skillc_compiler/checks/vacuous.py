@@ -1,0 +1,158 @@
+"""A condition whose answer is known beforehand.
+
+## always-true: a condition always holds
+
+Bad:
+
+    skill Press {
+        opt force: Force = 20 N  range 5 N .. 80 N
+        pre force < 100 N
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    skill Press {
+        opt force: Force = 20 N  range 5 N .. 80 N
+        pre force < 50 N
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## always-false: a condition never holds
+
+Bad:
+
+    use skiros
+    skill Stack {
+        in  lower: Container
+        in  upper: Container
+        pre lower contain lower
+        noplan
+    }
+    impl waiting of Stack { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skiros
+    skill Stack {
+        in  lower: Container
+        in  upper: Container
+        pre lower contain upper
+        noplan
+    }
+    impl waiting of Stack { run python "skillc_runtime.primitives.stand_in:StandIn" }
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from skillc_compiler.bounds import Bound, bound, decided, exclude
+from skillc_compiler.conflicts import Conflicts
+from skillc_compiler.conjuncts import conjuncts
+from skillc_compiler.library.conditions import Compare, Given, Holds, IsA, Literal, Or, Same, Variable
+from skillc_compiler.lower.folding import fold, number
+from skillc_compiler.program import Clause, Implementation, Parameter, Program, Skill, Step
+from skillc_compiler.types import Thing, describe
+from skillc_compiler.walk import clauses_in, within
+from skillc_dsl.diagnostics import Diagnostic
+
+NAMES = ("always-true", "always-false")
+_Parameters = Mapping[str, Parameter]
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a warning for each condition that always holds, a problem for each that never does."""
+    conflicts = Conflicts(program.vocabulary)
+    for clause, parameters in _conditions(program):
+        for part in clauses_in(clause):
+            yield from _judged(conflicts, part, parameters)
+
+
+def _conditions(program: Program) -> Iterator[tuple[Clause, _Parameters]]:
+    """Yield every condition with the parameters it may speak of."""
+    owners: tuple[Skill | Implementation, ...] = (*program.skills.values(), *program.implementations)
+    for owner in owners:
+        parameters = {parameter.name: parameter for parameter in owner.parameters}
+        yield from ((clause, parameters) for clause in _written_in(owner))
+    for task in program.tasks:
+        if task.goal:
+            yield task.goal, {}
+        for step in within(task.body) if task.body else ():
+            yield from ((clause, {}) for clause in step.clauses)
+
+
+def _written_in(owner: Skill | Implementation) -> Iterator[Clause]:
+    yield from (requirement.clause for requirement in owner.requirements if requirement.kind != "post")
+    if isinstance(owner, Implementation) and isinstance(owner.body, Step):
+        for step in within(owner.body):
+            yield from step.clauses
+
+
+def _judged(conflicts: Conflicts, clause: Clause, parameters: _Parameters) -> Iterator[Diagnostic]:
+    found = _truth(conflicts, clause, parameters)
+    if found is not None:
+        answer, reason = found
+        yield Diagnostic(
+            "always-true" if answer else "always-false",
+            clause.span,
+            f"this {'always' if answer else 'never'} holds: {reason}",
+            help="take the condition away, or ask for something else",
+            severity="warning" if answer else "error",
+        )
+
+
+def _truth(conflicts: Conflicts, clause: Clause, parameters: _Parameters) -> tuple[bool, str] | None:
+    """Return whether a condition always or never holds, and why; None if it depends."""
+    match clause.meaning:
+        case Holds() as fact if conflicts.impossible(fact):
+            return False, "nothing has this relation to itself"
+        case Same(left=left, right=right) if left == right:
+            return True, "it is the same by name"
+        case IsA(cls=cls):
+            of = clause.values[0].type
+            if isinstance(of, Thing) and of.cls is not None and conflicts.vocabulary.is_a(of.cls, cls):
+                return True, f"it is declared to be {describe(of)}"
+        case Given(parameter=name) if name in parameters and parameters[name].direction == "in":
+            return True, f"`{name}` has to be passed"
+        case Or():
+            return _any_way(conflicts, clause)
+        case Compare() as comparison:
+            return _compared(comparison, parameters)
+    return None
+
+
+def _any_way(conflicts: Conflicts, clause: Clause) -> tuple[bool, str] | None:
+    """Find two parts of an `or` of which one holds whenever the other does not."""
+    denied = [(fact, part) for part in clause.parts for fact in conjuncts(part, holds=False)]
+    pairs = ((one, other) for i, (one, _) in enumerate(denied) for other, _ in denied[:i])
+    if any(conflicts.between(one, other) for one, other in pairs):
+        return True, "where one part does not, another does"
+    return None
+
+
+def _compared(comparison: Compare, parameters: _Parameters) -> tuple[bool, str] | None:
+    match fold(comparison.left), comparison.operator, fold(comparison.right):
+        case Literal(value=left), operator, Literal(value=right):
+            return decided(operator, left, right), "both sides are constants"
+        case left, "!=" | "<" | ">" as operator, right if left == right:
+            return False, f"nothing is `{operator}` itself"
+    limit = bound(comparison)
+    if limit is None or not isinstance(limit.of, Variable) or limit.of.name not in parameters:
+        return None
+    name, range_ = limit.of.name, tuple(_range(parameters[limit.of.name]))
+    if any(exclude(limit, end) for end in range_):
+        return False, f"no value in the range of `{name}` is such"
+    if any(exclude(limit.opposite(), end) for end in range_):
+        return True, f"every value in the range of `{name}` is such"
+    return None
+
+
+def _range(parameter: Parameter) -> Iterator[Bound]:
+    low, high = (number(end.meaning) if end else None for end in (parameter.low, parameter.high))
+    if low is not None:
+        yield Bound(Variable(parameter.name), ">=", low)
+    if high is not None:
+        yield Bound(Variable(parameter.name), "<=", high)
