@@ -47,14 +47,8 @@ class Nodes:
                 return Box("flow", "↻", f"{kind} {count.text}", (), self._all(children))
             case s.Timeout(limit=limit, children=children):
                 return Box("time", "◷", "timeout", (self.places.written(limit.span),), self._all(children))
-            case s.If(text=text, then=then, orelse=None):
-                return Box("guard", "?", "if", (text,), self._all(then))
-            case s.If(text=text, then=then, orelse=orelse):
-                branches = (
-                    Box("flow", "+", "then", (), self._all(then)),
-                    Box("flow", "−", "else", (), self._all(orelse)),
-                )
-                return Box("guard", "?", "if", (text,), branches)
+            case s.If(text=text):
+                return Box("guard", "?", "if", (text,), self._branches(node))
             case s.While(text=text, limit=limit, children=children):
                 return Box("guard", "↻", "while", (text, f"max {limit.text}"), self._all(children))
             case s.For(variable=variable, items=items, children=children):

@@ -1,0 +1,1 @@
+"""The reference of a library as pages to browse: start at `site`."""

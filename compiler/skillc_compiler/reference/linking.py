@@ -1,0 +1,84 @@
+"""Links from page to page: relative ones, so that the reference works from any folder and without a server."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from markupsafe import Markup
+
+from skillc_compiler.library.vocabulary import ClassType, ListType, Position, ValueType, Vocabulary, local_name
+from skillc_compiler.library.words import type_text
+
+_NAME = re.compile(r"[A-Za-z_][\w-]*(?::[A-Za-z_][\w-]*)?")
+
+
+@dataclass(frozen=True, slots=True)
+class Links:
+    """Writes the links of one page; `root` leads from it to the top, "" or "../" or more of these.
+
+    `terms` are the IRIs and functions that have a place on the page of terms, `sources` the files that have a page.
+    """
+
+    root: str
+    vocabulary: Vocabulary
+    skills: frozenset[str]
+    terms: frozenset[str]
+    sources: frozenset[str]
+
+    def skill(self, name: str) -> Markup:
+        """Return a link to a skill."""
+        href = f"{self.root}skill/{name}.html"
+        return _link(href, name) if name in self.skills else Markup("<code>{}</code>").format(name)
+
+    def source(self, place: Position) -> Markup:
+        """Return a link to a line of a source; its name alone where the source has no page."""
+        if place.path not in self.sources:
+            return Markup("<code>{}</code>").format(place)
+        return _link(f"{self.root}source/{place.path}.html#L{place.line}", str(place))
+
+    def line(self, place: Position) -> Markup:
+        """Return a link to a line of a source that is spoken of already."""
+        return Markup('<a href="{}source/{}.html#L{}">line {}</a>').format(
+            self.root, place.path, place.line, place.line
+        )
+
+    def term(self, name: str) -> Markup:
+        """Return a link to a term by its IRI, or to a function by its name."""
+        return self._term(name, self.vocabulary.short(name))
+
+    def type(self, type_: ValueType) -> Markup:
+        """Return a type with its class linked."""
+        match type_:
+            case ClassType(iri=iri):
+                return self.term(iri)
+            case ListType(element=element):
+                return Markup("[{}]").format(self.type(element))
+            case _:
+                return Markup("<code>{}</code>").format(type_text(type_, self.vocabulary))
+
+    def code(self, text: str, mentioned: Iterable[str]) -> Markup:
+        """Return what an author wrote as code, with the terms it mentions linked."""
+        known = {written: each for each in mentioned for written in (local_name(each), self.vocabulary.short(each))}
+        parts, end = [], 0
+        for found in _NAME.finditer(text):
+            if found.group() in known and known[found.group()] in self.terms:
+                parts += [Markup.escape(text[end : found.start()]), self._bare(known[found.group()], found.group())]
+                end = found.end()
+        return Markup("<code>{}</code>").format(Markup("").join((*parts, Markup.escape(text[end:]))))
+
+    def _term(self, name: str, shown: str) -> Markup:
+        return Markup("<code>{}</code>").format(self._bare(name, shown) if name in self.terms else shown)
+
+    def _bare(self, name: str, shown: str) -> Markup:
+        return Markup('<a href="{}terms.html#{}">{}</a>').format(self.root, anchor(name, self.vocabulary), shown)
+
+
+def anchor(name: str, vocabulary: Vocabulary) -> str:
+    """Return the place of a term on the page of terms."""
+    return re.sub(r"[^\w-]", "-", vocabulary.short(name))
+
+
+def _link(href: str, text: str) -> Markup:
+    return Markup('<a href="{}"><code>{}</code></a>').format(href, text)

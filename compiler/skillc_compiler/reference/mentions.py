@@ -1,0 +1,62 @@
+"""Which terms of the vocabulary a skill, an implementation or a task speaks of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import msgspec
+
+from skillc_compiler.library.conditions import (
+    Assert,
+    Assign,
+    Exists,
+    Forall,
+    HasProperty,
+    Holds,
+    Invoke,
+    IsA,
+    PropertyOf,
+    Retract,
+)
+from skillc_compiler.library.tree import Call
+from skillc_compiler.library.vocabulary import ClassType
+
+
+def mentioned(item: msgspec.Struct) -> frozenset[str]:
+    """Return the IRIs of the classes, relations and properties, and the names of the functions, inside `item`."""
+    return frozenset(name for each in _all(item) for name in _named(each))
+
+
+def called(item: msgspec.Struct) -> tuple[str, ...]:
+    """Return the skills called inside `item`, in the order of their first call."""
+    return tuple(dict.fromkeys(each.skill for each in _all(item) if isinstance(each, Call)))
+
+
+def _named(item: msgspec.Struct) -> Iterator[str]:
+    match item:
+        case ClassType(iri=iri) | IsA(cls=iri) | Exists(cls=iri) | Forall(cls=iri):
+            yield iri
+        case Holds(relation=iri) | Assert(relation=iri) | Retract(relation=iri):
+            yield iri
+        case HasProperty(property=iri) | PropertyOf(property=iri) | Assign(property=iri):
+            yield iri
+        case Invoke(function=name):
+            yield name
+        case _:
+            pass
+
+
+def _all(item: object) -> Iterator[msgspec.Struct]:
+    match item:
+        case msgspec.Struct():
+            yield item
+            for name in item.__struct_fields__:
+                yield from _all(getattr(item, name))
+        case tuple():
+            for part in item:
+                yield from _all(part)
+        case dict():
+            for part in item.values():
+                yield from _all(part)
+        case _:
+            pass
