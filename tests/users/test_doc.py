@@ -112,16 +112,11 @@ def test_a_page_shows_what_its_skill_says() -> None:
     assert "Called by" in made()["skill/MoveTo.html"]
 
 
-def test_the_same_library_gives_the_same_bytes_in_every_process(tmp_path: Path) -> None:
-    for seed in ("1", "2"):
-        command_line = [sys.executable, "-m", "skillc_runtime", "doc", str(WIPING), "-o", str(tmp_path / seed)]
-        subprocess.run(command_line, check=True, capture_output=True, env={**os.environ, "PYTHONHASHSEED": seed})
-    one, other = (
-        {path.relative_to(tmp_path / seed): path.read_bytes() for path in (tmp_path / seed).rglob("*.*")}
-        for seed in ("1", "2")
-    )
-    assert one == other
-    assert len(one) == len(made())
+def test_another_process_writes_the_same_bytes(tmp_path: Path) -> None:
+    command_line = [sys.executable, "-m", "skillc_runtime", "doc", str(WIPING), "-o", str(tmp_path)]
+    subprocess.run(command_line, check=True, capture_output=True, env={**os.environ, "PYTHONHASHSEED": "7"})
+    written = {path.relative_to(tmp_path).as_posix(): path for path in tmp_path.rglob("*.*")}
+    assert {path: file.read_text(encoding="utf-8") for path, file in written.items()} == made()
 
 
 def test_html_and_scripts_of_authors_stay_text(tmp_path: Path) -> None:
