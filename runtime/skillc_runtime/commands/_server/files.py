@@ -1,0 +1,89 @@
+"""Which files a library has: those on disk, and the texts in the editor in their place."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+from skillc_dsl.encoding import decode
+from skillc_dsl.source import Source
+from skillc_ontology import catalogue
+from skillc_runtime.commands import _files
+
+_NOT_ENTERED = ("node_modules", "build", "dist", "out")
+
+
+@dataclass(frozen=True, slots=True)
+class Root:
+    """The folder of a library; outside of the editor's folders, only the files right in it belong to the library."""
+
+    folder: Path
+    whole: bool
+
+    def holds(self, file: Path) -> bool:
+        """Whether a file belongs to the library, if it is one of skills."""
+        return self.folder in file.parents if self.whole else file.parent == self.folder
+
+
+def root_of(file: Path, folders: Sequence[Path]) -> Root:
+    """Return the library that a file belongs to: its folder, or the highest above it with a `.skill` file in each.
+
+    `folders` are those open in the editor, beyond which nothing is looked for.
+    """
+    around = [folder for folder in folders if folder == file.parent or folder in file.parents]
+    folder = file.parent
+    while around and folder not in around and any(folder.parent.glob("*.skill")):
+        folder = folder.parent
+    return Root(folder, bool(around))
+
+
+def sources(root: Root, buffers: Mapping[Path, str]) -> dict[str, Source]:
+    """Return the texts of a library by path relative to its folder; `buffers` stand for what is on disk."""
+    own = [file for file in buffers if root.holds(file)]
+    files = sorted({*_on_disk(root), *own})
+    return {path: _source(file, path, buffers) for file, path in ((f, _relative(f, root)) for f in files)}
+
+
+def place(path: str, root: Root) -> Path:
+    """Return the file of a path that a diagnostic shows: of the library, of the shelf, or of the ontology."""
+    shelf = _shipped().places
+    if (root.folder / path).exists() or path not in shelf:
+        ontology = catalogue.ROOT / path
+        return ontology if ontology.is_file() and not (root.folder / path).exists() else root.folder / path
+    return shelf[path]
+
+
+def shelf() -> Mapping[str, Source]:
+    """Return the shipped files that every library may import."""
+    return _shipped().shelf
+
+
+@cache
+def _shipped() -> _files.LibraryFiles:
+    return _files.find(_files.SHIPPED / "std")
+
+
+def _on_disk(root: Root) -> Iterator[Path]:
+    if not root.whole:
+        yield from root.folder.glob("*.skill")
+        return
+    for folder, folders, names in os.walk(root.folder):
+        folders[:] = [name for name in folders if not name.startswith(".") and name not in _NOT_ENTERED]
+        yield from (Path(folder, name) for name in names if name.endswith(".skill"))
+
+
+def _relative(file: Path, root: Root) -> str:
+    return file.relative_to(root.folder).as_posix()
+
+
+def _source(file: Path, path: str, buffers: Mapping[Path, str]) -> Source:
+    """Return a text; a file that has gone in the meantime is empty."""
+    if file in buffers:
+        return Source(path, buffers[file])
+    try:
+        return decode(path, file.read_bytes())
+    except OSError:
+        return Source(path, "")

@@ -1,0 +1,124 @@
+"""The libraries of the files that are open in the editor, each understood when somebody asks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from pathlib import Path
+from urllib.parse import quote, urlsplit
+
+from pygls.uris import from_fs_path, to_fs_path
+
+from skillc_compiler.assist.analysis import Analysis, Library, analyse
+from skillc_dsl import parser
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Source
+from skillc_runtime.commands._library import vocabulary
+from skillc_runtime.commands._server import files
+from skillc_runtime.commands._server.files import Root
+from skillc_runtime.commands._server.scenes import Populated, Scenes
+
+REMEMBERED_FILES = 1024
+
+parse = lru_cache(REMEMBERED_FILES)(parser.parse)
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """A file in its library."""
+
+    root: Root
+    path: str
+    analysis: Analysis
+
+
+@dataclass
+class Libraries:
+    """What the editor has open, and what was understood of it; `folders` are the editor's folders."""
+
+    folders: tuple[Path, ...] = ()
+    buffers: dict[Path, str] = field(default_factory=dict)
+    _uris: dict[Path, str] = field(default_factory=dict)
+    _analyses: dict[Root, Analysis] = field(default_factory=dict)
+    _sources: dict[Root, dict[str, Source]] = field(default_factory=dict)
+    _scenes: Scenes = field(default_factory=Scenes)
+    _populated: dict[Root, Populated] = field(default_factory=dict)
+
+    def write(self, uri: str, text: str) -> Path:
+        """Take a file's text from the editor, and return its path."""
+        file = self.file(uri)
+        opened = file not in self.buffers
+        self.buffers[file] = text.replace("\r\n", "\n")
+        if opened:
+            self.forget(file)
+            return file
+        for root, known in self._sources.items():
+            if root.holds(file):
+                path = file.relative_to(root.folder).as_posix()
+                known[path] = Source(path, self.buffers[file])
+                self._analyses.pop(root, None)
+        return file
+
+    def close(self, uri: str) -> Path:
+        """Take a file's text from the disk again, and return its path."""
+        file = self.file(uri)
+        self.buffers.pop(file, None)
+        self.forget(file)
+        return file
+
+    def forget(self, file: Path) -> None:
+        """Read the libraries that a file belongs to, or a scene may belong to, anew when they are asked for."""
+        for root in [root for root in self._sources if root.holds(file) or file.suffix != ".skill"]:
+            self._sources.pop(root)
+            self._analyses.pop(root, None)
+
+    def file(self, uri: str) -> Path:
+        """Return the file of a URI; a text that is no file yet has a path of its own."""
+        split = urlsplit(uri)
+        name = to_fs_path(uri) if split.scheme == "file" else None
+        file = Path(name) if name else Path("/", split.scheme, quote(split.path, safe=""))
+        self._uris[file] = uri
+        return file
+
+    def uri(self, root: Root, path: str) -> str:
+        """Return the URI of a path that a span has, as the editor itself writes it where it has one."""
+        file = files.place(path, root)
+        return self._uris.get(file) or from_fs_path(str(file)) or ""
+
+    def view(self, uri: str) -> View:
+        """Return a file with what is understood of its library now."""
+        file = self.file(uri)
+        root = files.root_of(file, self.folders)
+        return View(root, file.relative_to(root.folder).as_posix(), self.analysis(root))
+
+    def root(self, file: Path) -> Root:
+        """Return the library of a file."""
+        return files.root_of(file, self.folders)
+
+    def analysis(self, root: Root) -> Analysis:
+        """Return what is understood of a library now."""
+        if root not in self._analyses:
+            self._analyses[root] = self._understood(root)
+        return self._analyses[root]
+
+    def known(self) -> Iterator[tuple[Root, Analysis]]:
+        """Yield every library that has a file open."""
+        for root in sorted({self.root(file) for file in self.buffers}, key=lambda root: root.folder):
+            yield root, self.analysis(root)
+
+    def problems_of_scenes(self, root: Root) -> tuple[Diagnostic, ...]:
+        """Return what is wrong with the scenes of a library's tasks, as it was understood last."""
+        return self._populated[root].problems if root in self._populated else ()
+
+    def _understood(self, root: Root) -> Analysis:
+        """Understand a library, and once more where the scenes of its tasks are not those of the last time."""
+        if root not in self._sources:
+            self._sources[root] = files.sources(root, self.buffers)
+        before = self._populated.get(root, Populated({}))
+        library = Library(root.folder.name, dict(self._sources[root]), files.shelf(), vocabulary(), before.individuals)
+        found = analyse(library, parse)
+        self._populated[root] = now = self._scenes.of(found.program, library.vocabulary, root.folder)
+        if now.individuals == before.individuals:
+            return found
+        return analyse(replace(library, scenes=now.individuals), parse)

@@ -1,0 +1,58 @@
+"""Problems as the protocol tells them."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from pathlib import Path
+
+from lsprotocol import types
+from pygls.uris import from_fs_path
+
+from skillc_compiler.assist.analysis import Analysis
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Span
+from skillc_runtime.commands._server.files import Root
+from skillc_runtime.commands._server.libraries import Libraries
+from skillc_runtime.commands._server.positions import Lines
+
+_SEVERITY = {"error": types.DiagnosticSeverity.Error, "warning": types.DiagnosticSeverity.Warning}
+
+
+def by_uri(libraries: Libraries, root: Root, analysis: Analysis, encoding: str) -> dict[str, list[types.Diagnostic]]:
+    """Return the problems of every file of a library, with no problems too, and of the scenes of its tasks."""
+    lines = Lines(analysis.texts, encoding)
+    found: dict[str, list[types.Diagnostic]] = defaultdict(list)
+    for path in analysis.library.sources:
+        found[libraries.uri(root, path)] = []
+    for problem in (*analysis.problems, *libraries.problems_of_scenes(root)):
+        found[libraries.uri(root, problem.span.path)].append(told(libraries, root, lines, problem))
+    return dict(found)
+
+
+def told(libraries: Libraries, root: Root, lines: Lines, problem: Diagnostic) -> types.Diagnostic:
+    """Return one problem, with its help and the places that explain it."""
+    return types.Diagnostic(
+        range=lines.range(problem.span),
+        message=f"{problem.message}\nhelp: {problem.help}" if problem.help else problem.message,
+        severity=_SEVERITY[problem.severity],
+        code=problem.name,
+        source="skillc",
+        tags=_tags(problem.name),
+        related_information=[
+            types.DiagnosticRelatedInformation(_location(libraries, root, lines, label.span), label.message)
+            for label in problem.labels
+        ]
+        or None,
+    )
+
+
+def _location(libraries: Libraries, root: Root, lines: Lines, span: Span) -> types.Location:
+    file = Path(span.path)
+    uri = from_fs_path(span.path) if file.is_absolute() else None
+    return types.Location(uri or libraries.uri(root, span.path), lines.range(span))
+
+
+def _tags(name: str) -> list[types.DiagnosticTag] | None:
+    if name.startswith(("unused", "unreachable")):
+        return [types.DiagnosticTag.Unnecessary]
+    return [types.DiagnosticTag.Deprecated] if name.startswith("deprecated") else None

@@ -1,0 +1,66 @@
+"""The language server: which request is answered by which function."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from functools import partial
+from importlib.metadata import version
+from typing import Any, TypeAlias
+
+from lsprotocol import types
+from pygls.lsp.server import LanguageServer
+
+from skillc_runtime.commands._server import documents, reading, writing
+from skillc_runtime.commands._server.session import Session
+
+Answer: TypeAlias = Callable[[Session, Any], object]
+
+_LEGEND = types.SemanticTokensLegend(list(reading.TOKEN_KINDS), ["declaration"])
+_FIXES = [types.CodeActionKind.QuickFix, types.CodeActionKind(writing.FIX_ALL)]
+ANSWERS: tuple[tuple[str, Answer, object], ...] = (
+    (types.INITIALIZED, documents.initialized, None),
+    (types.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS, documents.folders_changed, None),
+    (types.WORKSPACE_DID_CHANGE_WATCHED_FILES, documents.changed_on_disk, None),
+    (types.TEXT_DOCUMENT_DID_OPEN, documents.opened, None),
+    (types.TEXT_DOCUMENT_DID_CHANGE, documents.changed, None),
+    (types.TEXT_DOCUMENT_DID_SAVE, documents.saved, None),
+    (types.TEXT_DOCUMENT_DID_CLOSE, documents.closed, None),
+    (types.TEXT_DOCUMENT_HOVER, reading.hovered, None),
+    (types.TEXT_DOCUMENT_DEFINITION, reading.definition, None),
+    (types.TEXT_DOCUMENT_IMPLEMENTATION, reading.implementation, None),
+    (types.TEXT_DOCUMENT_REFERENCES, reading.references, None),
+    (types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT, reading.highlights, None),
+    (types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, reading.document_symbols, None),
+    (types.WORKSPACE_SYMBOL, reading.workspace_symbols, None),
+    (types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, reading.colours, _LEGEND),
+    (types.TEXT_DOCUMENT_FOLDING_RANGE, reading.folding, None),
+    (types.TEXT_DOCUMENT_SIGNATURE_HELP, reading.signature_help, types.SignatureHelpOptions(["(", ","])),
+    (types.TEXT_DOCUMENT_COMPLETION, writing.completion, types.CompletionOptions([".", "(", ",", ":", '"', " "])),
+    (types.TEXT_DOCUMENT_PREPARE_RENAME, writing.prepare_rename, None),
+    (types.TEXT_DOCUMENT_RENAME, writing.rename, types.RenameOptions(prepare_provider=True)),
+    (types.TEXT_DOCUMENT_CODE_ACTION, writing.code_actions, types.CodeActionOptions(_FIXES)),
+    (types.TEXT_DOCUMENT_FORMATTING, writing.formatting, None),
+)
+
+
+def make_server() -> LanguageServer:
+    """Return a server that is ready to start.
+
+    Editors send whole texts: pygls applies parts of texts by lines that end also at form feeds and U+2028, where
+    neither the protocol nor the language ends a line.
+    """
+    server = LanguageServer("skillc", version("skillc"), types.TextDocumentSyncKind.Full)
+    session = Session(server)
+    for method, answer, options in ANSWERS:
+        server.feature(method, options)(partial(answer, session))
+    return server
+
+
+def run() -> int:
+    """Serve on stdin and stdout until the editor leaves; 1 if it left without saying goodbye."""
+    server = make_server()
+    goodbyes: list[None] = []
+    server.feature(types.SHUTDOWN)(goodbyes.append)
+    server.start_io(sys.stdin.buffer, sys.stdout.buffer)
+    return 0 if goodbyes else 1

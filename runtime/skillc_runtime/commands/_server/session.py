@@ -1,0 +1,101 @@
+"""One editor's session: its libraries, how it counts columns, and when it is told of problems."""
+
+from __future__ import annotations
+
+import asyncio
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Protocol
+
+from lsprotocol import types
+from pygls.lsp.server import LanguageServer
+
+from skillc_runtime.commands._server import problems
+from skillc_runtime.commands._server.files import Root
+from skillc_runtime.commands._server.libraries import Libraries, View
+from skillc_runtime.commands._server.positions import Lines
+
+PAUSE_S = 0.15
+"""For so long nothing may have been typed before problems are looked for, in seconds."""
+
+
+@dataclass(frozen=True, slots=True)
+class At:
+    """A view of a file and a place in it, from 1."""
+
+    view: View
+    lines: Lines
+    line: int
+    column: int
+
+
+class Placed(Protocol):
+    """A request that speaks of a place in a file."""
+
+    @property
+    def text_document(self) -> types.TextDocumentIdentifier:
+        """The file."""
+        ...
+
+    @property
+    def position(self) -> types.Position:
+        """The place."""
+        ...
+
+
+@dataclass
+class Session:
+    """What lasts from the editor's first message to its last."""
+
+    server: LanguageServer
+    libraries: Libraries = field(default_factory=Libraries)
+    _published: dict[Root, frozenset[str]] = field(default_factory=dict)
+    _waiting: asyncio.TimerHandle | None = None
+
+    @property
+    def encoding(self) -> str:
+        """The encoding in whose units columns are counted."""
+        agreed = self.server.workspace.position_encoding
+        return types.PositionEncodingKind(agreed or types.PositionEncodingKind.Utf16).value
+
+    def lines(self, view: View) -> Lines:
+        """Return the lines of a view's library."""
+        return Lines(view.analysis.texts, self.encoding)
+
+    def at(self, params: Placed) -> At:
+        """Return what a request speaks of."""
+        view = self.libraries.view(params.text_document.uri)
+        lines = self.lines(view)
+        return At(view, lines, *lines.place(view.path, params.position))
+
+    def soon(self) -> None:
+        """Tell the editor of all problems once nothing is typed for a while."""
+        if self._waiting is not None:
+            self._waiting.cancel()
+        self._waiting = asyncio.get_running_loop().call_later(PAUSE_S, self.publish)
+
+    def publish(self) -> None:
+        """Tell the editor of all problems now; those of files that are no longer open or have none are taken back."""
+        told: dict[Root, frozenset[str]] = {}
+        for root, analysis in self.libraries.known():
+            by_uri = problems.by_uri(self.libraries, root, analysis, self.encoding)
+            for uri in self._published.get(root, frozenset()) - by_uri.keys():
+                self._tell(uri, [])
+            for uri, found in by_uri.items():
+                self._tell(uri, found)
+            told[root] = frozenset(uri for uri, found in by_uri.items() if found)
+        for root in self._published.keys() - told.keys():
+            for uri in self._published[root]:
+                self._tell(uri, [])
+        self._published = told
+
+    def folders(self, uris: list[str]) -> None:
+        """Note which folders are open in the editor."""
+        self.libraries.folders = tuple(self.libraries.file(uri) for uri in uris)
+
+    def file(self, uri: str) -> Path:
+        """Return the file of a URI."""
+        return self.libraries.file(uri)
+
+    def _tell(self, uri: str, found: list[types.Diagnostic]) -> None:
+        self.server.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, found))

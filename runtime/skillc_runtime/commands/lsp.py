@@ -1,0 +1,22 @@
+"""Serve editors: problems, completion, hover, renaming and more, over stdin and stdout.
+
+Speaks the Language Server Protocol. Editors start it themselves; editors/README.md tells how.
+"""
+
+from __future__ import annotations
+
+import sys
+from importlib.util import find_spec
+
+import click
+
+
+@click.command()
+@click.option("--stdio", is_flag=True, help="Accepted because editors pass it; there is no other way.")
+def command(stdio: bool) -> None:
+    """Start the language server."""
+    if find_spec("pygls") is None:
+        raise click.UsageError("the language server needs pygls: pip install 'skillc[editor]'")
+    from skillc_runtime.commands._server.server import run
+
+    sys.exit(run())
