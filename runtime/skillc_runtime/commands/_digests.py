@@ -31,15 +31,20 @@ def digest_of(library: LibraryFiles, scene: Path | None) -> str:
     return digest.hexdigest()
 
 
+def scenes_of(library: LibraryFiles) -> Iterator[Path]:
+    """Yield the files beside those of a library that its tasks may name as their scenes; some may not be there."""
+    for source in (*library.sources, *library.shelf.values()):
+        for name in _SCENE.findall(source.text):
+            yield library.places[source.path].parent / name
+
+
 def _inputs(library: LibraryFiles, scene: Path | None) -> Iterator[str | bytes]:
     """Yield everything that a verdict depends on besides skillc."""
     yield from (os.getcwd(), library.name, str(library.root))  # noqa: PTH109
     for source in (*library.sources, *library.shelf.values()):
-        place = library.places[source.path]
-        yield from (source.path, str(place), source.text)
-        for name in _SCENE.findall(source.text):
-            yield from _file(place.parent / name)
-    yield from _file(scene) if scene else ()
+        yield from (source.path, str(library.places[source.path]), source.text)
+    for path in (*scenes_of(library), *([scene] if scene else [])):
+        yield from _file(path)
     yield from _python((*library.sources, *library.shelf.values()))
 
 

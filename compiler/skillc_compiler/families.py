@@ -1,0 +1,87 @@
+"""Families of diagnostics, by their names: what a reader of the manual looks under."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from fnmatch import fnmatchcase
+
+REST = "more"
+FAMILIES: tuple[tuple[str, tuple[str, ...]], ...] = (
+    (
+        "text",
+        (
+            *(
+                "syntax",
+                "un*-brace",
+                "unterminated-*",
+                "unknown-character",
+                "encoding",
+                "empty-file",
+                "duplicate-member",
+            ),
+            *("repeated-member", "missing-space-*", "not-formatted", "*-allow", "allow-*"),
+        ),
+    ),
+    ("quantities", ("*dimension*", "*-unit", "*-range", "*-angle", "*-count", "*-operands", "numeric-*")),
+    (
+        "scenes",
+        (
+            "*-scene*",
+            "*-turtle*",
+            "missing-prefix",
+            "*-literal",
+            "missing-property",
+            "unfit-*",
+            "unplaced-*",
+            "*-answer*",
+        ),
+    ),
+    ("properties", ("verify-*",)),
+    (
+        "implementations",
+        ("*-python*", "not-narrower", "recursion", "missing-body", "no-implementation", "*-selection", "*-selected"),
+    ),
+    (
+        "data flow",
+        ("*argument*", "out-*", "unset-*", "no-output", "*-inference", "sensed-*", "not-scoped", "not-an-*"),
+    ),
+    ("planning", ("*-plannable*", "unplannable-*", "*-goal", "colliding-*", "unreachable-skill", "*-planner*")),
+    (
+        "ontology",
+        (
+            *("relation-*", "property-*", "wrong-type", "disjoint-*", "two-values", "breaks-*", "unknown-datatype"),
+            *("contradicting-declaration", "computed-*", "unknown-value"),
+        ),
+    ),
+    ("names", ("unknown-*", "ambiguous-*", "duplicate-[adlnp]*", "unused-*", "import-*", "deprecated-*")),
+    (
+        "logic",
+        (
+            *(
+                "always-*",
+                "contradict*",
+                "duplicate-condition",
+                "no-effect",
+                "post-*",
+                "*-hold",
+                "*-effect*",
+                "unreachable*",
+            ),
+            *("*-precondition", "not-a-condition", "*-released", "*parallel*", "not-decided"),
+        ),
+    ),
+)
+"""Patterns of names; the first that fits counts."""
+
+
+def family(name: str) -> str:
+    """Return the family of a diagnostic; `more` for those of none."""
+    return next((title for title, patterns in FAMILIES if any(fnmatchcase(name, p) for p in patterns)), REST)
+
+
+def by_family(names: Iterable[str]) -> Mapping[str, tuple[str, ...]]:
+    """Return names in alphabetical order by their family, the families in order of the table."""
+    ordered = sorted(names)
+    titles = (*(title for title, _ in FAMILIES), REST)
+    grouped = {title: tuple(name for name in ordered if family(name) == title) for title in titles}
+    return {title: members for title, members in grouped.items() if members}
