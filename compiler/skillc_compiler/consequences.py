@@ -19,6 +19,18 @@ TERMS = frozenset({"unknown-class", "unknown-type", "unknown-relation", "unknown
 NAMES = TERMS | {"unknown-function", "unknown-skill", "unknown-prefix"}
 TYPES = frozenset({"relation-domain", "relation-range", "property-domain", "wrong-type", "disjoint-types"})
 LOGIC = frozenset({"contradicting-conditions", "always-true", "always-false", "duplicate-condition", "breaks-axiom"})
+PROVED = frozenset(
+    {
+        "child-precondition",
+        "hold-broken",
+        "not-decided",
+        "not-released",
+        "parallel-conflict",
+        "post-not-established",
+        "undeclared-effect",
+        "unreachable-node",
+    }
+)
 WHOLE = frozenset({"unachievable-goal", "no-implementation"})
 
 
@@ -32,6 +44,7 @@ def without_consequences(
         *_of_terms(problems, files),
         *_of_implemented(problems, files),
         *_of_conditions(problems),
+        *_of_bodies(problems, files),
     )
     return (problem for problem in found if not any(explains(problem) for explains in explanations))
 
@@ -102,12 +115,26 @@ def _of_implemented(problems: Iterable[Diagnostic], files: Sequence[ReadFile]) -
 
 def _of_conditions(problems: Iterable[Diagnostic]) -> Iterator[Explains]:
     """What is wrong in a condition explains that it seems to be always so, or to go ill with another."""
-    wrong = [problem.span for problem in problems if problem.name not in LOGIC and problem.severity == "error"]
+    wrong = [problem.span for problem in problems if problem.name not in LOGIC | PROVED and problem.severity == "error"]
     yield (
         lambda d: (
             d.name in LOGIC
             and any(_inside(place, whole) for place in wrong for whole in (d.span, *(label.span for label in d.labels)))
         )
+    )
+
+
+def _of_bodies(problems: Iterable[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Explains]:
+    """A declaration with another mistake, and the implementations of such a skill, are not reasoned about."""
+    wrong = [problem.span for problem in problems if problem.name not in PROVED and problem.severity == "error"]
+    declarations = [d for unit in files for d in unit.file.declarations]
+    broken = [d for d in declarations if any(_inside(place, d.span) for place in wrong)]
+    skills = {d.name.text for d in broken if isinstance(d, s.SkillDeclaration)}
+    done = [d for d in declarations if isinstance(d, s.ImplementationDeclaration) and d.skill.text in skills]
+    spans = [d.span for d in (*broken, *done)]
+    yield lambda d: (
+        d.name in PROVED
+        and any(_inside(place, whole) for whole in spans for place in (d.span, *(label.span for label in d.labels)))
     )
 
 

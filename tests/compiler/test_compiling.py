@@ -115,7 +115,8 @@ def test_constants_are_folded_and_implies_is_spelled_out() -> None:
         "skill Use { in arm: ArmDevice opt speed: Speed\n"
         "    pre given speed implies speed < 2 * 5 cm/s + 0.1 m/s\n"
         "    post sensed arm.deviceState == Idle and not arm hasGripper _ }\n"
-        "impl one of Use { do seq { wait 2 * 250 ms wait 1 s / (3 - 3) } }\n"
+        "impl one of Use { do seq { wait 2 * 250 ms wait 1 s / (3 - 3)\n"
+        "    check(arm.deviceState == Idle and not arm hasGripper _) } }\n"
     )
     assert errors(outcome) == []
     premise = outcome.value.skills["Use"].pre[0].condition
@@ -148,7 +149,7 @@ def test_warnings_are_told_of_the_library_itself_only() -> None:
     imported = Source(
         "std/rest.skill", HEADER + 'skill Rest { in arm: ArmDevice }\nimpl one of Rest { do wait 1 s }\n'
     )
-    own = Source("own.skill", 'use rparts\nimport "rest.skill"\nimpl two of Rest { do wait 1 s }\n')
+    own = Source("own.skill", 'use rparts\nimport "rest.skill"\nimpl two of Rest {\n    prefer 1\n    do wait 1 s\n}\n')
     outcome = compile([own], vocabulary(), {"rest.skill": imported}, "own")
     assert [(d.name, d.span.path) for d in outcome.diagnostics] == [("unused-use", "own.skill")]
     alone = compile([imported], vocabulary(), {}, "std")

@@ -23,7 +23,7 @@ Good:
         noplan
     }
     impl gently of Close {
-        refine gripper: skillc:ParallelGripper
+        refine gripper: GripperEffector
         run python "skillc_runtime.primitives.stand_in:StandIn"
     }
 """

@@ -1,0 +1,101 @@
+"""A class that a skill promises to work with, and that none of its implementations takes.
+
+An error where such a thing is passed in a call, a warning where a description allows it.
+
+## no-fitting-implementation: no implementation takes things of a class
+
+Bad:
+
+    use rparts, skillc
+    skill Close {
+        in gripper: GripperEffector
+        noplan
+    }
+    impl by_three of Close {
+        refine gripper: ThreeFingerGripper
+        run    python "skillc_runtime.primitives.stand_in:StandIn"
+    }
+
+Good:
+
+    use skillc
+    skill Close {
+        in gripper: ThreeFingerGripper
+        noplan
+    }
+    impl by_three of Close { run python "skillc_runtime.primitives.stand_in:StandIn" }
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from skillc_compiler.library.vocabulary import Vocabulary, local_name
+from skillc_compiler.program import Argument, Call, Implementation, Parameter, Program, Skill
+from skillc_compiler.selecting import overlap
+from skillc_compiler.types import Thing, describe, fits
+from skillc_compiler.walk import calls
+from skillc_dsl.diagnostics import Diagnostic, Label
+
+NAMES = ("no-fitting-implementation",)
+SHOWN = 3
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a warning for each parameter that leaves classes out, a problem for each argument that nothing takes."""
+    for skill in program.skills.values():
+        implementations = program.implementations_of[skill.name]
+        for index, parameter in enumerate(skill.parameters if implementations else ()):
+            taken = [implementation.parameters[index] for implementation in implementations]
+            yield from _left_out(program.vocabulary, skill, parameter, taken)
+    for call in calls(program):
+        if call.skill:
+            yield from _called(program, call, call.skill)
+
+
+def _left_out(
+    vocabulary: Vocabulary, skill: Skill, parameter: Parameter, taken: Sequence[Parameter]
+) -> Iterator[Diagnostic]:
+    if not isinstance(parameter.type, Thing) or any(fits(vocabulary, parameter.type, each.type) for each in taken):
+        return
+    classes = [iri for iri in _lowest(vocabulary) if fits(vocabulary, Thing(iri), parameter.type)]
+    missing = [c for c in classes if not any(fits(vocabulary, Thing(c), each.type) for each in taken)]
+    if missing:
+        names = ", ".join(f"`{local_name(iri)}`" for iri in missing[:SHOWN])
+        more = f" and {len(missing) - SHOWN} more classes" if len(missing) > SHOWN else ""
+        yield Diagnostic(
+            "no-fitting-implementation",
+            parameter.span,
+            f"no implementation of `{skill.name}` takes {names}{more}, which `{parameter.name}` may be",
+            help="narrow the class of the parameter, or add an implementation",
+            severity="warning",
+        )
+
+
+def _lowest(vocabulary: Vocabulary) -> list[str]:
+    """Return the classes that no other is below."""
+    parents = {parent for term in vocabulary.classes.values() for parent in term.parents}
+    return sorted(iri for iri in vocabulary.classes if iri not in parents)
+
+
+def _called(program: Program, call: Call, skill: Skill) -> Iterator[Diagnostic]:
+    candidates = [each for each in program.implementations_of[skill.name] if call.implementation in (None, each.name)]
+    for argument in call.arguments:
+        parameter = skill.parameter(argument.name.text)
+        if parameter is None or not candidates or not fits(program.vocabulary, argument.value.type, parameter.type):
+            continue
+        taken = [each.parameters[skill.parameters.index(parameter)] for each in candidates]
+        if not any(overlap(program.vocabulary, argument.value.type, each.type) for each in taken):
+            yield _problem(argument, skill, candidates)
+
+
+def _problem(argument: Argument, skill: Skill, candidates: Sequence[Implementation]) -> Diagnostic:
+    one = len(candidates) == 1
+    which = f"`{skill.name}[{candidates[0].name}]` does not" if one else f"no implementation of `{skill.name}` does"
+    return Diagnostic(
+        "no-fitting-implementation",
+        argument.value.span,
+        f"this is {describe(argument.value.type)}, which {which} take as `{argument.name.text}`",
+        help="pass something else, or add an implementation",
+        labels=tuple(Label(each.name_span, f"`{each.name}` is for others") for each in candidates[:SHOWN]),
+    )

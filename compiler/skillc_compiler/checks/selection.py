@@ -1,0 +1,123 @@
+"""Implementations of which it is not said which one is taken, or of which one is never taken.
+
+Of the implementations that fit, the most specific refinement wins, then the higher `prefer`, then the order of
+declaration.
+
+## ambiguous-selection: two implementations may both fit, and only their order decides
+
+Bad:
+
+    use rparts
+    skill Fold {
+        in arm: ArmDevice
+        noplan
+    }
+    impl gently of Fold { run python "skillc_runtime.primitives.stand_in:StandIn" }
+    impl fast of Fold { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use rparts
+    skill Fold {
+        in arm: ArmDevice
+        noplan
+    }
+    impl gently of Fold { run python "skillc_runtime.primitives.stand_in:StandIn" }
+    impl fast of Fold {
+        prefer 1
+        run    python "skillc_runtime.primitives.stand_in:StandIn"
+    }
+
+## never-selected: another implementation fits wherever this one does, and is tried first
+
+Bad:
+
+    use rparts, skillc
+    skill Fold {
+        in arm: ArmDevice
+        noplan
+    }
+    impl gently of Fold { run python "skillc_runtime.primitives.stand_in:StandIn" }
+    impl fast of Fold {
+        pre arm.deviceState == Idle
+        run python "skillc_runtime.primitives.stand_in:StandIn"
+    }
+
+Good:
+
+    use rparts, skillc
+    skill Fold {
+        in arm: ArmDevice
+        noplan
+    }
+    impl gently of Fold { run python "skillc_runtime.primitives.stand_in:StandIn" }
+    impl fast of Fold {
+        pre    arm.deviceState == Idle
+        prefer 1
+        run    python "skillc_runtime.primitives.stand_in:StandIn"
+    }
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from skillc_compiler.conflicts import Conflicts
+from skillc_compiler.lower.ranking import more_specific, ranked
+from skillc_compiler.program import Implementation, Program
+from skillc_compiler.selecting import asks, both_fit, takes_all_of
+from skillc_compiler.walk import calls
+from skillc_dsl.diagnostics import Diagnostic, Label
+
+NAMES = ("ambiguous-selection", "never-selected")
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a warning for each implementation that one before it leaves no sure place."""
+    conflicts = Conflicts(program.vocabulary)
+    fixed = {(call.skill.name, call.implementation) for call in calls(program) if call.skill}
+    for declared in program.implementations_of.values():
+        order = ranked(program.vocabulary, declared)
+        for place, implementation in enumerate(order):
+            called = (implementation.skill.name, implementation.name) in fixed
+            yield from _placed(conflicts, implementation, order[:place], called)
+
+
+def _placed(
+    conflicts: Conflicts, late: Implementation, before: Sequence[Implementation], called: bool
+) -> Iterator[Diagnostic]:
+    for early in before:
+        shadowed = takes_all_of(conflicts.vocabulary, early, late) and asks(early) != asks(late)
+        if shadowed and not called and "fallback" not in late.skill.flags:
+            yield _never(late, early)
+            return
+        if not shadowed and _tied(conflicts, early, late):
+            yield _ambiguous(late, early)
+            return
+
+
+def _tied(conflicts: Conflicts, early: Implementation, late: Implementation) -> bool:
+    specific = more_specific(conflicts.vocabulary, early, late) or more_specific(conflicts.vocabulary, late, early)
+    return early.prefer == late.prefer and not specific and both_fit(conflicts, early, late)
+
+
+def _never(late: Implementation, early: Implementation) -> Diagnostic:
+    return Diagnostic(
+        "never-selected",
+        late.name_span,
+        f"`{late.name}` is never taken: `{early.name}` fits wherever it does, and is tried first",
+        help=f"add `prefer {early.prefer + 1:g}` to `{late.name}`, or conditions to `{early.name}`",
+        severity="warning",
+        labels=(Label(early.name_span, "tried first"),),
+    )
+
+
+def _ambiguous(late: Implementation, early: Implementation) -> Diagnostic:
+    return Diagnostic(
+        "ambiguous-selection",
+        late.name_span,
+        f"`{late.name}` and `{early.name}` may both fit, and only their order says that `{early.name}` is taken",
+        help="say with `prefer NUMBER` in one of them which is better, or refine their parameters so that one fits",
+        severity="warning",
+        labels=(Label(early.name_span, "the other one"),),
+    )
