@@ -6,16 +6,17 @@ from pathlib import Path
 
 import pytest
 
+from skillc_compiler.turtle.problems import Problem
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
-from skillc_runtime.world.documents import SceneError, SceneProblem
+from skillc_runtime.world.documents import SceneError
 from skillc_runtime.world.scene import load_scene
 
 SHIPPED = _library.compile_library(_library.find(_library.SHIPPED / "wiping")).value.vocabulary
 SCENE = catalogue.scene("iiwa_table").read_text(encoding="utf-8")
 
 
-def problems(tmp_path: Path, text: str) -> tuple[SceneProblem, ...]:
+def problems(tmp_path: Path, text: str) -> tuple[Problem, ...]:
     path = tmp_path / "scene.ttl"
     path.write_text(text, encoding="utf-8")
     try:
@@ -60,7 +61,7 @@ MISTAKES = [
     ("OrientationW 1.0", "OrientationW 1e200", "no-rotation", "lab:Iiwa-1", "1.0"),
     ("SizeX 0.30", "SizeX -0.30", "not-positive", "lab:Pedestal.skiros:SizeX = -0.3", ""),
     ("SizeZ 0.05", "SizeZ 0", "not-positive", "greater than 0", ""),
-    ("skillc:hasSheet skillc:iiwa14-sheet ;", "", "missing-sheet", "lab:Iiwa-1 has no data sheet", "skillc:hasSheet"),
+    ("skillc:hasSheet skillc:iiwa14-sheet ;", "", "missing-property", "lab:Iiwa-1 has no skillc:hasSheet", "skillc:hasSheet"),
     ("PositionZ 0.715", 'PositionZ "NaN"^^<http://www.w3.org/2001/XMLSchema#double>', "wrong-data-type", "NaN", ""),
 ]
 

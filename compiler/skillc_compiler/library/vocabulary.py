@@ -55,11 +55,12 @@ ValueType: TypeAlias = ClassType | NumberType | VectorType | PlainType | ListTyp
 
 
 class ClassTerm(msgspec.Struct, frozen=True, kw_only=True):
-    """An ontology class."""
+    """An ontology class. `required` are the relations and properties that each of its individuals must state."""
 
     iri: str
     parents: tuple[str, ...] = ()
     disjoint: tuple[str, ...] = ()
+    required: tuple[str, ...] = ()
     comment: str = ""
     source: Position | None = None
 

@@ -11,6 +11,8 @@ from skillc_compiler.turtle import complaints
 from skillc_compiler.turtle.complaints import Complaint
 from skillc_compiler.turtle.cursor import Cursor, extent
 from skillc_compiler.turtle.naming import Found, Naming
+from skillc_compiler.turtle.other_formats import other_format
+from skillc_compiler.turtle.problems import Place, Problem
 from skillc_compiler.turtle.statements import Extent, Node, Parsed, Statement
 from skillc_compiler.turtle.terms import RDF, RDF_TYPE, local_of, named
 from skillc_compiler.turtle.tokens import Token
@@ -23,6 +25,10 @@ FIRST, REST, NIL = f"{RDF}first", f"{RDF}rest", f"{RDF}nil"
 
 def parse(path: str, text: str, base: str = "", known: Mapping[str, str] = NOTHING_KNOWN) -> Parsed:
     """Read a Turtle text; relative IRIs are completed by `base`, `known` are the prefixes of the vocabularies."""
+    other = other_format(text)
+    if other is not None:
+        problem = Problem(Place(path, 1, 1, 1, 2), "not-turtle", f"this is {other[0]}, not Turtle", other[1])
+        return Parsed((), {}, (problem,), frozenset())
     return _Parser(Cursor(path, text), base, known).document()
 
 

@@ -19,6 +19,7 @@ from skillc_compiler.library.vocabulary import (
 )
 from skillc_compiler.vocabulary.datatypes import value_type, value_types_known
 from skillc_compiler.vocabulary.graph import Graph, read
+from skillc_compiler.vocabulary.mandatory import required
 from skillc_compiler.vocabulary.positions import positions
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
@@ -67,6 +68,7 @@ def _classes(graph: Graph, aliases: Mapping[str, str], places: Mapping[str, Posi
             iri=iri,
             parents=tuple(aliases.get(p, p) for p in graph.iris(iri, f"{RDFS}subClassOf") if p != THING),
             disjoint=tuple(sorted(disjoint[iri])),
+            required=required(graph, iri, aliases),
             comment=graph.text(iri, f"{RDFS}comment") or "",
             source=places.get(iri),
         )

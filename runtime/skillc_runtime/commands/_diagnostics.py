@@ -1,43 +1,17 @@
-"""Showing diagnostics on the terminal and turning a scene's problems into them."""
+"""The problems of a scene as diagnostics."""
 
 from __future__ import annotations
 
-import os
-import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable
 from pathlib import Path
-from typing import TextIO
-
-import click
 
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.rendering.concise import render as concise
-from skillc_dsl.rendering.full import render as full
-from skillc_dsl.rendering.json import render as as_json
+from skillc_compiler.turtle.problems import Edit, Place, Problem
+from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Source, Span
-from skillc_runtime.world.documents import Document, SceneError, SceneProblem
+from skillc_ontology import catalogue
+from skillc_runtime.world.documents import Document, SceneError
 from skillc_runtime.world.scene import load_scene
-
-
-def show(diagnostics: Sequence[Diagnostic], texts: Mapping[str, Source], form: str) -> int:
-    """Print the diagnostics in a form, with a summary on stderr, and return the exit code: 1 with errors."""
-    unique = sorted(set(diagnostics), key=lambda d: (d.span, d.name))
-    if form == "json":
-        click.echo(as_json(unique, texts))
-    elif form == "concise":
-        click.echo(concise(unique, texts), nl=False)
-    else:
-        click.echo(full(unique, texts, colour=_colour(sys.stdout)), nl=False)
-    errors = sum(d.severity == "error" for d in unique)
-    if form != "json":
-        click.echo(_summary(errors, len(unique) - errors), err=True)
-    return 1 if errors else 0
-
-
-def tell(diagnostics: Sequence[Diagnostic], texts: Mapping[str, Source]) -> None:
-    """Print diagnostics in full on stderr, for commands whose output is something else."""
-    click.echo(full(diagnostics, texts, colour=_colour(sys.stderr)), err=True, nl=False)
 
 
 def of_scene(scene: Path, vocabulary: Vocabulary) -> list[Diagnostic]:
@@ -49,11 +23,32 @@ def of_scene(scene: Path, vocabulary: Vocabulary) -> list[Diagnostic]:
     return []
 
 
-def of_problems(problems: Iterable[SceneProblem]) -> list[Diagnostic]:
-    """Return the problems of a scene as diagnostics."""
+def of_problems(problems: Iterable[Problem]) -> list[Diagnostic]:
+    """Return the problems of a scene as diagnostics; those of the shipped ontology are shown below it."""
     return [
-        Diagnostic(p.name, Span(p.path, p.line, p.column, p.line, p.column + 1), p.message, p.help) for p in problems
+        Diagnostic(
+            name=problem.name,
+            span=_span(problem.place),
+            message=problem.message,
+            help=problem.help,
+            severity=problem.severity,
+            labels=tuple(Label(_span(note.place), note.message) for note in problem.notes),
+            fix=None if problem.edit is None else _fix(problem.edit),
+        )
+        for problem in problems
     ]
+
+
+def _fix(edit: Edit) -> Fix:
+    return Fix(_span(edit.place), edit.text, edit.message, safe=False)
+
+
+def _span(place: Place) -> Span:
+    shipped, here = catalogue.ROOT / place.path, Path.cwd()
+    if Path(place.path).exists() or not shipped.is_file():
+        return Span(place.path, place.line, place.column, place.end_line, place.end_column)
+    shown = shipped.relative_to(here) if shipped.is_relative_to(here) else shipped
+    return Span(str(shown), place.line, place.column, place.end_line, place.end_column)
 
 
 def scene_text(scene: Path) -> dict[str, Source]:
@@ -62,14 +57,3 @@ def scene_text(scene: Path) -> dict[str, Source]:
         return {str(scene): Source(str(scene), Document.read(scene).text)}
     except SceneError:
         return {}
-
-
-def _colour(stream: TextIO) -> bool:
-    return stream.isatty() and "NO_COLOR" not in os.environ
-
-
-def _summary(errors: int, warnings: int) -> str:
-    if not errors and not warnings:
-        return "no problems"
-    counts = [(errors, "error"), (warnings, "warning")]
-    return ", ".join(f"{count} {word}{'s' * (count != 1)}" for count, word in counts if count)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import pyoxigraph as ox
 
-from skillc_runtime.world.documents import Document, parse
+from skillc_runtime.world.documents import Document, statements_of
 from skillc_runtime.world.individuals import RDFS, iri_of
 
 LABEL = f"{RDFS}label"
@@ -23,7 +23,7 @@ class Contents:
 
 def contents(documents: Iterable[Document]) -> Contents:
     """Return what the documents speak of; SceneError for one that is not Turtle."""
-    said = [each for document in documents for each in parse(document).statements]
+    said = [each for document in documents for each in statements_of(document)]
     labels: dict[str, str] = {}
     for each in said:
         if each.predicate == LABEL and isinstance(each.object, ox.Literal):

@@ -1,18 +1,36 @@
-"""Turtle files as statements with their places, and the problems found in them."""
+"""Turtle files as statements with their places, and the error that a scene with mistakes is."""
 
 from __future__ import annotations
 
-from collections import defaultdict, deque
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 import pyoxigraph as ox
 
-from skillc_runtime.world.turtle import statements
+from skillc_compiler.turtle.parser import parse as parse_turtle
+from skillc_compiler.turtle.problems import Place, Problem
+from skillc_compiler.turtle.statements import Parsed, Statement
+from skillc_compiler.turtle.terms import RDF, XSD
 
 BASE = "file:///scene"
-Node = ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple
+WELL_KNOWN = (
+    ("owl", "http://www.w3.org/2002/07/owl#"),
+    ("rdf", RDF),
+    ("rdfs", "http://www.w3.org/2000/01/rdf-schema#"),
+    ("xsd", XSD),
+)
+REMEMBERED = 32
+"""How many files are kept as they were read."""
+
+
+class SceneError(ValueError):
+    """A scene that cannot be loaded, with everything that is wrong with it."""
+
+    def __init__(self, problems: Iterable[Problem]) -> None:
+        self.problems = tuple(sorted(problems, key=lambda each: (each.place, each.name, each.message)))
+        super().__init__("\n".join(map(str, self.problems)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,94 +44,50 @@ class Document:
     def read(path: Path) -> Document:
         """Read a file; SceneError when it cannot be read or is not UTF-8."""
         try:
-            return Document(str(path), path.read_text("utf-8-sig"))
-        except (OSError, UnicodeDecodeError) as error:
-            reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-            raise SceneError(
-                [SceneProblem(str(path), 1, 1, "unreadable-scene", f"cannot read {path}: {reason}")]
-            ) from error
+            return Document(str(path), path.read_bytes().decode("utf-8-sig"))
+        except OSError as error:
+            problem = _unreadable(path, Place(str(path), 1, 1, 1, 2), error.strerror or str(error))
+            raise SceneError([problem]) from error
+        except UnicodeDecodeError as error:
+            raise SceneError([_not_utf8(path, error)]) from error
 
 
-@dataclass(frozen=True, slots=True, order=True)
-class SceneProblem:
-    """A mistake in a Turtle file: where (line and column from 1), its kind, what is wrong, and what to do."""
-
-    path: str
-    line: int
-    column: int
-    name: str
-    message: str
-    help: str = ""
-
-    def __str__(self) -> str:
-        return f"{self.path}:{self.line}:{self.column}: {self.message}" + (f" ({self.help})" if self.help else "")
+def parse(document: Document, prefixes: Mapping[str, str] | None = None) -> Parsed:
+    """Read a document with all that is wrong with it; `prefixes` are those of the vocabularies."""
+    return _parsed(document, (*WELL_KNOWN, *sorted((prefixes or {}).items())))
 
 
-class SceneError(ValueError):
-    """A scene that cannot be loaded, with everything that is wrong with it."""
-
-    def __init__(self, problems: Iterable[SceneProblem]) -> None:
-        self.problems = tuple(sorted(problems))
-        super().__init__("\n".join(map(str, self.problems)))
-
-
-@dataclass(frozen=True, slots=True)
-class Placed:
-    """A statement with the place of its object."""
-
-    subject: Node
-    predicate: str
-    object: Node
-    path: str
-    line: int
-    column: int
-
-    def problem(self, name: str, message: str, help_: str = "") -> SceneProblem:
-        """Return a problem at this place."""
-        return SceneProblem(self.path, self.line, self.column, name, message, help_)
+def statements_of(document: Document) -> tuple[Statement, ...]:
+    """Return the statements of a document; SceneError when it is not Turtle."""
+    parsed = parse(document)
+    if parsed.problems:
+        raise SceneError(parsed.problems)
+    return parsed.statements
 
 
-@dataclass(frozen=True, slots=True)
-class Parsed:
-    """The statements of a document in order, and its prefixes."""
-
-    statements: tuple[Placed, ...]
-    prefixes: dict[str, str]
-
-
-def parse(document: Document) -> Parsed:
-    """Read a document; SceneError with the line when it is not Turtle."""
-    parser = ox.parse(document.text, format=ox.RdfFormat.TURTLE, base_iri=BASE)
-    try:
-        triples = list(parser)
-    except SyntaxError as error:
-        raise SceneError([_broken(document, error)]) from error
-    places: dict[tuple[str, str, str | None], deque[tuple[int, int]]] = defaultdict(deque)
-    for each in statements(document.text, BASE):
-        places[each.subject, each.predicate, each.object].append((each.line, each.column))
-    found: list[Placed] = []
-    place = (1, 1)
-    for triple in triples:
-        known = places.get(_key(triple))
-        place = known.popleft() if known else place
-        found.append(Placed(triple.subject, triple.predicate.value, triple.object, document.path, *place))
-    return Parsed(tuple(found), dict(parser.prefixes))
-
-
-def resolved(placed: Placed, aliases: dict[str, str]) -> Placed:
+def resolved(statement: Statement, aliases: Mapping[str, str]) -> Statement:
     """Return the statement with terms called by their own names."""
-    changed = replace(placed, predicate=aliases.get(placed.predicate, placed.predicate))
-    if isinstance(placed.object, ox.NamedNode) and placed.object.value in aliases:
-        return replace(changed, object=ox.NamedNode(aliases[placed.object.value]))
+    changed = statement._replace(predicate=aliases.get(statement.predicate, statement.predicate))
+    if isinstance(statement.object, ox.NamedNode) and statement.object.value in aliases:
+        return changed._replace(object=ox.NamedNode(aliases[statement.object.value]))
     return changed
 
 
-def _key(triple: ox.Triple | ox.Quad) -> tuple[str, str, str | None]:
-    subject = triple.subject.value if isinstance(triple.subject, ox.NamedNode) else ""
-    return subject, triple.predicate.value, triple.object.value if isinstance(triple.object, ox.NamedNode) else None
+@lru_cache(maxsize=REMEMBERED)
+def _parsed(document: Document, prefixes: tuple[tuple[str, str], ...]) -> Parsed:
+    return parse_turtle(document.path, document.text, BASE, dict(prefixes))
 
 
-def _broken(document: Document, error: SyntaxError) -> SceneProblem:
-    reason = (error.msg or "").rpartition(": ")[2] or "something is missing"
-    message = f"this is not Turtle: {reason}"
-    return SceneProblem(document.path, error.lineno or 1, error.offset or 1, "broken-turtle", message)
+def _not_utf8(path: Path, error: UnicodeDecodeError) -> Problem:
+    """Return the problem at the first byte that is not UTF-8."""
+    data: bytes = error.object
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff") or b"\0" in data[:4]:
+        return _unreadable(path, Place(str(path), 1, 1, 1, 2), "it is UTF-16 or UTF-32, not UTF-8")
+    before = data[: error.start].decode("utf-8-sig")
+    line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
+    place = Place(str(path), line, column, line, column + 1)
+    return _unreadable(path, place, "it is not UTF-8 text")
+
+
+def _unreadable(path: Path, place: Place, reason: str) -> Problem:
+    return Problem(place, "unreadable-scene", f"cannot read {path}: {reason}", "save it as UTF-8" * ("UTF" in reason))

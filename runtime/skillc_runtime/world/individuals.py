@@ -9,19 +9,26 @@ import msgspec
 import pyoxigraph as ox
 
 from skillc_compiler.library.vocabulary import THING, ClassTerm, Vocabulary
-from skillc_runtime.world.documents import Node, Placed
+from skillc_compiler.turtle.statements import Node, Statement
+from skillc_compiler.turtle.terms import RDF, RDF_TYPE
 from skillc_runtime.world.terms import HAS_TEMPLATE, TEMPLATE
-from skillc_runtime.world.turtle import RDF_TYPE
 
-RDF = "http://www.w3.org/1999/02/22-rdf-syntax-ns#"
 RDFS = "http://www.w3.org/2000/01/rdf-schema#"
 OWL = "http://www.w3.org/2002/07/owl#"
 ABOUT_TERMS = (OWL, RDFS, RDF, "http://purl.org/vocab/vann/")
+ANNOTATIONS = (
+    "http://purl.org/dc/terms/",
+    "http://purl.org/dc/elements/1.1/",
+    "http://www.w3.org/2004/02/skos/core#",
+    "http://www.w3.org/ns/prov#",
+    "http://www.w3.org/ns/shacl#",
+)
+"""What is said in these vocabularies is for people and other tools."""
 CLASS_DECLARATIONS = (f"{OWL}Class", f"{OWL}class")  # SkiROS2's scenes write the second
 NAMED_INDIVIDUAL, ANNOTATION = f"{OWL}NamedIndividual", f"{OWL}AnnotationProperty"
 
 
-def with_own_classes(vocabulary: Vocabulary, said: Sequence[Placed]) -> Vocabulary:
+def with_own_classes(vocabulary: Vocabulary, said: Sequence[Statement]) -> Vocabulary:
     """Return the vocabulary with the classes that the documents declare beside it."""
     declared = {s for kind in CLASS_DECLARATIONS for s in _typed(said, kind)}
     missing = sorted(declared - vocabulary.classes.keys() - vocabulary.aliases.keys())
@@ -35,7 +42,7 @@ def with_own_classes(vocabulary: Vocabulary, said: Sequence[Placed]) -> Vocabula
     return msgspec.structs.replace(vocabulary, classes={**vocabulary.classes, **own})
 
 
-def facts(said: Sequence[Placed], vocabulary: Vocabulary) -> tuple[Placed, ...]:
+def facts(said: Sequence[Statement], vocabulary: Vocabulary) -> tuple[Statement, ...]:
     """Return what is said of individuals: not of terms, not of templates, no annotations."""
     terms = {*vocabulary.classes, *vocabulary.relations, *vocabulary.properties, *vocabulary.aliases}
     for each in said:
@@ -48,7 +55,7 @@ def facts(said: Sequence[Placed], vocabulary: Vocabulary) -> tuple[Placed, ...]:
         if isinstance(each.subject, ox.NamedNode)
         and each.subject.value not in terms
         and each.predicate not in notes
-        and (each.predicate == RDF_TYPE or not each.predicate.startswith(ABOUT_TERMS))
+        and (each.predicate == RDF_TYPE or not each.predicate.startswith((*ABOUT_TERMS, *ANNOTATIONS)))
         and iri_of(each.object) != NAMED_INDIVIDUAL
     )
 
@@ -58,7 +65,7 @@ def iri_of(node: Node) -> str:
     return node.value if isinstance(node, ox.NamedNode) else ""
 
 
-def _typed(said: Sequence[Placed], kind: str) -> list[str]:
+def _typed(said: Sequence[Statement], kind: str) -> list[str]:
     return [iri_of(each.subject) for each in said if each.predicate == RDF_TYPE and iri_of(each.object) == kind]
 
 

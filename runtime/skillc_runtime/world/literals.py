@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+import re
+from difflib import get_close_matches
 
 import pyoxigraph as ox
 
 from skillc_compiler.library.vocabulary import NumberType, PlainType, PropertyTerm
+from skillc_compiler.library.words import SI_UNITS
+from skillc_compiler.turtle.terms import XSD
 from skillc_runtime.world.values import Value
 
-XSD = "http://www.w3.org/2001/XMLSchema#"
 INTEGERS = frozenset(
     XSD + name
     for name in (
@@ -19,10 +22,15 @@ INTEGERS = frozenset(
 )
 NUMBERS = INTEGERS | {XSD + "decimal", XSD + "double", XSD + "float"}
 TEXTS = frozenset({XSD + "string", "http://www.w3.org/1999/02/22-rdf-syntax-ns#langString", XSD + "anyURI"})
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
 
 
 class LiteralError(ValueError):
-    """A literal that is no value of the property; the message says what the property takes."""
+    """A literal that is no value of the property: what the property takes, `help`, and what to write if it is known."""
+
+    def __init__(self, message: str, help_: str = "", instead: str | None = None) -> None:
+        super().__init__(message)
+        self.help, self.instead = help_, instead
 
 
 def read(literal: ox.Literal, term: PropertyTerm) -> Value:
@@ -36,9 +44,10 @@ def read(literal: ox.Literal, term: PropertyTerm) -> Value:
         case PlainType("Bool") if text in ("true", "false", "1", "0") and kind == XSD + "boolean":
             return text in ("true", "1")
         case PlainType("Text") if kind in TEXTS:
-            return text
+            return _one_of(text, term.values)
         case _:
-            raise LiteralError(f"it takes {_expected(term)}, and this is {literal}")
+            help_, instead = _cure(literal, term)
+            raise LiteralError(f"it takes {_expected(term)}, and this is {literal}", help_, instead)
 
 
 def _number(text: str) -> float:
@@ -49,6 +58,17 @@ def _number(text: str) -> float:
     if not math.isfinite(number):
         raise LiteralError("NaN and infinity are no values")
     return number
+
+
+def _one_of(text: str, values: tuple[str, ...]) -> str:
+    if not values or text in values:
+        return text
+    near = get_close_matches(text.lower(), [value.lower() for value in values], n=1)
+    meant = next((value for value in values if near and value.lower() == near[0]), None)
+    help_ = f'did you mean "{meant}"?' if meant is not None else ""
+    raise LiteralError(
+        f'it is one of {", ".join(values)}, and this is "{text}"', help_, f'"{meant}"' if meant is not None else None
+    )
 
 
 def _expected(term: PropertyTerm) -> str:
@@ -63,3 +83,22 @@ def _expected(term: PropertyTerm) -> str:
             return "a text in quotes"
         case _:
             return "a computed value that no file can state"
+
+
+def _cure(literal: ox.Literal, term: PropertyTerm) -> tuple[str, str | None]:
+    """Return help for a literal of the wrong type, and what to write if that is plain."""
+    text = literal.value
+    match term.type:
+        case NumberType(dimension):
+            number = _NUMBER.fullmatch(text)
+            unit = SI_UNITS.get(dimension)
+            if number is None or number.group(2):
+                return f"write the number alone; it counts {unit}" if unit else "write the number alone", None
+            return f"write {number.group(1)}, without quotes", number.group(1)
+        case PlainType("Bool"):
+            word = text.strip().lower()
+            return ("write true or false, without quotes", word if word in ("true", "false") else None)
+        case PlainType("Text"):
+            return f'write "{text}"', f'"{text}"'
+        case _:
+            return "", None

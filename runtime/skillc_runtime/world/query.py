@@ -11,9 +11,10 @@ import msgspec
 import pyoxigraph as ox
 
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_runtime.world.documents import Document, parse
-from skillc_runtime.world.individuals import OWL, RDF, RDFS
-from skillc_runtime.world.literals import INTEGERS, NUMBERS, XSD
+from skillc_compiler.turtle.terms import RDF, XSD
+from skillc_runtime.world.documents import Document, statements_of
+from skillc_runtime.world.individuals import OWL, RDFS
+from skillc_runtime.world.literals import INTEGERS, NUMBERS
 from skillc_runtime.world.sparql import federated, misunderstood
 
 Cell: TypeAlias = bool | int | float | str | None
@@ -58,7 +59,7 @@ def _store(documents: Iterable[Document]) -> ox.Store:
     for document in documents:
         store.extend(
             ox.Quad(each.subject, ox.NamedNode(each.predicate), each.object)
-            for each in parse(document).statements
+            for each in statements_of(document)
             if not isinstance(each.subject, ox.Literal)
         )
     return store

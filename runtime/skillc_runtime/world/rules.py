@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
-from typing import assert_never
+from typing import TypeAlias, assert_never
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from skillc_compiler.library.vocabulary import (
     ValueType,
     VectorType,
 )
+from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.changes import (
     AddIndividual,
@@ -33,13 +34,23 @@ from skillc_runtime.world.changes import (
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value, finite, show
 
+Fact: TypeAlias = tuple[str, str, str]
+"""A relation or a class as it was written: subject, predicate and object, all IRIs."""
+
 
 @dataclass(frozen=True, slots=True)
 class Breach:
-    """An axiom that a change breaks, by name, and the axiom with the facts in words."""
+    """An axiom that a change breaks, by name, and the axiom with the facts in words.
+
+    `rivals` are facts that cannot be true beside the change, `causes` those that explain it. `misfit` is the
+    individual that is of the wrong class, if that is what is wrong.
+    """
 
     axiom: str
     message: str
+    rivals: tuple[Fact, ...] = ()
+    causes: tuple[Fact, ...] = ()
+    misfit: str | None = None
 
 
 def broken(state: WorldState, change: Change) -> Iterator[Breach]:
@@ -76,14 +87,21 @@ def _disjoint_classes(state: WorldState, types: Iterable[str]) -> tuple[str, str
     return next(((one, other) for one, other in pairs if state.vocabulary.disjoint(one, other)), None)
 
 
-def _misfit(state: WorldState, term: RelationTerm, subject: str, object_: str) -> str | None:
+def _misfit(state: WorldState, term: RelationTerm, subject: str, object_: str) -> Breach | None:
     """Say what a relation takes, when it takes neither signature's subject and object; None when one fits."""
     fits = (state.is_a(subject, each.domain) and state.is_a(object_, each.range) for each in term.signatures)
     if not term.signatures or any(fits):
         return None
     short = state.vocabulary.short
     accepted = " or ".join(f"({_class(state, each.domain)}, {_class(state, each.range)})" for each in term.signatures)
-    return f"{short(term.iri)} takes {accepted}; {_described(state, subject)}, {_described(state, object_)}"
+    wrong_subject = not any(state.is_a(subject, each.domain) for each in term.signatures)
+    misfit = subject if wrong_subject else object_
+    return Breach(
+        "relation-domain" if wrong_subject else "relation-range",
+        f"{short(term.iri)} takes {accepted}; {_described(state, subject)}, {_described(state, object_)}",
+        causes=_types(state, misfit),
+        misfit=misfit,
+    )
 
 
 def wrong_value(term: PropertyTerm, value: Value) -> str | None:
@@ -107,7 +125,8 @@ def _classes(state: WorldState, individual: str, types: tuple[str, ...]) -> Iter
     if clash:
         one, other = map(short, clash)
         both = f"{short(individual)} cannot be both a {one} and a {other}"
-        yield Breach("disjoint-classes", f"{both}: the classes are disjoint")
+        facts = tuple((individual, RDF_TYPE, cls) for cls in clash)
+        yield Breach("disjoint-classes", f"{both}: the classes are disjoint", rivals=facts)
 
 
 def _relation(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[Breach]:
@@ -118,34 +137,71 @@ def _relation(state: WorldState, subject: str, relation: str, object_: str) -> I
         yield Breach("unknown-individual", f"`{fact}`: there is no individual {short(absent[0])}")
         return
     if not state.holds(subject, relation, object_):
-        yield Breach("functional-relation", f"`{fact}`: {_rival(state, subject, relation, object_)}")
+        reason, rivals = _rival(state, subject, relation, object_)
+        yield Breach("functional-relation", f"`{fact}`: {reason}", rivals=rivals)
         return
-    for implied, flipped in state.axioms.implied[relation]:
-        term = state.vocabulary.relations[implied]
-        start, end = (object_, subject) if flipped else (subject, object_)
+    for kind in (_irreflexive, _asymmetric, _misfits):
+        found = list(kind(state, subject, relation, object_))
+        yield from (replace(breach, message=f"`{fact}`: {breach.message}") for breach in found[:1])
+
+
+def _irreflexive(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[Breach]:
+    for term, start, end in _implied(state, subject, relation, object_):
         if term.irreflexive and start == end:
-            yield Breach("irreflexive-relation", f"`{fact}`: {short(implied)} is irreflexive, nothing has it to itself")
-        if term.asymmetric and state.holds(end, implied, start):
-            opposite = f"{short(end)} {short(implied)} {short(start)}"
-            yield Breach("asymmetric-relation", f"`{fact}`: {short(implied)} is asymmetric, and `{opposite}` holds")
-        wrong = _misfit(state, term, start, end)
-        if wrong:
-            yield Breach("relation-range", f"`{fact}`: {wrong}")
+            short = state.vocabulary.short
+            yield Breach("irreflexive-relation", f"{short(term.iri)} is irreflexive, nothing has it to itself")
 
 
-def _rival(state: WorldState, subject: str, relation: str, object_: str) -> str:
+def _asymmetric(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[Breach]:
+    for term, start, end in _implied(state, subject, relation, object_):
+        if term.asymmetric and start != end and state.holds(end, term.iri, start):
+            short = state.vocabulary.short
+            opposite = f"{short(end)} {short(term.iri)} {short(start)}"
+            rivals = _written(state, end, term.iri, start)
+            yield Breach("asymmetric-relation", f"{short(term.iri)} is asymmetric, and `{opposite}` holds", rivals)
+
+
+def _misfits(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[Breach]:
+    for term, start, end in _implied(state, subject, relation, object_):
+        breach = _misfit(state, term, start, end)
+        if breach is not None:
+            yield breach
+
+
+def _implied(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[tuple[RelationTerm, str, str]]:
+    """Yield what a fact implies, itself first: relations with their subjects and objects."""
+    for implied, flipped in sorted(state.axioms.implied[relation], key=lambda each: each != (relation, False)):
+        start, end = (object_, subject) if flipped else (subject, object_)
+        yield state.vocabulary.relations[implied], start, end
+
+
+def _written(state: WorldState, subject: str, relation: str, object_: str) -> tuple[Fact, ...]:
+    """Return the facts, as they were written, from which one follows without transitivity."""
+    found = (
+        (source, object_, subject) if flipped else (source, subject, object_)
+        for source, flipped in state.axioms.sources[relation]
+    )
+    return tuple((start, iri, end) for iri, start, end in found if end in state.asserted[iri].forward.get(start))
+
+
+def _rival(state: WorldState, subject: str, relation: str, object_: str) -> tuple[str, tuple[Fact, ...]]:
     """Say which fact took the place of one that was written, and why both cannot be."""
     short = state.vocabulary.short
-    for implied, flipped in state.axioms.implied[relation]:
-        term = state.vocabulary.relations[implied]
-        start, end = (object_, subject) if flipped else (subject, object_)
-        if term.functional and (others := state.objects(start, implied) - {end}):
-            fact = f"{short(start)} {short(implied)} {short(min(others))}"
-            return f"{short(implied)} is functional, and `{fact}` is said too"
-        if term.inverse_functional and (others := state.subjects(implied, end) - {start}):
-            fact = f"{short(min(others))} {short(implied)} {short(end)}"
-            return f"{short(implied)} is inverse functional, and `{fact}` is said too"
-    return "the same write takes it back"
+    for term, start, end in _implied(state, subject, relation, object_):
+        if term.functional and (others := state.objects(start, term.iri) - {end}):
+            rival = start, term.iri, min(others)
+        elif term.inverse_functional and (others := state.subjects(term.iri, end) - {start}):
+            rival = min(others), term.iri, end
+        else:
+            continue
+        kind = "functional" if term.functional else "inverse functional"
+        said = f"{short(rival[0])} {short(term.iri)} {short(rival[2])}"
+        return f"{short(term.iri)} is {kind}, and `{said}` is said too", _written(state, *rival)
+    return "the same write takes it back", ()
+
+
+def _types(state: WorldState, individual: str) -> tuple[Fact, ...]:
+    return tuple((individual, RDF_TYPE, cls) for cls in sorted(state.types(individual)))
 
 
 def _property(state: WorldState, individual: str, property_: str, value: Value) -> Iterator[Breach]:
@@ -158,7 +214,8 @@ def _property(state: WorldState, individual: str, property_: str, value: Value) 
         yield Breach("computed-property", f"`{fact}`: the property is computed from other facts and cannot be set")
     if term.domains and not any(state.is_a(individual, domain) for domain in term.domains):
         owners = " or ".join(_class(state, domain) for domain in term.domains)
-        yield Breach("property-domain", f"`{fact}`: it belongs to {owners}; {_described(state, individual)}")
+        message = f"`{fact}`: it belongs to {owners}; {_described(state, individual)}"
+        yield Breach("property-domain", message, causes=_types(state, individual), misfit=individual)
     several = not term.functional and isinstance(value, tuple)
     for one in value if several and isinstance(value, tuple) else (value,):
         wrong = wrong_value(term, one)

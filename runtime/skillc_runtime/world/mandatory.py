@@ -1,0 +1,52 @@
+"""What individuals must state because of their classes: the vocabulary says that each has at least one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.library.vocabulary import NumberType, PlainType
+from skillc_compiler.library.words import SI_UNITS
+from skillc_runtime.world.flaw import Flaw
+from skillc_runtime.world.state import WorldState
+
+
+def incomplete(state: WorldState) -> Iterator[Flaw]:
+    """Yield the individuals that lack what their classes require, each once with all that it lacks."""
+    short = state.vocabulary.short
+    for individual in sorted(state.individuals):
+        lost = {
+            predicate: cls
+            for cls in sorted(state.classes.get(individual))
+            for predicate in (state.vocabulary.classes[cls].required if cls in state.vocabulary.classes else ())
+            if not _has(state, individual, predicate)
+        }
+        if lost:
+            of = ", ".join(sorted({short(cls) for cls in lost.values()}))
+            names = ", ".join(map(short, sorted(lost)))
+            message = f"{short(individual)} has no {names}, as every {of} must"
+            cure = " ".join(f"`{short(name)} {_form(state, name)} ;`" for name in sorted(lost))
+            yield Flaw(individual, None, "missing-property", message, f"write {cure}")
+
+
+def _has(state: WorldState, individual: str, predicate: str) -> bool:
+    if predicate in state.facts:
+        return bool(state.objects(individual, predicate))
+    if predicate in state.vocabulary.properties:
+        computed = state.vocabulary.properties[predicate].computed_by is not None
+        return computed or state.value(individual, predicate) is not None
+    return True
+
+
+def _form(state: WorldState, predicate: str) -> str:
+    """Return what stands behind a predicate."""
+    term = state.vocabulary.properties.get(predicate)
+    if term is None:
+        ranges = state.vocabulary.relations[predicate].signatures
+        return state.vocabulary.short(ranges[0].range).partition(":")[2].upper() if ranges else "THING"
+    match term.type:
+        case NumberType(dimension):
+            return f"NUMBER-IN-{SI_UNITS[dimension]}" if dimension in SI_UNITS else "NUMBER"
+        case PlainType("Bool"):
+            return "true"
+        case _:
+            return f'"{term.values[0]}"' if term.values else '"TEXT"'

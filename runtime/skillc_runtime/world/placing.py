@@ -1,0 +1,100 @@
+"""What a scene must say so that everything is somewhere: frames that lead to the map, poses that are whole."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from difflib import get_close_matches
+
+from skillc_runtime.world.flaw import Flaw, stored
+from skillc_runtime.world.frames import WORLD_FRAME
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.terms import (
+    ARM_DEVICE,
+    AT,
+    BASE_FRAME_ID,
+    FRAME_ID,
+    FURNITURE,
+    MOBILE_ROBOT,
+    ORIENTATION,
+    POSITION,
+    SURFACE,
+    TOOL,
+)
+
+PLACED = (ARM_DEVICE, FURNITURE, MOBILE_ROBOT, SURFACE, TOOL)
+"""What takes up space in a simulation, or stands on something that does."""
+
+
+def misplaced(state: WorldState) -> Iterator[Flaw]:
+    """Yield what keeps things from being somewhere; rules about terms that the vocabulary lacks find nothing."""
+    for rule in (_unknown_frames, _circles, _partial_poses, _nowhere):
+        yield from rule(state)
+
+
+def _unknown_frames(state: WorldState) -> Iterator[Flaw]:
+    owners, short = _owners(state), state.vocabulary.short
+    for individual, base in stored(state, BASE_FRAME_ID):
+        found = owners.get(str(base), [])
+        if base == WORLD_FRAME or len(found) == 1:
+            continue
+        reason = f"{' and '.join(map(short, found))} have this FrameId" if found else "nothing has this FrameId"
+        near = get_close_matches(str(base), [WORLD_FRAME, *owners], n=1)
+        cure = f"did you mean `{near[0]}`?" if near else f"there is {', '.join(sorted([WORLD_FRAME, *owners]))}"
+        message = f"{short(individual)} is placed in the frame `{base}`, but {reason}"
+        yield Flaw(individual, BASE_FRAME_ID, "unknown-frame", message, "give each its own" if found else cure)
+
+
+def _circles(state: WorldState) -> Iterator[Flaw]:
+    parents, reported = _parents(state), set[str]()
+    for individual, _ in stored(state, BASE_FRAME_ID):
+        path, at = [individual], parents.get(individual)
+        while at is not None and at not in path:
+            path.append(at)
+            at = parents.get(at)
+        if at == individual and reported.isdisjoint(path):
+            reported.update(path)
+            names = " and ".join(map(state.vocabulary.short, path))
+            message = f"the frames of {names} form a circle" if len(path) > 1 else f"{names} is placed in its own frame"
+            yield Flaw(individual, BASE_FRAME_ID, "frame-circle", message, f"place one of them in `{WORLD_FRAME}`")
+
+
+def _partial_poses(state: WorldState) -> Iterator[Flaw]:
+    """A pose in a frame has all of its numbers."""
+    short = state.vocabulary.short
+    for individual, _ in stored(state, BASE_FRAME_ID):
+        numbers = [name for name in (*POSITION, *ORIENTATION) if name in state.stored]
+        lost = [short(name) for name in numbers if state.value(individual, name) is None]
+        if lost:
+            message = f"{short(individual)} has a {short(BASE_FRAME_ID)} and no {', '.join(lost)}"
+            cure = "write all of its position and orientation; for no turn write OrientationW 1.0 and three times 0.0"
+            yield Flaw(individual, BASE_FRAME_ID, "missing-property", message, cure)
+
+
+def _nowhere(state: WorldState) -> Iterator[Flaw]:
+    """What takes up space has a frame that it is placed in, or is at a place that has one."""
+    if BASE_FRAME_ID not in state.stored or AT not in state.facts:
+        return
+    short, parents = state.vocabulary.short, _parents(state)
+    based = {individual for individual, _ in stored(state, BASE_FRAME_ID)}
+    needed = {thing for cls in PLACED for thing in state.instances(cls)}
+    needed |= {parent for thing in needed if (parent := parents.get(thing)) is not None}
+    for thing in sorted(needed - based - parents.keys()):
+        message = f"the scene does not say where {short(thing)} is"
+        cure = f'place it in a frame, `{short(BASE_FRAME_ID)} "{WORLD_FRAME}"`, or at a place, `{short(AT)} PLACE`'
+        yield Flaw(thing, None, "no-place", message, cure)
+
+
+def _parents(state: WorldState) -> dict[str, str]:
+    """Return in whose frame each thing is where the scene says so: by its base frame, else by the place it is at."""
+    owners = _owners(state)
+    places = sorted(state.pairs(AT), reverse=True) if AT in state.facts else []
+    based = {individual: owners.get(str(base), []) for individual, base in stored(state, BASE_FRAME_ID)}
+    framed = {individual: found[0] for individual, found in based.items() if len(found) == 1}
+    return {thing: place for thing, place in places if thing not in based} | framed
+
+
+def _owners(state: WorldState) -> dict[str, list[str]]:
+    owners: dict[str, list[str]] = {}
+    for individual, frame in stored(state, FRAME_ID):
+        owners.setdefault(str(frame), []).append(individual)
+    return owners
