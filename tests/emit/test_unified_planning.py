@@ -1,0 +1,89 @@
+"""Both domains with problems from the shipped scenes, as unified-planning reads, simulates and validates them."""
+
+from __future__ import annotations
+
+import os
+from functools import cache
+
+import pytest
+
+from emit.unified import classical, disagreements, takes, takes_in_time, temporal
+from planning.samples import library
+from planning.test_agreement import VOCABULARY, Dice
+from skillc_compiler.library.conditions import And
+from skillc_runtime.commands._mission import Mission, of_task
+from skillc_runtime.planning.astar import AStar
+from skillc_runtime.planning.plan import Plan, Solved
+from skillc_runtime.planning.problem import Posed, pose_problem
+from skillc_runtime.planning.solve import solve
+from skillc_runtime.task import Reach
+
+EXAMPLES = int(os.environ.get("SKILLC_EXAMPLES", "10"))
+TASKS = ("clean_whiteboard", "clean_table")
+
+
+@cache
+def mission(task: str) -> Mission:
+    return of_task(task)
+
+
+@cache
+def posed(task: str) -> Posed:
+    aim = mission(task).assignment.aim
+    assert isinstance(aim, Reach)
+    return pose_problem(mission(task).library, mission(task).assignment.state, aim.goal)
+
+
+@cache
+def plan(task: str) -> Plan:
+    assignment = mission(task).assignment
+    assert isinstance(assignment.aim, Reach)
+    solved = solve(mission(task).library, assignment.state, assignment.aim.goal, (AStar(),))
+    assert isinstance(solved, Solved)
+    return solved.plan
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_both_domains_are_read_whole(task: str) -> None:
+    problem = posed(task).problem
+    actions = {each.name for each in problem.domain.actions}
+    for read in (classical(problem), temporal(problem)):
+        assert {each.name for each in read.actions} == actions
+        assert {each.name for each in read.all_objects} == {each.name for each in problem.objects}
+        assert len(read.goals) == 1
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_the_plan_is_one_for_both_domains(task: str) -> None:
+    assert takes(posed(task), plan(task))
+    assert takes_in_time(posed(task), plan(task))
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_a_plan_without_one_of_its_steps_is_none(task: str) -> None:
+    steps = plan(task).steps
+    assert steps
+    for number in range(len(steps)):
+        shorter = Plan((*steps[:number], *steps[number + 1 :]), 0.0)
+        assert not takes(posed(task), shorter)
+        assert not takes_in_time(posed(task), shorter)
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_every_step_has_the_effects_that_it_has_in_the_world(task: str) -> None:
+    wrong, tried = disagreements(posed(task), mission(task).assignment.state)
+    assert wrong == []
+    assert tried
+
+
+@pytest.mark.parametrize("seed", range(EXAMPLES))
+def test_random_domains_mean_what_the_world_model_means(seed: int) -> None:
+    dice = Dice(seed)
+    skills = library(*(dice.skill(number) for number in range(3)), vocabulary=VOCABULARY)
+    state = dice.scene()
+    problem = pose_problem(skills, state, And(()))
+    if not problem.problem.domain.actions:
+        pytest.skip("no skill of this domain can be planned with")
+    wrong, tried = disagreements(problem, state)
+    assert wrong == []
+    assert tried
