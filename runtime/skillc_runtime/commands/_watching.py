@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from datetime import datetime
 from pathlib import Path
 from typing import NoReturn
@@ -13,7 +13,7 @@ import click
 from skillc_runtime.commands import _check_runs, _telling
 from skillc_runtime.commands._check_runs import Job
 from skillc_runtime.commands._digests import scenes_of
-from skillc_runtime.commands._files import LibraryFiles
+from skillc_runtime.commands._files import SHIPPED, LibraryFiles
 
 _ENDINGS = (".skill", ".ttl", ".py")
 _PAUSE_MS = 300
@@ -46,7 +46,9 @@ def _watch(job: Job) -> NoReturn:
             wanted = _check(job) or wanted
             if folders == _folders(wanted):
                 click.echo("waiting for a change; Ctrl-C ends", err=True)
-                _await(changes, folders)
+                _await(changes, folders, wanted)
+        if not _folders(wanted):
+            click.echo("nothing is there any more; waiting until it is back", err=True)
 
 
 def _changes(folders: Folders) -> Iterator[object]:
@@ -61,22 +63,21 @@ def _changes(folders: Folders) -> Iterator[object]:
     )
 
 
-def _await(changes: Iterator[object], folders: Folders) -> None:
-    """Wait for a change, or until a folder is another one or gone."""
+def _await(changes: Iterator[object], folders: Folders, wanted: Sequence[Path]) -> None:
+    """Wait for a change, or until a wanted folder is another one, gone or back."""
     for change in changes:
-        if change or folders != _folders(path for path, _ in folders):
+        if change or folders != _folders(wanted):
             return
 
 
-def _present(wanted: Iterable[Path]) -> Folders:
+def _present(wanted: Sequence[Path]) -> Folders:
     """Return the folders that there are, as soon as there is one."""
-    paths = tuple(wanted)
-    while not (folders := _folders(paths)):
+    while not (folders := _folders(wanted)):
         time.sleep(_PAUSE_MS / 1000)
     return folders
 
 
-def _folders(paths: Iterable[Path]) -> Folders:
+def _folders(paths: Sequence[Path]) -> Folders:
     found = ((path, _number(path)) for path in paths)
     return frozenset((path, number) for path, number in found if number is not None)
 
@@ -103,10 +104,10 @@ def _check(job: Job) -> tuple[Path, ...]:
     return _roots(job, libraries)
 
 
-def _roots(job: Job, libraries: Iterable[LibraryFiles]) -> tuple[Path, ...]:
-    """Return the folders of libraries and of their scenes."""
-    read = tuple(libraries)
-    scenes = {scene.parent for library in read for scene in scenes_of(library)}
+def _roots(job: Job, libraries: Sequence[LibraryFiles]) -> tuple[Path, ...]:
+    """Return the folders of libraries and of their scenes, the shipped ones left out."""
+    files = (scene for library in libraries for scene in scenes_of(library))
+    scenes = {scene.parent for scene in files if not scene.is_relative_to(SHIPPED)}
     if job.scene:
         scenes.add(job.scene.parent)
-    return tuple(dict.fromkeys((*(library.root for library in read), *sorted(scenes))))
+    return tuple(dict.fromkeys((*(library.root for library in libraries), *sorted(scenes))))
