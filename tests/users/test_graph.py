@@ -109,5 +109,5 @@ def test_the_command_writes_a_file_and_names_what_exists(tmp_path: Path) -> None
     missing = runner.invoke(command, [str(HERE), "Everythin"])
     assert missing.exit_code == 2
     assert "did you mean `Everything`" in missing.stderr
-    nowhere = runner.invoke(command, [str(HERE), "Everything", "-o", str(tmp_path / "no/such/a.svg")])
+    nowhere = runner.invoke(command, [str(HERE), "Everything", "-o", str(tmp_path / "a.svg/b.svg")])
     assert nowhere.exit_code == 2

@@ -36,6 +36,8 @@ def test_a_new_library_checks_and_compiles_without_a_word(tmp_path: Path) -> Non
         ("2fast", "a letter first"),
         ("pick", "`Pick`"),
         ("seq", "cannot be called `seq`"),
+        ("wiping", "prefix of a vocabulary"),
+        ("lab", "prefix of a vocabulary"),
         ("taken", "exists already"),
         (".", "exists already"),
     ],

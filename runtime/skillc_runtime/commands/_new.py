@@ -23,6 +23,8 @@ FILES = (
     ("README.md", "README.md.j2"),
     (".gitignore", "gitignore.j2"),
 )
+SCENE_PREFIX = "lab"
+"""The prefix that the templates give to what is in the cell."""
 NAME = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
 
 
@@ -59,6 +61,8 @@ def write(texts: Mapping[str, str], folder: Path) -> tuple[Path, ...]:
 
 def _try(name: str, texts: Mapping[str, str]) -> None:
     """Compile the files; UsageError where the name means something else already."""
+    if name in {*_library.vocabulary().prefixes, SCENE_PREFIX}:
+        raise click.UsageError(f"the library cannot be called `{name}`: that is the prefix of a vocabulary")
     sources = [Source(path, text) for path, text in texts.items() if path.endswith(".skill")]
     outcome = pipeline.compile(sources, _library.vocabulary(), _library.find(Path("std")).shelf, name)
     if outcome.diagnostics:

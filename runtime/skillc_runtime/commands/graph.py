@@ -40,6 +40,7 @@ def command(path: Path, name: str, form: str | None, output: Path | None) -> Non
         click.echo(text, nl=False)
         return
     try:
+        output.parent.mkdir(parents=True, exist_ok=True)
         output.write_text(text, encoding="utf-8")
     except OSError as error:
         raise click.UsageError(f"cannot write {output}: {error.strerror}") from error

@@ -1,0 +1,110 @@
+"""The fenced blocks of the documentation, and what it takes to do what a page says."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from skillc_runtime.commands.main import skillc
+
+ROOT = Path(__file__).parents[2]
+FENCE = re.compile(r"^```(\w+)(?: ([^\n]+))?\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+SLOW = ("skillc run", "pytest")
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """A fenced block: its language, the words after it, its text."""
+
+    language: str
+    words: str
+    text: str
+
+
+def blocks(page: Path) -> Iterator[Block]:
+    """Yield the blocks of a page in their order."""
+    for found in FENCE.finditer(page.read_text(encoding="utf-8")):
+        yield Block(found[1], found[2] or "", found[3])
+
+
+class Reader:
+    """Someone who follows a page: writes its files, makes its changes, types its commands, compares what is printed.
+
+    `sh` is typed and ends with the exit code of `exit=N`, else 0; `text` is found in what the last commands printed,
+    line by line; `diff FILE` changes a file; any other language with a word after it is a file of that name. `console`
+    blocks are not followed. Unless `everything` is done, slow commands are left out, with what they print.
+    """
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, everything: bool) -> None:
+        self.monkeypatch = monkeypatch
+        self.everything = everything
+        self.printed: str | None = ""
+        self.done = 0
+
+    def follow(self, page: Path) -> None:
+        for block in blocks(page):
+            match block.language:
+                case "console":
+                    pass
+                case "sh":
+                    self.type(block)
+                case "text":
+                    self.compare(block.text)
+                case "diff":
+                    self.change(Path(block.words), block.text)
+                case _ if block.words:
+                    Path(block.words).write_text(block.text, encoding="utf-8")
+                case _:
+                    pass
+
+    def type(self, block: Block) -> None:
+        printed: list[str] | None = []
+        expected = int(block.words.removeprefix("exit=") or 0)
+        for line in block.text.splitlines():
+            if line.startswith(SLOW) and not self.everything:
+                printed = None
+                continue
+            output, code = self.call(shlex.split(line))
+            assert code == expected, f"{line}\n{output}"
+            printed = None if printed is None else [*printed, output]
+            self.done += 1
+        self.printed = None if printed is None else "\n".join(printed)
+
+    def call(self, words: list[str]) -> tuple[str, int]:
+        match words:
+            case ["cd", folder]:
+                self.monkeypatch.chdir(folder)
+                return "", 0
+            case ["skillc", *arguments]:
+                result = CliRunner().invoke(skillc, arguments)
+                return result.output, result.exit_code
+            case ["pytest", *arguments]:
+                command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *arguments]
+                ran = subprocess.run(command, capture_output=True, text=True, check=False)
+                return ran.stdout + ran.stderr, ran.returncode
+            case _:
+                raise ValueError(f"no reader types {words}")
+
+    def compare(self, expected: str) -> None:
+        if self.printed is None:
+            return
+        place = 0
+        for line in expected.splitlines():
+            place = self.printed.find(line.strip(), place)
+            assert place >= 0, f"not printed: {line}\n{self.printed}"
+
+    def change(self, file: Path, difference: str) -> None:
+        lines = difference.splitlines(keepends=True)
+        old = "".join(line[1:] for line in lines if line[0] in " -")
+        new = "".join(line[1:] for line in lines if line[0] in " +")
+        text = file.read_text(encoding="utf-8")
+        assert text.count(old) == 1, f"{file} has these lines {text.count(old)} times:\n{old}"
+        file.write_text(text.replace(old, new), encoding="utf-8")
