@@ -1,0 +1,187 @@
+"""What `skillc check` remembers: nothing is told that does not hold any more, and nothing is done twice."""
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from skillc_dsl.keeping import keep, kept
+from skillc_ontology import catalogue
+from skillc_runtime.commands import _checking
+from skillc_runtime.commands.main import skillc
+
+HEAVY = ("lark", "rich", "pyoxigraph", "rdflib", "numpy", "mujoco", "jinja2", "skillc_compiler.pipeline")
+TASK = """
+prefix lab: <http://example.org/lab#>
+import "wiping/wipe.skill"
+import "mine.skill"
+task rest {
+    scene "scene.ttl"
+    do    Wipe(surface: lab:Table-1)
+}
+"""
+MINE = """
+use skiros
+class Board < Product
+skill Look {
+    in   board: Board
+    post board has skiros:Label
+    noplan
+}
+impl looking of Look { run python "lab_primitives.look:Look" }
+"""
+
+
+@pytest.fixture
+def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a folder for this test's verdicts."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    return tmp_path / "cache" / "skillc" / "verdicts"
+
+
+@pytest.fixture
+def library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a library of two files, beside a scene and the Python that it names."""
+    folder, python = tmp_path / "lab", tmp_path / "python" / "lab_primitives"
+    folder.mkdir()
+    python.mkdir(parents=True)
+    (folder / "tasks.skill").write_text(TASK, encoding="utf-8")
+    (folder / "mine.skill").write_text(MINE, encoding="utf-8")
+    (folder / "scene.ttl").write_text(catalogue.scene("iiwa_table").read_text("utf-8"), encoding="utf-8")
+    (python / "__init__.py").touch()
+    (python / "look.py").write_text("class Look:\n    def __init__(self, cell, board): ...\n", encoding="utf-8")
+    monkeypatch.syspath_prepend(str(python.parent))
+    return folder
+
+
+def check(library: Path, *options: str) -> list[dict[str, object]]:
+    result = CliRunner().invoke(skillc, ["check", str(library), "--format", "json", *options])
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
+    found: list[dict[str, object]] = json.loads(result.stdout)
+    return found
+
+
+def replaced(file: Path, old: str, new: str) -> None:
+    text = file.read_text("utf-8")
+    assert old in text
+    file.write_text(text.replace(old, new), encoding="utf-8")
+
+
+def put(file: Path, text: str) -> None:
+    file.write_text(text, encoding="utf-8")
+
+
+CHANGES: dict[str, Callable[[Path], None]] = {
+    "a file": lambda lab: replaced(lab / "tasks.skill", "Wipe(", "Wype("),
+    "an imported file": lambda lab: replaced(lab / "mine.skill", "< Product", "< Prodoct"),
+    "a new file": lambda lab: put(lab / "new.skill", "class A < Nothing\n"),
+    "a file that goes": lambda lab: (lab / "mine.skill").unlink(),
+    "the scene": lambda lab: replaced(lab / "scene.ttl", "lab:Table-1", "lab:Table-2"),
+    "the scene that goes": lambda lab: (lab / "scene.ttl").unlink(),
+    "the Python": lambda lab: replaced(lab.parent / "python/lab_primitives/look.py", "board", "table"),
+}
+
+
+@pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES.keys())
+def test_whatever_changes_is_seen(library: Path, own: Path, change: Callable[[Path], None]) -> None:
+    before = check(library)
+    assert check(library) == before
+    change(library)
+    after = check(library)
+    assert after == check(library, "--no-cache")
+    assert after != before
+
+
+def test_what_has_not_changed_is_not_checked_again(library: Path, own: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = check(library)
+    assert len(list(own.iterdir())) == 1
+    monkeypatch.setattr(_checking, "check", lambda *_: pytest.fail("checked again"))
+    assert check(library) == before
+
+
+def test_nothing_is_remembered_without_the_cache(library: Path, own: Path) -> None:
+    check(library, "--no-cache")
+    assert not own.exists()
+
+
+@pytest.mark.parametrize("damage", [b"", b"short", b"x" * 200])
+def test_a_damaged_verdict_is_none(library: Path, own: Path, damage: bytes) -> None:
+    before = check(library)
+    (verdict,) = own.iterdir()
+    verdict.write_bytes(damage)
+    assert check(library) == before
+    assert verdict.read_bytes() != damage
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="everything is writable for root")
+def test_a_folder_that_cannot_be_written_only_costs_time(library: Path, own: Path) -> None:
+    own.parent.parent.mkdir(parents=True)
+    own.parent.parent.chmod(0o500)
+    assert check(library) == check(library, "--no-cache")
+
+
+def test_a_cache_that_is_no_folder_only_costs_time(library: Path, own: Path) -> None:
+    own.parent.parent.parent.mkdir(parents=True, exist_ok=True)
+    own.parent.parent.write_text("a file", encoding="utf-8")
+    assert check(library) == check(library, "--no-cache")
+
+
+def test_writers_and_readers_at_once_see_all_or_nothing(tmp_path: Path) -> None:
+    path, bodies = tmp_path / "x", [bytes([number]) * 50_000 for number in range(8)]
+    with ThreadPoolExecutor(8) as pool:
+        seen = [found for turn in range(20) for found in pool.map(lambda body: keep(path, body) or kept(path), bodies)]
+    assert len(seen) == 160
+    assert all(found in bodies for found in seen)
+    assert [file.name for file in tmp_path.iterdir()] == ["x"]
+
+
+def test_nothing_heavy_is_imported_for_what_is_remembered(library: Path, cache: Path) -> None:
+    program = f"""
+import sys
+from skillc_runtime.commands.main import main
+try:
+    main(["check", {str(library)!r}, "--format", sys.argv[1]])
+except SystemExit:
+    print(*sys.modules, file=sys.stderr)
+"""
+    runs = [
+        subprocess.run([sys.executable, "-c", program, form], capture_output=True, text=True, check=True)
+        for form in ("json", "full")
+    ]
+    cold, warm = (set(run.stderr.split()) & set(HEAVY) for run in runs)
+    assert {"lark", "pyoxigraph", "skillc_compiler.pipeline"} <= cold
+    assert warm == set()
+
+
+def test_every_file_that_is_read_counts(library: Path) -> None:
+    """A check opens no file but those of skillc and Python and those whose content is part of the digest."""
+    program = f"""
+import sys
+opened = set()
+sys.addaudithook(lambda event, arguments: opened.add(str(arguments[0])) if event == "open" else None)
+from pathlib import Path
+from skillc_runtime.commands import _checking, _digests, _files
+library = _files.find(Path({str(library)!r}))
+opened.clear()
+_digests.digest_of(library, None)
+counted = set(opened) | set(map(str, library.places.values()))
+opened.clear()
+_checking.check(library, None)
+print(*sorted(opened - counted), sep="\\n")
+print(*counted, sep="\\n", file=sys.stderr)
+"""
+    run = subprocess.run(
+        [sys.executable, "-c", program],
+        capture_output=True,
+        text=True,
+        check=True,
+        env={**os.environ, "PYTHONPATH": str(library.parent / "python")},
+    )
+    assert f"{library}/scene.ttl" in run.stderr
+    assert [line for line in run.stdout.splitlines() if line.startswith(str(library.parent))] == []
