@@ -125,7 +125,7 @@ def test_constants_are_folded_and_implies_is_spelled_out() -> None:
     assert number(compared.right) == 0.2  # type: ignore[union-attr]
     made = outcome.value.implementations["Use.one"].body
     assert isinstance(made, Compound) and isinstance(made.node, Sequence)
-    half, broken = made.node.children
+    half, broken, _ = made.node.children
     assert isinstance(half, Wait) and half.seconds == Literal(0.5)
     assert isinstance(broken, Wait) and isinstance(broken.seconds, Arithmetic)
     post = outcome.value.skills["Use"].post[0]

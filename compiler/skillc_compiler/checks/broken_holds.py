@@ -1,8 +1,9 @@
 """A child that breaks a hold of the skill it runs in.
 
-A `hold` must be true for as long as the skill runs. When it breaks, the whole body is halted and the skill fails. What the
-last child does, when nothing runs after it any more, breaks nothing. It is a warning where the hold may break only because
-two names may stand for the same individual, or because a child that failed may have left the world half changed.
+A `hold` must be true for as long as the skill runs. When it breaks, the whole body is halted and the skill fails.
+What the last child does, when nothing runs after it any more, breaks nothing. It is a warning where the hold may
+break only because two names may stand for the same individual, or because a child that failed may have left the world
+half changed.
 
 Bad:
 

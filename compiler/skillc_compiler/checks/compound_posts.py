@@ -1,10 +1,10 @@
 """A postcondition that not every successful end of the body establishes.
 
-What a compound skill promises, its children must bring about: by a postcondition of theirs, by `check`, by `wait until`, or by
-`apply`, on every way that ends in success. On a way that does not, the skill would fail at its end. The ways are followed
-for every outcome of every child, and the shortest one is shown; what others do to the world meanwhile is not
-considered. Where the postcondition speaks of all individuals, of chains of facts or of computed values,
-this is a warning.
+What a compound skill promises, its children must bring about: by a postcondition of theirs, by `check`, by `wait
+until`, or by `apply`, on every way that ends in success. On a way that does not, the skill would fail at its end. The
+ways are followed for every outcome of every child, and the shortest one is shown; what others do to the world
+meanwhile is not considered. Where the postcondition speaks of all individuals, of chains of facts or of computed
+values, this is a warning.
 
 Bad:
 
@@ -52,17 +52,27 @@ NAMES = ("post-not-established",)
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each postcondition that some successful end leaves open."""
-    for one in found(program, Unproved):
+    for several in _together(program):
+        one = several[0]
         verb = "makes it false" if one.false else "does not establish it"
-        way = labels(one.way)
+        texts = " and ".join(f"`{each.post.text}`" for each in several)
         yield Diagnostic(
             "post-not-established",
             one.implementation.name_span,
-            f"`{one.implementation.name}` can succeed in a way that {verb}: `{one.post.text}`",
+            f"`{one.implementation.name}` can succeed in a way that {verb}: {texts}",
             help=_help(one),
             severity="warning" if one.beyond else "error",
-            labels=(Label(one.post.span, "promised here"), *way),
+            labels=(*(Label(each.post.span, "promised here") for each in several), *labels(one.way)),
         )
+
+
+def _together(program: Program) -> Iterator[tuple[Unproved, ...]]:
+    """Yield what the same way leaves open, which has one cause, as one."""
+    groups: dict[object, tuple[Unproved, ...]] = {}
+    for one in found(program, Unproved):
+        key = (id(one.implementation), id(one.way), one.false, one.beyond)
+        groups[key] = (*groups.get(key, ()), one)
+    return iter(groups.values())
 
 
 def _help(one: Unproved) -> str:

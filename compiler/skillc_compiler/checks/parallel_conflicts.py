@@ -1,8 +1,8 @@
 """Children of a `par` that get into each other's way.
 
-Two skills that run together must not write the same fact differently, since the last one would win, and must not both have
-the same device for themselves (`uses`), since the second could not start. A skill that `shares` an arm adds to the motion
-of whoever uses it; that is no conflict.
+Two skills that run together must not write the same fact differently, since the last one would win, and must not both
+have the same device for themselves (`uses`), since the second could not start. A skill that `shares` an arm adds to
+the motion of whoever uses it; that is no conflict.
 
 Bad:
 

@@ -1,14 +1,44 @@
 """A body with more possible states than are told apart.
 
-After every node, up to 64 states of the world are followed one by one. Where there are more, only what all of them have
-in common is used, so that something may seem not to be guaranteed that is.
+After every node, up to 64 states of the world are followed one by one. Where there are more, only what all of them
+have in common is used, so that something may seem not to be guaranteed that is.
 
 Bad:
 
     use skillc
-    import "compliance.skill"
-    skill Show { in surface: Surface  in other: Surface  out seen: Bool  noplan }
+    skill Show { in surface: Surface  post sensed surface.located == true  noplan }
     impl waiting of Show { run python "skillc_runtime.primitives.stand_in:StandIn" }
+    skill Tour {
+        in a: Surface  in b: Surface  in c: Surface  in d: Surface
+        in e: Surface  in f: Surface  in g: Surface  noplan
+    }
+    impl patient of Tour {
+        do seq {
+            try { Show(surface: a) }
+            try { Show(surface: b) }
+            try { Show(surface: c) }
+            try { Show(surface: d) }
+            try { Show(surface: e) }
+            try { Show(surface: f) }
+            try { Show(surface: g) }
+            wait 1 s
+        }
+    }
+
+Good:
+
+    use skillc
+    skill Show { in surface: Surface  post sensed surface.located == true  noplan }
+    impl waiting of Show { run python "skillc_runtime.primitives.stand_in:StandIn" }
+    skill Tour { in a: Surface  in b: Surface  in c: Surface  noplan }
+    impl patient of Tour {
+        do seq {
+            try { Show(surface: a) }
+            try { Show(surface: b) }
+            try { Show(surface: c) }
+            wait 1 s
+        }
+    }
 """
 
 from __future__ import annotations

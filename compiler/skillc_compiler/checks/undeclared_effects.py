@@ -1,8 +1,8 @@
 """A child changes something that the skill does not say it changes.
 
-Planner and callers know a skill by its description. What is different after it in every case must stand in a `post`, of the
-description or of the implementation. What is changed and changed back, what `with` undoes and what is only measured
-(`sensed`) need not.
+Planner and callers know a skill by its description. What is different after it in every case must stand in a `post`,
+of the description or of the implementation. What is changed and changed back, what `with` undoes and what is only
+measured (`sensed`) need not.
 
 Bad:
 
@@ -16,7 +16,7 @@ Bad:
         pre  gripper contain object
         post to contain object
     }
-    skill Grip { in gripper: GripperEffector  post gripper.deviceState == Busy }
+    skill Grip { in gripper: GripperEffector  post gripper.skillc:deviceState == Busy }
     impl waiting of Grip { run python "skillc_runtime.primitives.stand_in:StandIn" }
     impl plain of Drop { do seq { Release(arm, gripper, object, to) Grip(gripper) } }
 
@@ -32,10 +32,10 @@ Good:
         pre  gripper contain object
         post to contain object
     }
-    skill Grip { in gripper: GripperEffector  post gripper.deviceState == Busy }
+    skill Grip { in gripper: GripperEffector  post gripper.skillc:deviceState == Busy }
     impl waiting of Grip { run python "skillc_runtime.primitives.stand_in:StandIn" }
     impl plain of Drop {
-        post gripper.deviceState == Busy
+        post gripper.skillc:deviceState == Busy
         do seq { Release(arm, gripper, object, to) Grip(gripper) }
     }
 """
@@ -60,7 +60,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
         yield Diagnostic(
             "undeclared-effect",
             one.call.written.skill.span,
-            f"`{one.call.written.skill.text}` makes true `{one.post.text}`, and `{skill.name}` does not say so",
+            f"`{one.call.written.skill.text}` brings about `{one.post.text}`, and `{skill.name}` does not say so",
             help=f"add a `post` that says it to `{skill.name}` or to this implementation, or undo it",
             labels=(
                 Label(one.post.span, "the effect"),

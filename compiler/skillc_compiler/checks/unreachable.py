@@ -1,7 +1,7 @@
 """A node that never starts, whatever its neighbours do.
 
-It stands after a node that cannot succeed, or in a `sel` after one that cannot fail, or in the branch of a condition that is
-decided beforehand.
+It stands after a node that cannot succeed, or in a `sel` after one that cannot fail, or in the branch of a condition
+that is decided beforehand.
 
 Bad:
 

@@ -1,8 +1,8 @@
 """Something that is set up, or changed, and not put back when a child fails.
 
-A `scoped` skill that is called as a plain node lasts until an enclosing `with`, or the whole run, ends. And what one child
-changes and a later one changes back stays changed when a child between the two fails. `with` undoes what its skill set up
-on success, failure and halt.
+A `scoped` skill that is called as a plain node lasts until an enclosing `with`, or the whole run, ends. And what one
+child changes and a later one changes back stays changed when a child between the two fails. `with` undoes what its
+skill set up on success, failure and halt.
 
 Bad:
 
@@ -44,12 +44,12 @@ NAMES = ("not-released",)
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each call that sets up what is not put back."""
     for one in found(program, Unreleased):
-        name = one.call.written.skill
+        name, cause = one.call.written.skill, labels(one.way)
         if one.post is None:
             message = f"what `{name.text}` sets up is not undone when this skill ends"
-            help_, cause = f"write `with {name.text}(..) {{ .. }}` around what needs it", ()
+            help_ = f"write `with {name.text}(..) {{ .. }}` around what needs it"
         else:
-            message = f"`{name.text}` makes true `{one.post.text}`, which stays so when a later child fails"
+            message = f"`{name.text}` brings about `{one.post.text}`, which stays so when a later child fails"
             help_ = f"declare `{name.text}` `scoped` and write `with {name.text}(..) {{ .. }}`"
-            cause = (Label(one.post.span, "the effect"), *labels(one.way))
+            cause = (Label(one.post.span, "the effect"), *cause)
         yield Diagnostic("not-released", name.span, message, help_, "warning", labels=cause)

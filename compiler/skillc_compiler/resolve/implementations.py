@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from skillc_compiler.program import Body, Implementation, Let, Parameter, Refinement, Skill
 from skillc_compiler.resolve.members import constant, duration, only, requirements
-from skillc_compiler.resolve.nodes import step
+from skillc_compiler.resolve.nodes import assignable, step
 from skillc_compiler.resolve.scope import Scope, Setting, Variable
 from skillc_compiler.resolve.skills import scopes
 from skillc_compiler.resolve.typenames import value_type
@@ -39,7 +39,7 @@ def implementation(
         duration=duration(setting, before, written.members),
         prefer=prefer.value.value if prefer else 0.0,
         lets=lets,
-        body=_body(setting, inner, written, skill),
+        body=_body(setting, inner, written),
         verify=tuple(_text(lines, m.span) for m in written.members if isinstance(m, s.Verify)),
         name_span=written.name.span,
         span=written.span,
@@ -111,7 +111,7 @@ def _lets(setting: Setting, scope: Scope, written: s.ImplementationDeclaration) 
     return tuple(lets), scope
 
 
-def _body(setting: Setting, scope: Scope, written: s.ImplementationDeclaration, skill: Skill) -> Body:
+def _body(setting: Setting, scope: Scope, written: s.ImplementationDeclaration) -> Body:
     bodies = [m for m in written.members if isinstance(m, s.Body | s.RunPython)]
     for extra in bodies[1:]:
         setting.report(
@@ -123,24 +123,11 @@ def _body(setting: Setting, scope: Scope, written: s.ImplementationDeclaration, 
         )
     match bodies[:1]:
         case [s.Body(node=node)]:
-            understood, after = step(setting, scope, node)
-            _check_outputs(setting, after, written, skill)
+            understood, _ = step(setting, assignable(scope), node)
             return understood
         case [s.RunPython() as python]:
             return python
     return None
-
-
-def _check_outputs(setting: Setting, after: Scope, written: s.ImplementationDeclaration, skill: Skill) -> None:
-    for parameter in skill.parameters:
-        if parameter.direction == "out" and not after.variables[parameter.name].sure:
-            setting.report(
-                "out-never-assigned",
-                written.name.span,
-                f"`{written.name.text}` does not give the output `{parameter.name}` a value on every path",
-                f"take it from a call: `.. -> {parameter.name}`",
-                Label(parameter.span, "declared here"),
-            )
 
 
 def _text(lines: Sequence[str], span: Span) -> str:

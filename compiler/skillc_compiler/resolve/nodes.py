@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import TypeAlias, assert_never
+from typing import assert_never
 
 from skillc_compiler.program import Step
 from skillc_compiler.resolve.calls import call
@@ -16,7 +16,6 @@ from skillc_dsl import syntax as s
 from skillc_dsl.units import TIME
 
 SECONDS = Wanted(Measure(TIME))
-_Decision: TypeAlias = Callable[[list[bool]], bool]
 
 
 def step(setting: Setting, scope: Scope, written: s.Node) -> tuple[Step, Scope]:
@@ -40,7 +39,7 @@ def step(setting: Setting, scope: Scope, written: s.Node) -> tuple[Step, Scope]:
         case s.While(condition=condition, children=children):
             guard = clause(setting, scope, condition)
             inner, after = _in_order(setting, scope, children)
-            return Step(written, clauses=(guard,), children=inner), _either(scope, scope, after)
+            return Step(written, clauses=(guard,), children=inner), _together(scope, after)
         case s.For():
             return _for(setting, scope, written)
         case s.ApplyPosts():
@@ -65,29 +64,19 @@ def _in_order(setting: Setting, scope: Scope, nodes: Sequence[s.Node]) -> tuple[
 
 
 def _block(setting: Setting, scope: Scope, written: s.Block) -> tuple[Step, Scope]:
-    if written.kind in ("seq", "reactive seq", "once"):
+    if written.kind in ("seq", "reactive seq", "once", "try", "invert"):
         inner, after = _in_order(setting, scope, written.children)
         return Step(written, children=inner), after
-    if written.kind in ("try", "invert"):
-        inner, after = _in_order(setting, scope, written.children)
-        return Step(written, children=inner), _either(scope, scope, after)
     apart = [step(setting, scope, child) for child in written.children]
-    afters = [after for _, after in apart]
-    together = Step(written, children=tuple(understood for understood, _ in apart))
-    match written.kind:
-        case "par all":
-            return together, _all(scope, *afters)
-        case "par lead":
-            return together, _all(_either(scope, scope, *afters), *afters[:1])
-        case _:
-            return together, _either(scope, *afters)
+    children = tuple(understood for understood, _ in apart)
+    return Step(written, children=children), _together(scope, *(after for _, after in apart))
 
 
 def _if(setting: Setting, scope: Scope, written: s.If) -> tuple[Step, Scope]:
     guard = clause(setting, scope, written.condition)
     then, after_then = _in_order(setting, scope, written.then)
     otherwise, after_else = _in_order(setting, scope, written.orelse or ())
-    return Step(written, clauses=(guard,), children=then, orelse=otherwise), _either(scope, after_then, after_else)
+    return Step(written, clauses=(guard,), children=then, orelse=otherwise), _together(after_then, after_else)
 
 
 def _for(setting: Setting, scope: Scope, written: s.For) -> tuple[Step, Scope]:
@@ -96,23 +85,15 @@ def _for(setting: Setting, scope: Scope, written: s.For) -> tuple[Step, Scope]:
     bound = setting.bind(scope, written.variable, Variable(element, "loop variable", written.variable.span))
     inner, after = _in_order(setting, bound, written.children)
     left = replace(after, variables={n: v for n, v in after.variables.items() if n != written.variable.text})
-    return Step(written, (items,), children=inner), _either(scope, scope, left)
+    return Step(written, (items,), children=inner), _together(scope, left)
 
 
-def _either(before: Scope, *afters: Scope) -> Scope:
-    """Return the scope when one of several ways was taken: an output is sure if every way assigns it."""
-    return _merged(before, afters, lambda sure: bool(sure) and all(sure))
+def assignable(scope: Scope) -> Scope:
+    """Return the scope of a body, in which outputs may be read; whether they have a value there is proved later."""
+    return replace(scope, variables={name: replace(v, sure=True) for name, v in scope.variables.items()})
 
 
-def _all(before: Scope, *afters: Scope) -> Scope:
-    """Return the scope when all ways were taken: an output is sure if one way assigns it."""
-    return _merged(before, afters, any)
-
-
-def _merged(before: Scope, afters: Sequence[Scope], decide: _Decision) -> Scope:
-    merged = dict(before.variables)
-    for name in dict.fromkeys(name for after in afters for name in after.variables):
-        seen = next(after.variables[name] for after in afters if name in after.variables)
-        sure = [name in after.variables and after.variables[name].sure for after in afters]
-        merged[name] = replace(seen, sure=decide(sure) or (name in before.variables and before.variables[name].sure))
-    return replace(before, variables=merged)
+def _together(*scopes: Scope) -> Scope:
+    """Return a scope with the names of all."""
+    merged = {name: variable for scope in reversed(scopes) for name, variable in scope.variables.items()}
+    return replace(scopes[0], variables=merged)

@@ -1,0 +1,143 @@
+"""The proof of a whole program: each body explored once, called skills before those that call them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import TypeVar
+
+from skillc_compiler.program import Implementation, Let, Program, Step, Task
+from skillc_compiler.proof import ending
+from skillc_compiler.proof.axioms import Axioms, axioms_of
+from skillc_compiler.proof.clashes import clashes
+from skillc_compiler.proof.exploring import explore
+from skillc_compiler.proof.findings import Finding, Undecided, Unreachable
+from skillc_compiler.proof.lasting import lasting
+from skillc_compiler.proof.opening import can_start, name_sorts, opening
+from skillc_compiler.proof.run import NOWHERE, Around, Run
+from skillc_compiler.proof.sorts import Sorts
+from skillc_compiler.proof.state import State
+from skillc_compiler.proof.summaries import Summaries
+from skillc_compiler.proof.truth import truth
+from skillc_compiler.proof.understood import Understood
+from skillc_compiler.proof.writing import Write
+from skillc_compiler.walk import within
+from skillc_dsl import syntax as s
+
+F = TypeVar("F", bound=Finding)
+
+
+@dataclass(frozen=True)
+class Proof:
+    """What was found in one body. `leaks` is what it changes without its description saying so."""
+
+    of: Implementation | Task
+    findings: tuple[Finding, ...]
+    leaks: frozenset[Write] = NOWHERE
+
+
+@lru_cache(maxsize=1)
+def proofs(program: Program) -> Mapping[str, Proof]:
+    """Return the proof of each compound implementation by its key, and of each task with a body by `task NAME`."""
+    prover = Prover(program)
+    for implementation in program.implementations:
+        prover.leaks(implementation)
+    for task in program.tasks:
+        prover.task(task)
+    return prover.done
+
+
+def found(program: Program, kind: type[F]) -> Iterator[F]:
+    """Yield the findings of a kind in all bodies."""
+    for proof in proofs(program).values():
+        yield from (finding for finding in proof.findings if isinstance(finding, kind))
+
+
+@dataclass
+class Prover:
+    """Works out proofs as they are asked for."""
+
+    program: Program
+    done: dict[str, Proof] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self._axioms: Axioms = axioms_of(self.program.vocabulary)
+        self.summaries = Summaries(self.program, self._axioms)
+        self._understood = Understood(self.program, self._axioms)
+        self._busy: set[str] = set()
+
+    def leaks(self, implementation: Implementation) -> frozenset[Write]:
+        """Return what an implementation changes beyond its postconditions when it succeeds."""
+        if not isinstance(implementation.body, Step) or implementation.key in self._busy:
+            return NOWHERE
+        if implementation.key not in self.done:
+            self._busy.add(implementation.key)
+            self.done[implementation.key] = self._implementation(implementation, implementation.body)
+            self._busy.discard(implementation.key)
+        return self.done[implementation.key].leaks
+
+    def task(self, task: Task) -> None:
+        """Prove the body of a task."""
+        if task.body is not None:
+            run = self.run(None, task.body)
+            run.explore(run, task.body, {State(): None}, Around())
+            findings = self._kept(task, task.body, run, State(), ())
+            self.done[f"task {task.name}"] = Proof(task, findings)
+
+    def run(self, implementation: Implementation | None, body: Step) -> Run:
+        """Return a fresh exploration."""
+        sorts = Sorts(self.program.vocabulary, self._axioms)
+        lets: tuple[Let, ...] = implementation.lets if implementation else ()
+        stable = {let.name.text for let in lets}
+        outputs = {step.call.out.text for step in within(body) if step.call and step.call.out}
+        if implementation is not None:
+            name_sorts(sorts, implementation)
+            stable |= {p.name for p in implementation.parameters if p.direction != "out"}
+            outputs |= {p.name for p in implementation.parameters if p.direction == "out"}
+        return Run(
+            self.program, sorts, self.summaries, implementation, self.leaks, explore,
+            frozenset(outputs) - stable, frozenset(stable),
+        )  # fmt: skip
+
+    def _implementation(self, implementation: Implementation, body: Step) -> Proof:
+        run = self.run(implementation, body)
+        start = opening(run.sorts, implementation)
+        ends = explore(run, body, {start: None}, Around())
+        told = tuple(ending.findings(run, implementation, start, ends))
+        leaks = ending.leaks(run, implementation, start, ends)
+        return Proof(implementation, self._kept(implementation, body, run, start, told), leaks)
+
+    def _kept(
+        self, of: Implementation | Task, body: Step, run: Run, start: State, told: tuple[Finding, ...]
+    ) -> tuple[Finding, ...]:
+        found = [
+            *run.found.values(),
+            *run.unguaranteed(),
+            *unreachable(run, body, start),
+            *clashes(self.program, self.summaries, self._axioms, body),
+            *lasting(of, body),
+            *told,
+        ]
+        if run.crowded is not None:
+            found.append(Undecided(run.crowded))
+        clear = not isinstance(of, Implementation) or can_start(run.sorts, of)
+        return tuple(self._understood.sound(of, found, clear))
+
+
+def unreachable(run: Run, node: Step, start: State) -> Iterator[Unreachable]:
+    """Yield the nodes that never start, of those inside each other the outer, of those after each other the first.
+
+    A branch whose condition is decided before anything runs is told as such a condition.
+    """
+    if id(node) not in run.reached:
+        yield Unreachable(node)
+        return
+    if isinstance(node.written, s.If | s.While) and truth(run.sorts, start, node.clauses[0].meaning) is not None:
+        return
+    for children in (node.children, node.orelse):
+        never = [child for child in children if id(child) not in run.reached]
+        yield from (Unreachable(child) for child in never[:1])
+        for child in children:
+            if child not in never:
+                yield from unreachable(run, child, start)

@@ -1,0 +1,168 @@
+"""One exploration of one body: what it needs to know, and what it has found so far."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Protocol, TypeAlias
+
+from skillc_compiler.library.conditions import Effect
+from skillc_compiler.library.reading import free_variables
+from skillc_compiler.program import Call, Clause, Implementation, Program, Requirement, Step, Valued
+from skillc_compiler.proof.findings import BrokenHold, Finding, Unassigned, Unguaranteed
+from skillc_compiler.proof.opening import requirements_of
+from skillc_compiler.proof.sorts import Sorts
+from skillc_compiler.proof.state import State
+from skillc_compiler.proof.summaries import Summaries, hidden
+from skillc_compiler.proof.trail import Ends, Way, Ways, length
+from skillc_compiler.proof.truth import truth
+from skillc_compiler.proof.writing import Write, forgotten
+from skillc_compiler.walk import clauses_in, values_in
+from skillc_dsl.source import Span
+
+Explore: TypeAlias = Callable[["Run", Step, Ways, "Around"], Ends]
+Leaks: TypeAlias = Callable[[Implementation], frozenset[Write]]
+NOWHERE: frozenset[Write] = frozenset()
+
+
+@dataclass(frozen=True)
+class Around:
+    """Where a node stands: whether its failure is dealt with, and what others may write while it runs."""
+
+    caught: bool = False
+    disturbing: frozenset[Write] = NOWHERE
+
+    def catching(self) -> Around:
+        """Return the same place where a failure is dealt with."""
+        return replace(self, caught=True)
+
+    def beside(self, writes: frozenset[Write]) -> Around:
+        """Return the same place where others write besides."""
+        return replace(self, disturbing=self.disturbing | writes)
+
+
+class Watch(Protocol):
+    """Follows what happens, for a `verify` property; a state's `monitor` is what it remembers."""
+
+    def starts(self, run: Run, state: State, way: Way, skill: str) -> State:
+        """Return the state after a skill started."""
+        ...
+
+    def succeeds(self, run: Run, state: State, way: Way, skill: str) -> State:
+        """Return the state after a skill succeeded."""
+        ...
+
+    def inside(self, call: Call, state: State) -> Mapping[str, frozenset[tuple[int, bool]]]:
+        """Return what may be remembered after a compound skill's body, by how it ends."""
+        ...
+
+
+@dataclass
+class Tally:
+    """How often a precondition was looked at, and how often it did not hold or was not known to, with the ways."""
+
+    call: Call
+    requirement: Requirement
+    caught: bool
+    seen: int = 0
+    false: int = 0
+    false_way: Way = None
+    open_way: Way = None
+    open_: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Effected:
+    """An effect that a call had, in the caller's words."""
+
+    call: Call
+    post: Requirement
+    effect: Effect
+
+
+@dataclass
+class Run:
+    """`leaks` tells what an implementation changes without saying so; `outputs` are names that calls assign."""
+
+    program: Program
+    sorts: Sorts
+    summaries: Summaries
+    implementation: Implementation | None
+    leaks: Leaks
+    explore: Explore
+    outputs: frozenset[str]
+    stable: frozenset[str]
+    watch: Watch | None = None
+    found: dict[object, Finding] = field(default_factory=dict)
+    reached: set[int] = field(default_factory=set)
+    tallies: dict[tuple[int, int], Tally] = field(default_factory=dict)
+    effects: dict[object, Effected] = field(default_factory=dict)
+    crowded: Span | None = None
+
+    def writes(self, step: Step) -> frozenset[Write]:
+        """Return what a node may write; names that change their meaning within the body stand for anything fitting."""
+        return hidden(self.summaries.of_step(step, self.implementation), self.stable)
+
+    def note(self, key: object, finding: Finding, way: Way) -> None:
+        """Keep a finding, the one with the shortest way of several."""
+        known = self.found.get(key)
+        if known is None or length(way) < length(getattr(known, "way", None)):
+            self.found[key] = finding
+
+    def read(self, values: Iterable[Valued], clauses: Iterable[Clause], ways: Ways) -> None:
+        """Look whether outputs that are read have a value."""
+        every = [part for value in values for part in values_in(value)]
+        every += [
+            part for whole in clauses for clause in clauses_in(whole) for v in clause.values for part in values_in(v)
+        ]
+        for value in every:
+            names = free_variables(value.meaning) & self.outputs if not value.parts else frozenset[str]()
+            for name in sorted(names):
+                for way in [way for state, way in ways.items() if name not in state.assigned]:
+                    self.note((value.span, name), Unassigned(name, value.span, way), way)
+
+    def watch_holds(self, state: State, way: Way) -> None:
+        """Something that takes time begins: the implementation's own holds must still hold."""
+        if self.implementation is None or way is None:
+            return
+        for hold in requirements_of(self.implementation, "hold"):
+            known = truth(self.sorts, state, hold.clause.meaning)
+            if known is not True:
+                finding = BrokenHold(hold, way.span, known is False, way)
+                self.note((id(hold), way.span, known), finding, way)
+
+    def tally(self, call: Call, requirement: Requirement, known: bool | None, caught: bool, way: Way) -> None:
+        """Count what is known of a precondition where its skill starts."""
+        key = (id(call), id(requirement))
+        count = self.tallies.setdefault(key, Tally(call, requirement, caught))
+        count.seen += 1
+        if known is False:
+            shorter = count.false == 0 or length(way) < length(count.false_way)
+            count.false_way = way if shorter else count.false_way
+            count.false += 1
+        elif known is None:
+            count.open_way = way if not count.open_ or length(way) < length(count.open_way) else count.open_way
+            count.open_ = True
+
+    def unguaranteed(self) -> Iterable[Finding]:
+        """Yield the preconditions that do not hold on some way or are not known to; where failure is caught, on all."""
+        for count in self.tallies.values():
+            if count.false == count.seen or (count.false and not count.caught):
+                yield Unguaranteed(count.call, count.requirement, True, count.false_way)
+            elif count.open_ and not count.caught and self.implementation is not None:
+                yield Unguaranteed(count.call, count.requirement, False, count.open_way)
+
+
+def disturbed(run: Run, state: State, around: Around) -> State:
+    """Return what is still known while others write."""
+    return forgotten(run.sorts, state, around.disturbing) if around.disturbing else state
+
+
+def in_order(run: Run, children: Sequence[Step], ways: Ways, around: Around) -> Ends:
+    """Return how children one after the other end."""
+    ends = Ends(success=dict(ways))
+    for child in children:
+        one = run.explore(run, child, ends.success, around)
+        ends.success = one.success
+        ends.add_failures(one)
+    return ends
