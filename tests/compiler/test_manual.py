@@ -31,6 +31,7 @@ SHOP = """
     vann:preferredNamespacePrefix "shop" ; vann:preferredNamespaceUri "http://example.org/shop#" .
 shop:Part a owl:Class .
 shop:Item a owl:Class .
+shop:Ware a owl:Class ; owl:deprecated true ; <http://purl.org/dc/terms/isReplacedBy> shop:Item .
 """
 
 

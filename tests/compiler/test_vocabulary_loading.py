@@ -1,8 +1,13 @@
 """What Turtle says of terms reaches the vocabulary; broken files are told with their line."""
 
+import pyoxigraph as ox
+
 from skillc_compiler.library.vocabulary import NumberType, PlainType, Position, Signature, VectorType, Vocabulary
+from skillc_compiler.turtle.parser import parse
 from skillc_compiler.vocabulary.load import load
+from skillc_compiler.vocabulary.positions import positions
 from skillc_dsl.source import Source
+from skillc_ontology.catalogue import vocabulary_files
 
 HEAD = """@prefix t: <http://example.org/t#> .
 @prefix owl: <http://www.w3.org/2002/07/owl#> .
@@ -85,3 +90,38 @@ def test_an_unknown_datatype_is_told() -> None:
     outcome = load([Source("t.ttl", HEAD + "t:when a owl:DatatypeProperty ; rdfs:range xsd:gYear .\n")])
     assert [(d.name, d.severity, d.span.line) for d in outcome.diagnostics] == [("unknown-datatype", "warning", 9)]
     assert outcome.value.properties == {}
+
+
+def test_places_are_of_terms_where_they_are_declared() -> None:
+    turtle = r"""@prefix ex: <http://e/#> . # ex:Comment a ex:Class .
+PREFIX o: <http://o/>
+ex:A a o:C ; ex:note "ex:Text a o:C ." , '''ex:Long a
+ex:Longer a o:C .''' .  ex:F ex:p 1.5 , 2. ex:G a [ a o:C ; ex:q ( ex:H ex:I ) ] .
+  <http://e/#J>
+     a o:C .
+[] ex:p ex:K . ex:L.m a o:C.
+ex:F a o:C.
+\tex:M\,n <http://www.w3.org/1999/02/22-rdf-syntax-ns#type> o:C .
+""".replace("\\t", "\t")
+    places = positions([Source("terms.ttl", turtle)])
+    assert {iri.removeprefix("http://e/#"): (at.line, at.column) for iri, at in places.items()} == {
+        "A": (3, 1),
+        "F": (8, 1),
+        "G": (4, 44),
+        "J": (5, 3),
+        "L.m": (7, 16),
+        "M,n": (9, 2),
+    }
+
+
+def test_places_are_those_of_a_whole_parser() -> None:
+    shipped = [Source(path, text) for path, text in vocabulary_files()]
+    declared: dict[str, tuple[str, int, int]] = {}
+    for source in shipped:
+        for statement in parse(source.path, source.text).statements:
+            if statement.predicate.endswith("#type") and isinstance(statement.subject, ox.NamedNode):
+                place = statement.subject_place
+                declared.setdefault(statement.subject.value, (place.path, place.line, place.column))
+    found = {iri: (at.path, at.line, at.column) for iri, at in positions(shipped).items()}
+    assert len(declared) > 150
+    assert declared.items() <= found.items()

@@ -118,10 +118,14 @@ class FunctionTerm(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
-    """All terms by IRI (functions by name), the prefixes that shorten IRIs, and accepted other names of terms."""
+    """All terms by IRI (functions by name), the prefixes that shorten IRIs, and accepted other names of terms.
+
+    `deprecated` holds, for terms that should not be used any more, what to use instead, "" where nothing is named.
+    """
 
     prefixes: dict[str, str] = {}
     aliases: dict[str, str] = {}
+    deprecated: dict[str, str] = {}
     classes: dict[str, ClassTerm] = {}
     relations: dict[str, RelationTerm] = {}
     properties: dict[str, PropertyTerm] = {}

@@ -362,6 +362,29 @@ Good:
     }
     impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
 
+## deprecated-term: a class, relation or property should not be used any more
+
+Its vocabulary says so with `owl:deprecated`, and with `dcterms:isReplacedBy` what to use instead. Here `shop:Ware` was
+replaced by `shop:Item`.
+
+Bad:
+
+    use shop
+    skill Look {
+        in item: Ware
+        noplan
+    }
+    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use shop
+    skill Look {
+        in item: Item
+        noplan
+    }
+    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
 ## missing-prefix: a goal or call given at the command line names an individual without its prefix
 
 Individuals are written with a prefix that the scene file declares.

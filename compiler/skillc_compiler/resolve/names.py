@@ -6,10 +6,19 @@ from collections.abc import Callable, Iterable, Mapping, Set
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
-from skillc_compiler.library.vocabulary import THING, FunctionTerm, Vocabulary, local_name
+from skillc_compiler.causes import declared
+from skillc_compiler.library.vocabulary import (
+    THING,
+    ClassTerm,
+    FunctionTerm,
+    PropertyTerm,
+    RelationTerm,
+    Vocabulary,
+    local_name,
+)
 from skillc_compiler.resolve.near import correction
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean
 
 Kind: TypeAlias = Literal["class", "relation", "property"]
 KINDS: tuple[Kind, ...] = ("class", "relation", "property")
@@ -43,6 +52,8 @@ class Names:
             self._ambiguous(name, found)
         elif not found:
             self._unknown(kind, name, fits)
+        else:
+            self._deprecated(kind, name, found[0])
         return found[0] if found else None
 
     def individual(self, name: s.Name) -> str | None:
@@ -102,12 +113,40 @@ class Names:
             return None
         iri = self.vocabulary.aliases.get(written, written)
         if iri in self.known[kind]:
+            self._deprecated(kind, name, written)
             return iri
         base = self.prefixes[name.text.partition(":")[0]]
         there = (i for i in self.known[kind] if i.startswith(base) and fits(i))
         candidates = [self.short(i) for i in there]
         self._report_unknown(kind, name, candidates)
         return None
+
+    def _deprecated(self, kind: Kind, name: s.Name, iri: str) -> None:
+        if iri not in self.vocabulary.deprecated:
+            return
+        other = self.vocabulary.deprecated[iri]
+        bare = self.bare[kind].get(local_name(other)) == (other,) and ":" not in name.text
+        text = local_name(other) if bare else self.short(other)
+        self.problems.append(
+            Diagnostic(
+                "deprecated-term",
+                name.span,
+                f"the {kind} `{name.text}` should not be used any more",
+                help=f"use `{text}` instead" if other else "its vocabulary names nothing to use instead",
+                severity="warning",
+                labels=declared(self._table(kind)[iri]) if iri in self._table(kind) else (),
+                fix=Fix(name.span, text, f"write `{text}`") if other else None,
+            )
+        )
+
+    def _table(self, kind: Kind) -> Mapping[str, ClassTerm | RelationTerm | PropertyTerm]:
+        match kind:
+            case "class":
+                return self.vocabulary.classes
+            case "relation":
+                return self.vocabulary.relations
+            case "property":
+                return self.vocabulary.properties
 
     def _ambiguous(self, name: s.Name, found: tuple[str, ...]) -> None:
         ways = " and ".join(f"`{self.short(iri)}`" for iri in found)

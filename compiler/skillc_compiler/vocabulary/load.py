@@ -26,8 +26,10 @@ from skillc_dsl.source import Source
 
 OWL = "http://www.w3.org/2002/07/owl#"
 RDFS = "http://www.w3.org/2000/01/rdf-schema#"
+REPLACED = "http://purl.org/dc/terms/isReplacedBy"
 VANN = "http://purl.org/vocab/vann/"
 SKILLC = "https://w3id.org/skillc/core#"
+KINDS = ("Class", "ObjectProperty", "DatatypeProperty")
 
 
 def load(sources: Sequence[Source]) -> Outcome[Vocabulary]:
@@ -39,6 +41,7 @@ def load(sources: Sequence[Source]) -> Outcome[Vocabulary]:
     vocabulary = Vocabulary(
         prefixes=_prefixes(graph.value),
         aliases=aliases,
+        deprecated=_deprecated(graph.value),
         classes=_classes(graph.value, aliases, places),
         relations=_relations(graph.value, aliases, places),
         properties=_properties(graph.value, aliases, places),
@@ -55,10 +58,15 @@ def _prefixes(graph: Graph) -> dict[str, str]:
 
 
 def _aliases(graph: Graph) -> dict[str, str]:
-    kinds = ("Class", "ObjectProperty", "DatatypeProperty")
-    terms = [iri for kind in kinds for iri in graph.instances(f"{OWL}{kind}")]
+    terms = [iri for kind in KINDS for iri in graph.instances(f"{OWL}{kind}")]
     named = ((iri, graph.iris(iri, f"{SKILLC}aliasOf")) for iri in terms)
     return {iri: others[0] for iri, others in sorted(named) if others}
+
+
+def _deprecated(graph: Graph) -> dict[str, str]:
+    terms = [iri for kind in KINDS for iri in graph.instances(f"{OWL}{kind}")]
+    marked = (iri for iri in terms if graph.text(iri, f"{OWL}deprecated") in ("true", "1"))
+    return {iri: next(iter(graph.iris(iri, REPLACED)), "") for iri in sorted(marked)}
 
 
 def _classes(graph: Graph, aliases: Mapping[str, str], places: Mapping[str, Position]) -> dict[str, ClassTerm]:
