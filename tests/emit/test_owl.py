@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from itertools import combinations
 from pathlib import Path
 
@@ -25,8 +24,6 @@ SKIROS = Namespace("http://rvmi.aau.dk/ontologies/skiros.owl#")
 CSS = Namespace("http://www.w3id.org/hsu-aut/css#")
 CORE = Namespace(BASE)
 ERRORS = URIRef("http://www.daml.org/2002/03/agents/agent-ont#error")
-
-needs_java = pytest.mark.skipif(shutil.which("java") is None, reason="the reasoner runs in Java")
 
 
 def graph(made: SkillLibrary) -> Graph:
@@ -131,20 +128,6 @@ def test_an_invocation_is_an_instance_of_the_implementations_that_fit_it() -> No
     assert (SAMPLE["call"], RDF.type, careful) not in stiff
     assert (SAMPLE["call"], RDF.type, plain) in stiff
     assert not list(compliant.subject_objects(ERRORS))
-
-
-@needs_java
-def test_a_reasoner_finds_it_consistent_and_orders_implementations(tmp_path: Path) -> None:
-    owlready2 = pytest.importorskip("owlready2")
-    file = tmp_path / "skills.nt"
-    graph(two_ways()).serialize(file, format="nt", encoding="utf-8")
-    world = owlready2.World()
-    with world.get_ontology(file.as_uri()).load():
-        owlready2.sync_reasoner(world, debug=0)
-    assert list(world.inconsistent_classes()) == []
-    careful, plain = world[str(SAMPLE["Wipe.careful"])], world[str(SAMPLE["Wipe.plain"])]
-    assert plain in careful.ancestors()
-    assert careful not in plain.ancestors()
 
 
 def test_blank_nodes_occur_only_in_class_expressions() -> None:

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import shutil
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
-
-import pytest
-from rdflib import Graph
 
 from emit.tree_rules import broken_rules
 from skillc_compiler.emit.artifacts import artifacts
@@ -39,15 +35,3 @@ def test_the_trees_keep_the_rules_of_the_format() -> None:
     trees = {path: text for path, text in artifacts(wiping()).items() if path.endswith(".xml")}
     assert "trees/Wipe.xml" in trees
     assert [(path, words) for path, text in trees.items() for words in broken_rules(text)] == []
-
-
-@pytest.mark.skipif(shutil.which("java") is None, reason="the reasoner runs in Java")
-def test_the_ontology_is_consistent(tmp_path: Path) -> None:
-    owlready2 = pytest.importorskip("owlready2")
-    file = tmp_path / "skills.nt"
-    Graph().parse(data=artifacts(wiping())["skills.ttl"]).serialize(file, format="nt", encoding="utf-8")
-    world = owlready2.World()
-    with world.get_ontology(file.as_uri()).load():
-        owlready2.sync_reasoner(world, debug=0)
-    assert list(world.inconsistent_classes()) == []
-    assert world["https://w3id.org/skillc/library/wiping#Wipe.wipe_lanes"] is not None

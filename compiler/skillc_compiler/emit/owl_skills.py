@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import Literal as OneOf
 
 from skillc_compiler.emit.owl_values import type_statements, value
 from skillc_compiler.emit.owl_words import (
@@ -36,6 +37,8 @@ from skillc_compiler.library.vocabulary import ClassType, NumberType, Position
 from skillc_compiler.library.words import SI_UNITS
 
 Statement = tuple[str, str, Object]
+BOUND = ("in", "infer")
+"""Parameters that every invocation binds."""
 KINDS = {"pre": "PreCondition", "hold": "HoldCondition", "post": "PostCondition"}
 
 
@@ -75,21 +78,24 @@ def implementation(each: Implementation, skill: Skill, library: SkillLibrary) ->
 
 
 def _invocations(base: str, parameters: Sequence[Parameter]) -> Anonymous:
-    wanted = sorted((each.name, cls) for each in parameters if (cls := _argument_class(each)))
-    arguments = [_some(f"{base}.argument.{name}", cls) for name, cls in wanted]
-    parts = Listed((Iri(INVOCATION), _some(INVOKES, base), *arguments))
+    arguments = [
+        _restriction(f"{base}.argument.{each.name}", "some" if each.direction in BOUND else "all", cls)
+        for each in sorted(parameters, key=lambda each: each.name)
+        if (cls := _argument_class(each))
+    ]
+    parts = Listed((Iri(INVOCATION), _restriction(INVOKES, "some", base), *arguments))
     return Anonymous(((RDF_TYPE, Iri(f"{OWL}Class")), (f"{OWL}intersectionOf", parts)))
 
 
 def _argument_class(parameter: Parameter) -> str | None:
-    """Return the class of a parameter that every invocation binds to a thing, None for others."""
-    bound = parameter.direction in ("in", "infer")
-    return parameter.type.iri if bound and isinstance(parameter.type, ClassType) else None
+    """Return the class of the things that an invocation may bind a parameter to, None for other types and outputs."""
+    return parameter.type.iri if parameter.direction != "out" and isinstance(parameter.type, ClassType) else None
 
 
-def _some(relation: str, cls: str) -> Anonymous:
-    kind, on = (RDF_TYPE, Iri(f"{OWL}Restriction")), (f"{OWL}onProperty", Iri(relation))
-    return Anonymous((kind, on, (f"{OWL}someValuesFrom", Iri(cls))))
+def _restriction(relation: str, kind: OneOf["some", "all"], cls: str) -> Anonymous:
+    """Return the things that have such a value, or whose values, if any, are all such."""
+    of, on = (RDF_TYPE, Iri(f"{OWL}Restriction")), (f"{OWL}onProperty", Iri(relation))
+    return Anonymous((of, on, (f"{OWL}{kind}ValuesFrom", Iri(cls))))
 
 
 def _named(iri: str, label: str, doc: str, source: Position) -> Iterator[Statement]:
