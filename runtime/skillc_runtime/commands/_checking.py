@@ -16,4 +16,5 @@ def check(library: LibraryFiles, scene: Path | None) -> tuple[Diagnostic, ...]:
     if named.value:
         outcome = _library.compile_library(library, named.value)
     of_scene = _diagnostics.of_scene(scene, outcome.value.vocabulary) if scene else ()
-    return _telling.in_order((*outcome.diagnostics, *named.diagnostics, *of_scene))
+    foreseen = _scenes.foreseen(outcome, library, scene)
+    return _telling.in_order((*outcome.diagnostics, *named.diagnostics, *of_scene, *foreseen))

@@ -28,11 +28,11 @@ def of_problems(problems: Iterable[Problem]) -> list[Diagnostic]:
     return [
         Diagnostic(
             name=problem.name,
-            span=_span(problem.place),
+            span=span_of(problem.place),
             message=problem.message,
             help=problem.help,
             severity=problem.severity,
-            labels=tuple(Label(_span(note.place), note.message) for note in problem.notes),
+            labels=tuple(Label(span_of(note.place), note.message) for note in problem.notes),
             fix=None if problem.edit is None else _fix(problem.edit),
         )
         for problem in problems
@@ -40,10 +40,11 @@ def of_problems(problems: Iterable[Problem]) -> list[Diagnostic]:
 
 
 def _fix(edit: Edit) -> Fix:
-    return Fix(_span(edit.place), edit.text, edit.message, safe=False)
+    return Fix(span_of(edit.place), edit.text, edit.message, safe=False)
 
 
-def _span(place: Place) -> Span:
+def span_of(place: Place) -> Span:
+    """Return a place in a Turtle file as a span; a file of the shipped ontology is shown below it."""
     shipped, here = catalogue.ROOT / place.path, Path.cwd()
     if Path(place.path).exists() or not shipped.is_file():
         return Span(place.path, place.line, place.column, place.end_line, place.end_column)

@@ -50,7 +50,7 @@ def of_scene(scene: Path, goal: str | None, skill: str | None, library_path: Pat
     """Take a goal, or a call of a skill, in a scene; the library is the shipped one unless a path is given."""
     library = compiled(_library.find(library_path or _library.SHIPPED / "wiping"))
     state = loaded(_files.scene_path(scene), library)
-    individuals = {iri: sorted(state.types(iri)) for iri in state.individuals}
+    individuals = _scenes.classes_of(state, library)
     prefixes = state.vocabulary.prefixes
     if goal is not None:
         asked = parse_goal(goal, library.vocabulary, individuals, prefixes)

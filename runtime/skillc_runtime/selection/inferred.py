@@ -65,6 +65,9 @@ def infer_fixed(
         case Found(bindings=found, others=others):
             return bindings | _agreed((found, *others))
         case Ambiguous(candidates=candidates):
+            settled = _settled(linked, implementation.pre, usable)
+            if any(len({answer[p.name] for answer in candidates}) > 1 and not p.any_ for p in settled):
+                return _ambiguous(implementation, settled, candidates, state.vocabulary)
             return bindings | _agreed(candidates)
         case NoneFound(requirement=broken, reason=reason):
             return _none(implementation, linked, broken, reason)
@@ -72,6 +75,21 @@ def infer_fixed(
 
 def _wanted(implementation: Implementation, known: Set[str]) -> list[Parameter]:
     return [p for p in implementation.parameters if p.direction == "infer" and p.name not in known]
+
+
+def _settled(
+    wanted: Sequence[Parameter], requirements: Sequence[Requirement], decided: Sequence[Requirement]
+) -> list[Parameter]:
+    """Return the parameters that only those requirements speak of, themselves or through others, that are decided.
+
+    What may be found for them will be the same at any later time.
+    """
+    names = {parameter.name for parameter in wanted}
+    open_ = set[str]().union(*(free_variables(r.condition) & names for r in requirements if r not in decided))
+    groups = [free_variables(requirement.condition) & names for requirement in requirements]
+    while reached := {name for group in groups if not open_.isdisjoint(group) for name in group} - open_:
+        open_ |= reached
+    return [parameter for parameter in wanted if parameter.name not in open_]
 
 
 def _agreed(answers: Sequence[Binding]) -> dict[str, Value]:

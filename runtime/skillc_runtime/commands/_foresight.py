@@ -1,0 +1,112 @@
+"""What can be told of tasks in their scenes before they run: goals out of reach, calls that cannot start.
+
+Places are shown as from here, and those of the individuals that a message names are shown beside it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from skillc_compiler.library.skills import SkillLibrary, Task
+from skillc_compiler.library.vocabulary import Position
+from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_dsl.diagnostics import Diagnostic, Label, Severity
+from skillc_dsl.source import Span
+from skillc_runtime.commands import _diagnostics
+from skillc_runtime.commands._files import LibraryFiles
+from skillc_runtime.planning.reachable import why_unreachable
+from skillc_runtime.selection.first import first_refusals
+from skillc_runtime.selection.preflight import Refusal, preflight
+from skillc_runtime.selection.unfit import Unfit, unfit
+from skillc_runtime.world.individuals import iri_of
+from skillc_runtime.world.scene import Scene
+
+LABELLED = 6
+"""How many individuals are shown beside a message at most."""
+
+
+def of_task(task: Task, library: SkillLibrary, files: LibraryFiles, scene: Scene) -> Iterator[Diagnostic]:
+    """Yield what keeps a task from being done in its scene."""
+    told = _Told(files, scene, task)
+    if task.goal is not None:
+        why = why_unreachable(library, scene.state, task.goal)
+        if why is not None:
+            yield told.unreachable(why)
+    if task.body is not None:
+        refusals = preflight(task.body, library, scene.state)
+        yield from (told.refusal(each) for each in refusals)
+        if not refusals:
+            yield from (told.cannot_start(each) for each in first_refusals(task.body, library, scene.state))
+
+
+def of_individuals(library: SkillLibrary, scene: Scene, path: str) -> Iterator[Diagnostic]:
+    """Yield the individuals of the scene file at `path` that no implementation of some skill fits."""
+    own = {iri_of(each.subject): each for each in reversed(scene.said) if each.predicate == RDF_TYPE}
+    here = {iri: each for iri, each in own.items() if each.lines.path == path}
+    for each in unfit(library, scene.state, frozenset(here)):
+        statement = here[each.individual]
+        span = _diagnostics.span_of(statement.object_place)
+        yield Diagnostic("no-implementation-fits", span, _unfit(each, scene), _accepted(each, scene), "warning")
+
+
+class _Told:
+    """Makes diagnostics about one task."""
+
+    def __init__(self, files: LibraryFiles, scene: Scene, task: Task) -> None:
+        self._files, self._scene, self._task = files, scene, task
+
+    def refusal(self, refusal: Refusal) -> Diagnostic:
+        """Tell of a call that can never start in the scene."""
+        around = f", in {' > '.join(refusal.within)}" if refusal.within else ""
+        name = _kind(refusal, "no-implementation-fits")
+        return self.diagnostic(name, f"{refusal.message}{around}", refusal, "error")
+
+    def cannot_start(self, refusal: Refusal) -> Diagnostic:
+        """Tell of a call that cannot start as the scene is."""
+        message = f"`{self._task.name}` begins with a call that cannot start in this scene: {refusal.message}"
+        return self.diagnostic(_kind(refusal, "cannot-start"), message, refusal, "warning")
+
+    def unreachable(self, why: str) -> Diagnostic:
+        """Tell of a goal."""
+        message = f"`{self._task.name}` has a goal that cannot be reached in its scene: {why}"
+        place = self._span(self._task.source)
+        return Diagnostic("unreachable-goal", place, message, labels=tuple(self._named(message)))
+
+    def diagnostic(self, name: str, message: str, refusal: Refusal, severity: Severity) -> Diagnostic:
+        """Return a diagnostic at the call, or at the task where the call is not in it."""
+        labels = [Label(self._span(refusal.source), "this call")] if refusal.within else []
+        labels += (Label(self._span(each.source), f"asked here by {each.implementation}") for each in refusal.rejected)
+        labels += self._named(message)
+        place = self._task.source if refusal.within else refusal.source
+        return Diagnostic(name, self._span(place), message, "", severity, tuple(dict.fromkeys(labels)))
+
+    def _named(self, message: str) -> list[Label]:
+        """Return where the individuals that a message names are declared."""
+        short = self._scene.state.vocabulary.short
+        words = set(re.findall(r"[\w.-]*:[\w-]+", message))
+        typed = {iri_of(each.subject): each for each in reversed(self._scene.said) if each.predicate == RDF_TYPE}
+        found = sorted(each.subject_place for iri, each in typed.items() if short(iri) in words)
+        return [Label(_diagnostics.span_of(place), "this one") for place in found[:LABELLED]]
+
+    def _span(self, place: Position) -> Span:
+        path = self._files.shown(place.path)
+        return Span(path, place.line, place.column, place.line, place.column + 1)
+
+
+def _kind(refusal: Refusal, otherwise: str) -> str:
+    """Return the name of what is wrong: with inferred parameters, or another thing."""
+    if {each.stage for each in refusal.rejected} != {"inference"}:
+        return otherwise
+    return "several-answers" if any(" may be " in each.reason for each in refusal.rejected) else "no-answer"
+
+
+def _unfit(each: Unfit, scene: Scene) -> str:
+    short = scene.state.vocabulary.short
+    classes = " and a ".join(sorted(map(short, scene.state.types(each.individual))))
+    return f"no implementation of {', '.join(sorted(each.skills))} fits {short(each.individual)}, a {classes}"
+
+
+def _accepted(each: Unfit, scene: Scene) -> str:
+    classes = sorted({scene.state.vocabulary.short(cls) for accepted in each.skills.values() for cls in accepted})
+    return f"there are implementations for {', '.join(classes)}; or add `impl .. of {min(each.skills)}`"
