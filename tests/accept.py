@@ -9,6 +9,7 @@ import shutil
 import sys
 from pathlib import Path
 
+from docs.manual import MANUAL, manual
 from skillc_compiler.emit.artifacts import artifacts
 from skillc_compiler.emit.write import write
 from skillc_compiler.pipeline import compile
@@ -44,13 +45,14 @@ def _sources(case: Path, pattern: str) -> list[Source]:
 
 
 def main() -> None:
-    """Rewrite the expectations of every case and say what changed."""
+    """Rewrite the expectations of every case and say what changed; rewrite the list of diagnostics."""
     for case in cases():
         before, after = expected(case) if (case / "expected").is_dir() else {}, built(case)
         shutil.rmtree(case / "expected", ignore_errors=True)
         write(after, case / "expected")
         changed = sorted(path for path in before.keys() | after.keys() if before.get(path) != after.get(path))
         sys.stderr.write(f"{case.name}: {', '.join(changed) or 'unchanged'}\n")
+    MANUAL.write_text(manual(), encoding="utf-8")
 
 
 if __name__ == "__main__":
