@@ -1,0 +1,48 @@
+// Starts `skillc lsp` for `.skill` files and hands everything the editor asks on to it.
+import * as path from "node:path";
+import { commands, type ExtensionContext, window, workspace } from "vscode";
+import { LanguageClient, type LanguageClientOptions, type ServerOptions } from "vscode-languageclient/node";
+
+let client: LanguageClient | undefined;
+
+function server(): ServerOptions {
+  const [command, ...args] = workspace.getConfiguration("skillc").get<string[]>("command") ?? ["skillc", "lsp"];
+  const cwd = workspace.workspaceFolders?.[0]?.uri.fsPath;
+  const isPath = command.includes("/") || command.includes(path.sep);
+  return { command: isPath && cwd ? path.resolve(cwd, command) : command, args, options: { cwd } };
+}
+
+async function start(): Promise<void> {
+  const options: LanguageClientOptions = { documentSelector: [{ language: "skill" }] };
+  client = new LanguageClient("skillc", "skillc", server(), options);
+  try {
+    await client.start();
+  } catch (error) {
+    client = undefined;
+    const reason = error instanceof Error ? error.message : String(error);
+    const choice = await window.showErrorMessage(
+      `The skill language server does not start (${reason}). Install it with: pip install 'skillc[editor]', ` +
+        "or say in the setting skillc.command where it is.",
+      "Open settings",
+    );
+    if (choice) await commands.executeCommand("workbench.action.openSettings", "skillc.command");
+  }
+}
+
+async function restart(): Promise<void> {
+  await deactivate();
+  await start();
+}
+
+export async function activate(context: ExtensionContext): Promise<void> {
+  context.subscriptions.push(
+    commands.registerCommand("skillc.restart", restart),
+    workspace.onDidChangeConfiguration((event) => (event.affectsConfiguration("skillc.command") ? restart() : undefined)),
+  );
+  await start();
+}
+
+export async function deactivate(): Promise<void> {
+  await client?.stop().catch(() => undefined);
+  client = undefined;
+}
