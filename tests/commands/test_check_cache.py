@@ -31,7 +31,7 @@ use skiros
 class Board < Product
 skill Look {
     in   board: Board
-    post board has skiros:Label
+    pre  board has FrameId
     noplan
 }
 impl looking of Look { run python "lab_primitives.look:Look" }

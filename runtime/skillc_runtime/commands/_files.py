@@ -61,7 +61,7 @@ def find(path: Path) -> LibraryFiles:
 def of_file(path: Path | None, content: bytes) -> LibraryFiles:
     """Take `content` as that of the file at `path`, which can import its neighbours there; None for a file nowhere."""
     path = path or _STDIN
-    others = (file for file in sorted(path.parent.glob("*.skill")) if file.name != path.name and not file.is_dir())
+    others = (file for file in sorted(path.parent.glob("*.skill")) if file.name != path.name and file.is_file())
     neighbours = {file.name: (file.name, file) for file in others}
     source = decode(path.name, content)
     return _library(path.resolve().parent.name, path.parent, (source,), {path.name: path}, neighbours)
