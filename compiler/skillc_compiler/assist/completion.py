@@ -18,7 +18,7 @@ from skillc_compiler.assist.surroundings import Surroundings, surroundings
 from skillc_compiler.assist.term_pages import type_text
 from skillc_compiler.resolve.values import Wanted
 from skillc_compiler.types import Measure, Thing
-from skillc_dsl.grammar import fitting, shifted, words
+from skillc_dsl.grammar import END, fitting, shifted, words
 from skillc_dsl.source import Span
 from skillc_dsl.tokens import KEYWORDS
 from skillc_dsl.units import UNITS
@@ -81,7 +81,7 @@ def keywords(cursor: InCode) -> Iterator[Offer]:
     as_name = shifted(cursor.states, "NAME")
     after_name = fitting(as_name) if as_name else frozenset()
     here = fitting(cursor.states)
-    beginning = _BEGINNING if "RBRACE" in here and not cursor.begins_line else frozenset()
+    beginning = _BEGINNING if here & {"RBRACE", END} and not cursor.begins_line else frozenset()
     for terminal in sorted(here):
         text = words().get(terminal, "")
         after = shifted(cursor.states, terminal) if text.isalpha() and text not in beginning | _VALUES else None

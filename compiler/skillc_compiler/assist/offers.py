@@ -89,7 +89,7 @@ def values(around: Surroundings, wanted: Wanted) -> Iterator[Offer]:
         if fits(vocabulary, of_library(function.result), wanted.type) and not wanted.values:
             yield Offer(name, "function", function_head(function).removeprefix("function "), function.comment, rank=3)
     yield from individuals(around, wanted.type)
-    if wanted.type != UNKNOWN and not isinstance(wanted.type, Thing):
+    if wanted.type != UNKNOWN and not wanted.values and not isinstance(wanted.type, Thing):
         yield from _read_properties(around, wanted.type)
 
 

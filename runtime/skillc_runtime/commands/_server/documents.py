@@ -23,6 +23,11 @@ def initialized(session: Session, params: types.InitializedParams) -> None:
         )
 
 
+def shut_down(session: Session, params: None) -> None:
+    """Note that the editor has said goodbye."""
+    session.over = True
+
+
 def folders_changed(session: Session, params: types.DidChangeWorkspaceFoldersParams) -> None:
     """Note which folders are open."""
     session.folders([folder.uri for folder in session.server.workspace.folders.values()])

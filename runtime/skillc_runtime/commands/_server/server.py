@@ -17,9 +17,10 @@ from skillc_runtime.commands._server.session import Session
 Answer: TypeAlias = Callable[[Session, Any], object]
 
 _LEGEND = types.SemanticTokensLegend(list(reading.TOKEN_KINDS), ["declaration"])
-_FIXES = [types.CodeActionKind.QuickFix, types.CodeActionKind(writing.FIX_ALL)]
+_FIXES = [types.CodeActionKind.QuickFix, writing.FIX_ALL]
 ANSWERS: tuple[tuple[str, Answer, object], ...] = (
     (types.INITIALIZED, documents.initialized, None),
+    (types.SHUTDOWN, documents.shut_down, None),
     (types.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS, documents.folders_changed, None),
     (types.WORKSPACE_DID_CHANGE_WATCHED_FILES, documents.changed_on_disk, None),
     (types.TEXT_DOCUMENT_DID_OPEN, documents.opened, None),
@@ -44,8 +45,8 @@ ANSWERS: tuple[tuple[str, Answer, object], ...] = (
 )
 
 
-def make_server() -> LanguageServer:
-    """Return a server that is ready to start.
+def make_session() -> Session:
+    """Return a session whose server is ready to start.
 
     Editors send whole texts: pygls applies parts of texts by lines that end also at form feeds and U+2028, where
     neither the protocol nor the language ends a line.
@@ -54,13 +55,11 @@ def make_server() -> LanguageServer:
     session = Session(server)
     for method, answer, options in ANSWERS:
         server.feature(method, options)(partial(answer, session))
-    return server
+    return session
 
 
 def run() -> int:
     """Serve on stdin and stdout until the editor leaves; 1 if it left without saying goodbye."""
-    server = make_server()
-    goodbyes: list[None] = []
-    server.feature(types.SHUTDOWN)(goodbyes.append)
-    server.start_io(sys.stdin.buffer, sys.stdout.buffer)
-    return 0 if goodbyes else 1
+    session = make_session()
+    session.server.start_io(sys.stdin.buffer, sys.stdout.buffer)
+    return 0 if session.over else 1

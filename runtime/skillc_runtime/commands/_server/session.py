@@ -45,9 +45,10 @@ class Placed(Protocol):
 
 @dataclass
 class Session:
-    """What lasts from the editor's first message to its last."""
+    """What lasts from the editor's first message to its last; `over` once it has said goodbye."""
 
     server: LanguageServer
+    over: bool = False
     libraries: Libraries = field(default_factory=Libraries)
     _published: dict[Root, frozenset[str]] = field(default_factory=dict)
     _waiting: asyncio.TimerHandle | None = None

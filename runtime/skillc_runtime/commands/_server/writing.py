@@ -79,13 +79,13 @@ def code_actions(session: Session, params: types.CodeActionParams) -> list[types
     lines = session.lines(view)
     here = [problem for problem in view.analysis.problems if problem.span.path == view.path]
     actions = []
-    if _wanted(params, types.CodeActionKind.QuickFix):
+    if _wanted(params, types.CodeActionKind.QuickFix.value):
         touched = [problem for problem in here if _meet(lines.range(problem.span), params.range)]
         actions += [_quick_fix(session, view, lines, problem) for problem in touched if problem.fix]
     safe = apart(problem.fix for problem in here if problem.fix and problem.fix.safe)
     if safe and _wanted(params, FIX_ALL):
         edit = _workspace_edit(session, view, lines, safe)
-        actions.append(types.CodeAction("Fix everything that is safe to fix", types.CodeActionKind(FIX_ALL), edit=edit))
+        actions.append(types.CodeAction("Fix everything that is safe to fix", FIX_ALL, edit=edit))
     return actions
 
 

@@ -1,0 +1,107 @@
+"""What is offered fits at the place: exact where the grammar or the ontology decides, in broken files too."""
+
+from __future__ import annotations
+
+import pytest
+from lsprotocol import types
+
+from editor.desk import Desk
+from editor.texts import MOTION, PRESS, with_line
+
+pytestmark = pytest.mark.asyncio(loop_scope="session")
+
+BEGINNINGS = ("class", "function", "impl", "import", "prefix", "property", "relation", "skill", "task", "use")
+EXACT = [
+    ("infer at", "    |", "duration fallback hold in infer noplan opt out post pre range scoped shares uses"),
+    ("do seq {", "        par |", "all any lead race"),
+    ("do seq {", "        with |", "Compliance Push"),
+    ("do seq {", "        Move(arm, |", "target: speed:"),
+    ("do seq {", "        Move(speed: 1 m/s, |", "arm arm: target:"),
+    ("do seq {", "        Move[|", "line"),
+    ("do seq {", "        apply |", "done"),
+    ("do seq {", "        timeout 3 |", "s ms min"),
+    ("do seq {", "        Move(arm, speed: 3 |", "m/s cm/s mm/s"),
+    ("do seq {", "        Move(arm, speed: 3 m|", "m/s cm/s mm/s"),
+    ("impl slowly", "    refine arm: |", "CompliantArm Iiwa14 PositionControlledArm TorqueControlledArm Ur5e Panda"),
+    ("impl slowly", "    refine push: |", "Force"),
+    ("impl slowly", "    refine |", "arm: at: panel: push:"),
+    ("infer at", "    pre arm.deviceState == |", "Busy Fault Idle"),
+    ("infer at", "    pre given |", "push"),
+    ("infer at", "    pre panel fixedTo |", "at"),
+    ("infer at", "    opt  far: Length = 3 |", "m cm mm"),
+    ("infer at", "    uses |", "panel arm push at"),
+    ("class Panel", "relation on(Panel, Location) |", "functional inverse symmetric transitive sub"),
+    ("class Panel", "skill |", ""),
+    ("class Panel", "# any |", ""),
+]
+AMONG = [
+    ("infer at", "    pre arm |", "hasA hasGripper at", "fixedTo target deviceState duration"),
+    ("infer at", "    pre panel |", "fixedTo", "hasGripper pre"),
+    ("infer at", "    pre arm.|", "deviceState pose", "isClean wear normal"),
+    ("infer at", "    pre panel.is|", "isClean wear normal", "deviceState"),
+    ("infer at", "    pre |", "panel arm not exists forall", "pre Move"),
+    ("infer at", "    in x: |", "Panel Force Pose Location", "Move Press"),
+    ("infer at", "    in x: Pan|", "Panel", "Move"),
+    ("infer at", "    pre panel is |", "Panel Location", "Force"),
+    ("infer at", "    pre panel fixedTo at |", "and or implies", "pre duration"),
+    ("do seq {", "        |", "Move Press Compliance seq sel par with apply", "pre in skill"),
+    ("do seq {", "        Move(arm, target: |", "above lifted panel.pose", "push true panel.isClean"),
+    ("do seq {", "        Push(arm, along: panel.normal, force: |", "push", "above true panel.wear"),
+    ("do seq {", "        Move(arm, target: lifted(|", "above panel.pose", "push"),
+    ("do seq {", "        if panel.isClean == |", "true false", "above"),
+    ("class Panel", "class Box < |", "Panel Location", "Force fixedTo"),
+    ("class Panel", "relation on(|", "Panel", "Force"),
+    ("class Panel", "property size(Panel): |", "Length Bool Number", ""),
+    ("class Panel", "impl other of |", "Press Move", "Panel"),
+    ("use skiros", "use |", "cora rparts", "Panel"),
+    ("use skiros", 'import "|', "motion.skill gripper.skill wiping/wipe.skill", "press.skill"),
+]
+
+
+@pytest.mark.parametrize(("after", "line", "offered"), EXACT, ids=[line.strip() for _, line, _ in EXACT])
+async def test_just_what_fits_is_offered(desk: Desk, after: str, line: str, offered: str) -> None:
+    desk.library(motion=MOTION)
+    assert sorted(await desk.completions("press.skill", with_line(PRESS, after, line))) == sorted(offered.split())
+
+
+@pytest.mark.parametrize(("after", "line", "offered", "absent"), AMONG, ids=[line.strip() for _, line, _, _ in AMONG])
+async def test_what_fits_is_among_the_offers(desk: Desk, after: str, line: str, offered: str, absent: str) -> None:
+    desk.library(motion=MOTION)
+    found = set(await desk.completions("press.skill", with_line(PRESS, after, line)))
+    assert set(offered.split()) <= found
+    assert not found & set(absent.split())
+
+
+async def test_an_empty_file_begins_with_declarations(desk: Desk) -> None:
+    offered = await desk.completions("empty.skill", "|")
+    assert sorted(offered) == [*BEGINNINGS]
+
+
+async def test_a_task_is_offered_the_individuals_of_its_scene(desk: Desk) -> None:
+    head = "use wiping\nprefix lab: <http://example.org/lab#>\n\n"
+    task = 'task clean {\n    scene "ur5e_whiteboard.ttl"\n    goal  |\n}\n'
+    offered = await desk.completions("tasks.skill", head + task)
+    assert "lab:Whiteboard-1" in offered
+    assert "isClean" in await desk.completions("tasks.skill", head + task.replace("|", "lab:Whiteboard-1.|"))
+    scenes = await desk.completions("tasks.skill", head + 'task clean {\n    scene "|"\n}\n')
+    assert {"ur5e_whiteboard.ttl", "iiwa_table.ttl"} <= set(scenes)
+
+
+async def test_an_offer_replaces_the_word_and_tells_what_it_is(desk: Desk) -> None:
+    desk.library(motion=MOTION)
+    text = with_line(PRESS, "infer at", "    pre panel.isC|")
+    found = await desk.client.text_document_completion_async(types.CompletionParams(*desk.at("press.skill", text)))
+    assert isinstance(found, types.CompletionList)
+    item = next(item for item in found.items if item.label == "isClean")
+    assert item.detail == "Bool"
+    assert item.kind == types.CompletionItemKind.Property
+    assert isinstance(item.text_edit, types.TextEdit)
+    assert item.text_edit.new_text == "isClean"
+    assert item.text_edit.range.end.character - item.text_edit.range.start.character == len("isC")
+
+
+@pytest.mark.parametrize("broken", ["    pre   fixed: panel", "    pre (", "    in x:", "    }", '    pre "'])
+async def test_a_fault_above_does_not_hide_what_fits(desk: Desk, broken: str) -> None:
+    desk.library(motion=MOTION)
+    text = with_line(with_line(PRESS, "post  done", "    pre panel.|"), "infer at", broken)
+    assert "isClean" in await desk.completions("press.skill", text)

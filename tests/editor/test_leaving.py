@@ -1,0 +1,50 @@
+"""The server ends with its editor, however that leaves, and leaves nothing behind."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+from editor.conftest import SERVER
+
+PATIENCE_S = 30
+
+
+def message(method: str, number: int | None = None, **params: object) -> bytes:
+    """Return a message of the protocol; one with a number is a request."""
+    content: dict[str, object] = {"jsonrpc": "2.0", "method": method, "params": params}
+    if number is not None:
+        content["id"] = number
+    body = json.dumps(content).encode()
+    return b"Content-Length: %d\r\n\r\n%s" % (len(body), body)
+
+
+HELLO = message("initialize", 1, processId=None, rootUri=None, capabilities={}) + message("initialized")
+
+
+def served(text: bytes) -> subprocess.CompletedProcess[bytes]:
+    """Run a server that reads a text and then the end of its input."""
+    return subprocess.run(SERVER, input=text, capture_output=True, timeout=PATIENCE_S, check=False)
+
+
+def test_goodbye_and_exit_end_it_with_0() -> None:
+    done = served(HELLO + message("shutdown", 2) + message("exit"))
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert b'"renameProvider"' in done.stdout
+
+
+def test_an_editor_that_vanishes_ends_it_with_1() -> None:
+    assert served(HELLO).returncode == 1
+
+
+def test_exit_without_goodbye_ends_it_with_1() -> None:
+    assert served(HELLO + message("exit")).returncode == 1
+
+
+def test_without_pygls_it_says_what_to_install() -> None:
+    script = "import sys; sys.modules['pygls'] = None; from skillc_runtime.commands.main import main; main(['lsp'])"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, timeout=PATIENCE_S, check=False)
+    assert done.returncode == 2
+    assert b"pip install 'skillc[editor]'" in done.stderr
+    assert b"Traceback" not in done.stderr
