@@ -29,15 +29,17 @@ def compile(
     shelf: Mapping[str, Source],
     name: str,
     scenes: Mapping[str, Individuals] = NO_SCENES,
+    parsed_by: Parse = parse,
 ) -> Outcome[SkillLibrary]:
     """Compile a library: read, resolve, check, lower; problems that only follow from others are not told.
 
     `sources` are the files of the library called `name`, `shelf` those that every library may import, by file name.
     `scenes` gives, by task, the individuals that the task's goal and body may name; without, any may be named.
+    `parsed_by` may remember what it parsed before.
     The result holds everything in which no error was found; diagnostics are in the order of the files and lines, those
     of the shelf only where they are errors.
     """
-    program = understand(sources, vocabulary, shelf, name, scenes)
+    program = understand(sources, vocabulary, shelf, name, scenes, parsed_by)
     return Outcome(lower(program.value, program.diagnostics), told(program.diagnostics, sources))
 
 
@@ -49,7 +51,7 @@ def understand(
     scenes: Mapping[str, Individuals] = NO_SCENES,
     parsed_by: Parse = parse,
 ) -> Outcome[Program]:
-    """Read, resolve and check a library as `compile` does; `parsed_by` may remember what it parsed before."""
+    """Read, resolve and check a library as `compile` does."""
     files = read(sources, shelf, name, parsed_by)
     program = resolve(files.value, vocabulary, name, scenes)
     found = (*program.diagnostics, *check(program.value))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 import click
@@ -14,10 +14,12 @@ from skillc_compiler.library.skills import SkillLibrary, Task
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
+from skillc_dsl.parser import parse
 from skillc_dsl.source import Source, Span
 from skillc_ontology import catalogue
 from skillc_runtime.commands._files import SHIPPED, LibraryFiles, find, texts
 
+_MOST_FILES = 2000
 __all__ = ["SHIPPED", "LibraryFiles", "compile_library", "find", "find_task", "task_named", "texts", "vocabulary"]
 
 
@@ -28,7 +30,7 @@ def compile_library(
 
     `scenes` are the individuals that each task may name, with their classes; those of other tasks are not checked.
     """
-    outcome = pipeline.compile(library.sources, vocabulary(), library.shelf, library.name, scenes or {})
+    outcome = pipeline.compile(library.sources, vocabulary(), library.shelf, library.name, scenes or {}, _parsed)
     return Outcome(outcome.value, tuple(_relocate(d, library) for d in outcome.diagnostics))
 
 
@@ -54,6 +56,9 @@ def task_named(library: SkillLibrary, name: str) -> Task:
         elsewhere = "a task of another library is written LIBRARY:NAME"
         raise click.UsageError(f"there is no task `{name}` in {library.name}: {hint}; {elsewhere}")
     return library.tasks[name]
+
+
+_parsed = lru_cache(_MOST_FILES)(parse)
 
 
 def _relocate(diagnostic: Diagnostic, library: LibraryFiles) -> Diagnostic:
