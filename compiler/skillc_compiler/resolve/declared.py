@@ -60,9 +60,17 @@ def declare(files: Sequence[ReadFile], vocabulary: Vocabulary) -> dict[str, Decl
     A term whose bare name is visible where it is declared is that term, with something added; else it is new.
     """
     found: dict[str, Declared] = {}
+    bare = bare_in(files, vocabulary)
     for unit in files:
-        found[unit.file.path] = _declared_in(unit, bare_terms(vocabulary, used(unit.file, vocabulary)), found)
+        found[unit.file.path] = _declared_in(unit, bare[unit.file.path], found)
     return found
+
+
+def bare_in(files: Sequence[ReadFile], vocabulary: Vocabulary) -> dict[str, Bare]:
+    """Return by path what bare names mean in each file; it is the same where the same vocabularies are used."""
+    uses = {unit.file.path: used(unit.file, vocabulary) for unit in files}
+    terms = {prefixes: bare_terms(vocabulary, prefixes) for prefixes in set(uses.values())}
+    return {path: terms[prefixes] for path, prefixes in uses.items()}
 
 
 def used(file: s.File, vocabulary: Vocabulary) -> tuple[str, ...]:

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program import Implementation, Program, ReadFile, Skill, Task
-from skillc_compiler.resolve.declared import Declared, declare, used, visible
+from skillc_compiler.resolve.declared import Declared, bare_in, declare, visible
 from skillc_compiler.resolve.implementations import implementation
 from skillc_compiler.resolve.individuals import Individuals, narrowest
-from skillc_compiler.resolve.names import KINDS, Kind, Names, bare_terms
+from skillc_compiler.resolve.names import KINDS, Kind, Names
 from skillc_compiler.resolve.near import correction
 from skillc_compiler.resolve.repeats import without_repeats
 from skillc_compiler.resolve.scope import Setting
@@ -56,13 +56,13 @@ def resolve(
 def _names(files: Sequence[ReadFile], declared: Mapping[str, Declared], base: Vocabulary) -> dict[str, Names]:
     known = _known(declared, base)
     homes = {name: path for path, there in sorted(declared.items(), reverse=True) for name in there.names()}
-    found = {}
+    bare, found = bare_in(files, base), {}
     for unit in files:
         here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports)]
         visible_here = {name for there in here for name in there.names()}
         own = {line.name.text: line.iri for line in unit.file.header if isinstance(line, s.Prefix)}
         found[unit.file.path] = Names(
-            bare=visible(bare_terms(base, used(unit.file, base)), here),
+            bare=visible(bare[unit.file.path], here),
             known=known,
             vocabulary=base,
             prefixes={**base.prefixes, **own},
