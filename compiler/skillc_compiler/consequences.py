@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence, Set
 from typing import TypeAlias
 
 from skillc_compiler.program import ReadFile
+from skillc_compiler.renamed import told_once
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -17,12 +18,16 @@ UNUSED_IN_HEADER = frozenset({"unused-use", "unused-prefix", "unused-import"})
 UNUSED = UNUSED_IN_HEADER | {"unused-let", "unused-parameter"}
 TERMS = frozenset({"unknown-class", "unknown-type", "unknown-relation", "unknown-property"})
 NAMES = TERMS | {"unknown-function", "unknown-skill", "unknown-prefix"}
+PASSED = frozenset({"unknown-argument", "unknown-skill", "unknown-function"})
 TYPES = frozenset({"relation-domain", "relation-range", "property-domain", "wrong-type", "disjoint-types"})
 LOGIC = frozenset({"contradicting-conditions", "always-true", "always-false", "duplicate-condition", "breaks-axiom"})
-PROVED = frozenset(
+REASONED = frozenset(
     {
+        "ambiguous-selection",
         "child-precondition",
         "hold-broken",
+        "never-selected",
+        "no-fitting-implementation",
         "not-decided",
         "not-released",
         "parallel-conflict",
@@ -37,7 +42,7 @@ WHOLE = frozenset({"unachievable-goal", "no-implementation"})
 def without_consequences(
     found: Iterable[Diagnostic], problems: Sequence[Diagnostic], files: Sequence[ReadFile]
 ) -> Iterator[Diagnostic]:
-    """Yield what was found, without what any of all the problems explains."""
+    """Yield what was found, without what any of all the problems explains, and a misspelt declaration once."""
     explanations = (
         *_of_headers(problems),
         *_of_second_skills(problems, files),
@@ -45,8 +50,10 @@ def without_consequences(
         *_of_implemented(problems, files),
         *_of_conditions(problems),
         *_of_bodies(problems, files),
+        *_of_arguments(problems, files),
     )
-    return (problem for problem in found if not any(explains(problem) for explains in explanations))
+    left = [problem for problem in found if not any(explains(problem) for explains in explanations)]
+    return told_once(left, files)
 
 
 def _of_headers(problems: Iterable[Diagnostic]) -> Iterator[Explains]:
@@ -115,7 +122,7 @@ def _of_implemented(problems: Iterable[Diagnostic], files: Sequence[ReadFile]) -
 
 def _of_conditions(problems: Iterable[Diagnostic]) -> Iterator[Explains]:
     """What is wrong in a condition explains that it seems to be always so, or to go ill with another."""
-    wrong = [problem.span for problem in problems if problem.name not in LOGIC | PROVED and problem.severity == "error"]
+    wrong = _errors(problems, LOGIC | REASONED)
     yield (
         lambda d: (
             d.name in LOGIC
@@ -126,16 +133,32 @@ def _of_conditions(problems: Iterable[Diagnostic]) -> Iterator[Explains]:
 
 def _of_bodies(problems: Iterable[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Explains]:
     """A declaration with another mistake, and the implementations of such a skill, are not reasoned about."""
-    wrong = [problem.span for problem in problems if problem.name not in PROVED and problem.severity == "error"]
+    wrong = _errors(problems, REASONED)
     declarations = [d for unit in files for d in unit.file.declarations]
     broken = [d for d in declarations if any(_inside(place, d.span) for place in wrong)]
     skills = {d.name.text for d in broken if isinstance(d, s.SkillDeclaration)}
     done = [d for d in declarations if isinstance(d, s.ImplementationDeclaration) and d.skill.text in skills]
     spans = [d.span for d in (*broken, *done)]
-    yield lambda d: (
-        d.name in PROVED
-        and any(_inside(place, whole) for whole in spans for place in (d.span, *(label.span for label in d.labels)))
+    yield (
+        lambda d: (
+            d.name in REASONED
+            and any(_inside(place, whole) for whole in spans for place in (d.span, *(label.span for label in d.labels)))
+        )
     )
+
+
+def _of_arguments(problems: Iterable[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Explains]:
+    """What is passed as an unknown argument, or to an unknown skill or function, is used after all."""
+    wrong = [problem.span for problem in problems if problem.name in PASSED]
+    done = [d for unit in files for d in unit.file.declarations if isinstance(d, s.ImplementationDeclaration)]
+    broken = [d for d in done if any(_inside(place, d.span) for place in wrong)]
+    skills = {d.skill.text for d in broken}
+    described = [d for unit in files for d in unit.file.declarations if _is_skill(d) and d.name.text in skills]
+    yield lambda d: d.name in UNUSED and any(_inside(d.span, whole.span) for whole in (*broken, *described))
+
+
+def _errors(problems: Iterable[Diagnostic], other_than: Set[str]) -> list[Span]:
+    return [problem.span for problem in problems if problem.severity == "error" and problem.name not in other_than]
 
 
 def _is_skill(declaration: s.Declaration) -> bool:
