@@ -1,0 +1,98 @@
+"""Cost of an edit in a file of 500 lines, as the language server does it, beside the bare parse of that file by lark.
+
+The file is made of the shipped library; each edit changes a number in the middle of it. Run it as
+`python benchmarks/editor.py [LINES]`; it prints for each answer the median in milliseconds and its ratio to the parse.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Callable
+from itertools import count
+from pathlib import Path
+from statistics import median
+from tempfile import TemporaryDirectory
+from time import process_time
+
+from compile import generated
+
+from skillc_compiler.assist import highlighting
+from skillc_compiler.assist.completion import complete
+from skillc_compiler.assist.hover import hover
+from skillc_dsl.grammar import machine
+from skillc_runtime.commands._server import problems
+from skillc_runtime.commands._server.libraries import Libraries
+
+EDITS = 15
+_HEADER = re.compile(r"^(use|import) .*\n", re.MULTILINE)
+_TASK = re.compile(r"^(?:## .*\n)*task .*?^}\n", re.MULTILINE | re.DOTALL)
+_EDITED = "0.25 m/s"
+
+
+def one_file(lines: int) -> str:
+    """Return the shipped library without its tasks as one file, with copies until it has so many lines."""
+    parts = [source.text for source in generated(lines + 200) if not source.path.startswith("tasks")]
+    used = sorted({name.strip() for part in parts for line in _uses(part) for name in line.split(",")})
+    text = f"use {', '.join(used)}\n" + "".join(_TASK.sub("", _HEADER.sub("", part)) for part in parts)
+    rows = text.split("\n")
+    last = next(number for number in range(lines, len(rows)) if rows[number - 1] == "}")
+    return "\n".join((*rows[:last], ""))
+
+
+def main() -> None:
+    """Print one line for each answer."""
+    text = one_file(int(sys.argv[1]) if len(sys.argv) > 1 else 500)
+    with TemporaryDirectory() as folder:
+        measure(text, Path(folder) / "library" / "all.skill")
+
+
+def measure(text: str, file: Path) -> None:
+    """Measure edits of a text in the editor; the first one is not counted."""
+    libraries, numbers = Libraries((file.parent,)), count(26)
+    file.parent.mkdir()
+    uri = file.as_uri()
+
+    def edit() -> None:
+        libraries.write(uri, text.replace(_EDITED, f"0.{next(numbers)} m/s"))
+
+    def told() -> None:
+        view = libraries.view(uri)
+        problems.by_uri(libraries, view.root, view.analysis, "utf-16")
+
+    def coloured() -> None:
+        view = libraries.view(uri)
+        highlighting.highlighted(view.analysis, view.path)
+
+    middle = text[: text.index("target: above")].count("\n") + 1
+    bare = median(_seconds(lambda: machine().parse(text)) for _ in range(EDITS))
+    answers: list[tuple[str, Callable[[], object]]] = [
+        ("problems after an edit", told),
+        ("colours, then", coloured),
+        ("completion, then", lambda: complete(libraries.view(uri).analysis, "all.skill", middle, 16)),
+        ("hover, then", lambda: hover(libraries.view(uri).analysis, "all.skill", middle, 10)),
+    ]
+    taken: dict[str, list[float]] = {name: [] for name, _ in answers}
+    for _ in range(EDITS + 1):
+        edit()
+        for name, answer in answers:
+            taken[name].append(_seconds(answer))
+    print(f"{text.count(chr(10))} lines, {len(libraries.view(uri).analysis.problems)} problems")
+    print(f"{'':28} {'ms':>7} {'ratio':>6}")
+    print(f"{'lark parse alone':28} {bare * 1e3:7.1f} {1.0:6.2f}")
+    for name, seconds in taken.items():
+        print(f"{name:28} {median(seconds[1:]) * 1e3:7.1f} {median(seconds[1:]) / bare:6.2f}")
+
+
+def _uses(text: str) -> list[str]:
+    return re.findall(r"^use (.*)$", text, re.MULTILINE)
+
+
+def _seconds(work: Callable[[], object]) -> float:
+    start = process_time()
+    work()
+    return process_time() - start
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,37 @@
+"""The colours of VS Code come from the table of tokens; vscode-tmgrammar-test checks what they say (make editors)."""
+
+from __future__ import annotations
+
+import json
+import re
+import runpy
+from pathlib import Path
+
+from skillc_dsl.tokens import KEYWORDS
+
+EDITORS = Path(__file__).parents[2] / "editors"
+
+
+def test_the_grammar_is_the_generated_one() -> None:
+    written = (EDITORS / "vscode" / "syntaxes" / "skill.tmLanguage.json").read_text("utf-8")
+    generated = runpy.run_path(str(EDITORS / "vscode" / "generate_grammar.py"))["grammar"]()
+    assert written == generated, "run python editors/vscode/generate_grammar.py"
+
+
+def test_every_keyword_has_a_colour() -> None:
+    grammar = json.loads((EDITORS / "vscode" / "syntaxes" / "skill.tmLanguage.json").read_text("utf-8"))
+    coloured = {word for rule in grammar["patterns"] for word in re.findall(r"\w+", rule["match"])}
+    listed = [word for words in KEYWORDS.values() for word in words]
+    assert listed
+    assert set(listed) <= coloured
+
+
+def test_the_lock_file_names_no_registry() -> None:
+    lock = json.loads((EDITORS / "vscode" / "package-lock.json").read_text("utf-8"))
+    assert lock["packages"]
+    assert not [name for name, package in lock["packages"].items() if "resolved" in package]
+
+
+def test_the_client_stays_small() -> None:
+    lines = (EDITORS / "vscode" / "src" / "extension.ts").read_text("utf-8").split("\n")
+    assert 0 < len(lines) < 60
