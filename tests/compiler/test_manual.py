@@ -12,6 +12,7 @@ from skillc_compiler.goals import parse_goal
 from skillc_compiler.manual import Page, pages
 from skillc_compiler.pipeline import compile
 from skillc_compiler.vocabulary.load import load
+from skillc_dsl.formatting import not_formatted
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
 
@@ -39,6 +40,9 @@ def problems(page: Page, text: str) -> list[str]:
     """Return the names of the diagnostics of an example."""
     if text.startswith("@prefix"):
         return [d.name for d in load([Source("example.ttl", text)]).diagnostics]
+    if page.name == "not-formatted":
+        warning = not_formatted(Source("example.skill", text))
+        return [warning.name] if warning else []
     if page.name == "missing-prefix":
         boards = {iri: classes for iri, classes in SCENE.items() if "board" in iri}
         return [d.name for d in parse_goal(text.strip(), vocabulary(), boards, {"lab": LAB}).diagnostics]

@@ -156,4 +156,28 @@ Good:
         scene "iiwa_table.ttl"
         do    TakePosture(arm: lab:Iiwa-1)
     }
+
+## not-formatted: the file is not in its one layout
+
+Told by `skillc fmt --check`, not by `skillc check`. `skillc fmt` lays files out: one member a line, words in columns,
+calls of more than 120 columns with one argument a line, comments where they were.
+
+Bad:
+
+    skill Rest {
+      opt width: Length = 127mm
+    noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    skill Rest {
+        opt  width: Length = 127 mm
+        noplan
+    }
+
+    impl waiting of Rest {
+        run python "skillc_runtime.primitives.stand_in:StandIn"
+    }
 """

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from lark import Token, Tree
 
-from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
 from skillc_dsl.formatting.declarations import Declarations
 from skillc_dsl.formatting.layout import lay_out
 from skillc_dsl.formatting.notes import notes_of
@@ -20,8 +20,8 @@ from skillc_dsl.source import Source, Span
 def formatted(source: Source) -> Outcome[str]:
     """Return the text of a file in its one layout: same meaning, same comments.
 
-    A file with errors stays as it is, and they are told. So does one that would not mean the same, which is a fault
-    of skillc's and told as `not-formattable`.
+    A file with errors stays as it is, and they are told. So does one that would not mean the same, or that nests too
+    deeply.
     """
     errors = tuple(problem for problem in parse(source).diagnostics if problem.severity == "error")
     if errors:
@@ -29,10 +29,27 @@ def formatted(source: Source) -> Outcome[str]:
     try:
         text = _layout(source)
     except RecursionError:
-        return Outcome(source.text, (_not_formattable(source, "it nests too deeply"),))
-    if not say_the_same(source, Source(source.path, text)):
-        return Outcome(source.text, (_not_formattable(source, "it would not mean the same"),))
+        return Outcome(source.text, (_refused(source, "it nests too deeply"),))
+    if text != source.text and not say_the_same(source, Source(source.path, text)):
+        return Outcome(source.text, (_refused(source, "it would not mean the same"),))
     return Outcome(text)
+
+
+def not_formatted(source: Source) -> Diagnostic | None:
+    """Return the warning that a file is not in its one layout, at the first line that differs, with the layout as fix.
+
+    None for a file that is, and for one with errors, which have to be cured first.
+    """
+    outcome = formatted(source)
+    if not outcome.ok or outcome.value == source.text:
+        return None
+    old, new = source.text.split("\n"), outcome.value.split("\n")
+    same = next((n for n, (left, right) in enumerate(zip(old, new, strict=False)) if left != right), len(new) - 1)
+    line = min(same, len(old) - 1)
+    span = Span(source.path, line + 1, 1, line + 1, len(old[line]) + 1)
+    fix = Fix(Span(source.path, 1, 1, len(old), len(old[-1]) + 1), outcome.value, "format the file")
+    message = "this file is not formatted; this is the first line that differs"
+    return Diagnostic("not-formatted", span, message, "run `skillc fmt` on it", "warning", fix=fix)
 
 
 def _layout(source: Source) -> str:
@@ -53,8 +70,7 @@ def _statements(tree: Tree[Token]) -> Iterator[int]:
                     yield first.start_pos or 0
 
 
-def _not_formattable(source: Source, why: str) -> Diagnostic:
-    message = f"the file cannot be formatted: {why}"
-    return Diagnostic(
-        "not-formattable", Span(source.path, 1, 1, 1, 1), message, "it is left as it is; please report it"
-    )
+def _refused(source: Source, why: str) -> Diagnostic:
+    start = Span(source.path, 1, 1, 1, 1)
+    message = f"this file cannot be formatted: {why}"
+    return Diagnostic("not-formatted", start, message, "it is left as it is; please report it")

@@ -105,7 +105,7 @@ class Inline:
         return notes if notes == d.NOTHING else d.joined(d.NewLine(), notes)
 
     def _comma(self, token: Token, mark: d.Document | None = None) -> d.Document:
-        return d.joined(mark or d.Mark(","), self.notes.above(token), self.notes.behind(token))
+        return d.joined(mark or d.Mark(","), self.notes.behind(token))
 
     def _chain(self, tree: Tree[Token]) -> d.Document:
         """Return operands and operators; every operator begins a line where they are too long for one."""

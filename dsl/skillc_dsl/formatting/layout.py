@@ -117,13 +117,13 @@ class _Page:
             case d.Blank():
                 self._blank = True
             case d.Remark(text=text):
-                self._remark(text, indent)
+                self.rows[-1].remark = text
             case d.Note(text=text):
                 self._note(text, indent)
             case d.Mark(text=text):
-                self._mark(text, indent)
+                self.rows[-1].code += text
             case d.WhenBroken(text=text):
-                self._mark(text if breaks else "", indent)
+                self.rows[-1].code += text if breaks else ""
             case _:
                 assert_never(part)
 
@@ -149,19 +149,6 @@ class _Page:
         """Whether a blank line may follow: neither at the start of the file nor at that of a block."""
         last = self.rows[-1].code if self.rows else "{"
         return last.startswith("#") or not last.endswith("{")
-
-    def _mark(self, text: str, indent: int) -> None:
-        if self._open:
-            self.rows[-1].code += text
-        elif text:
-            self._write(text.lstrip(), indent)
-
-    def _remark(self, text: str, indent: int) -> None:
-        """Write a comment behind its line, or below it where that is taken."""
-        if self._open and not self.rows[-1].remark:
-            self.rows[-1].remark = text
-        else:
-            self._note(text, indent)
 
     def _note(self, text: str, indent: int) -> None:
         """Write a comment on its own line; what follows it goes on as far indented."""

@@ -53,8 +53,7 @@ class Members(Steps):
     def _parameter(self, keyword: Token, rest: Sequence[Branch], above: d.Document) -> Member:
         """Return `in name: Type = default  range a .. b`; a type or default is a cell where something follows it."""
         at = index_of(rest, "LABEL")
-        words = (part for word in rest[:at] for part in (d.Space(), self.of(word)))
-        cells = [Cell(KEYWORD, d.joined(self.bare(keyword), *words)), Cell("name", self.of(rest[at]))]
+        cells = [Cell(KEYWORD, self.bare(keyword)), Cell("name", self.spaced(rest[: at + 1]))]
         type_, *extras = rest[at + 1 :]
         if not extras:
             return Member(above, tuple(cells), self.of(type_))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from lark import Token
@@ -11,6 +11,8 @@ from lark import Token
 from skillc_dsl.comments import Comment, comments
 from skillc_dsl.formatting.documents import NOTHING, Blank, Document, Joined, Note, Remark
 from skillc_dsl.source import Source
+
+_MARKS = ("COMMA", "LBRACE")
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,15 +38,7 @@ def notes_of(source: Source, tokens: Sequence[Token], statements: Collection[int
     `statements` are the positions of tokens above which a blank line may stand.
     """
     lines = source.text.split("\n")
-    starts = [(token.line or 1, token.column or 1) for token in tokens]
-    before: dict[int, list[Document]] = {}
-    after: dict[int, Document] = {}
-    for comment in comments(source):
-        index = bisect_left(starts, (comment.span.line, comment.span.column))
-        if comment.alone:
-            before.setdefault(index, []).extend(_note(comment, lines))
-        else:
-            after[tokens[index - 1].start_pos or 0] = Remark(comment.written)
+    before, after = _attached(source, tokens, lines)
     last = Joined(tuple(before.pop(len(tokens), ())))
     for index, token in enumerate(tokens):
         first = index == 0 or tokens[index - 1].end_line != token.line
@@ -54,9 +48,37 @@ def notes_of(source: Source, tokens: Sequence[Token], statements: Collection[int
     return Notes(above, after, last)
 
 
-def _note(comment: Comment, lines: Sequence[str]) -> tuple[Document, ...]:
-    note = Note(comment.written)
-    return (Blank(), note) if _blank_above(lines, comment.span.line) else (note,)
+def _attached(
+    source: Source, tokens: Sequence[Token], lines: Sequence[str]
+) -> tuple[dict[int, list[Document]], dict[int, Document]]:
+    """Return the comments before each token, by its index, and behind one, by its position.
+
+    A mark stays on the line of what it follows, so that a comment before it comes after it.
+    """
+    starts = [(token.line or 1, token.column or 1) for token in tokens]
+    before: dict[int, list[Document]] = {}
+    after: dict[int, Document] = {}
+    for comment in comments(source):
+        index = found = bisect_left(starts, (comment.span.line, comment.span.column))
+        while index < len(tokens) and tokens[index].type in _MARKS:
+            index += 1
+        last = tokens[index - 1] if index else None
+        if last is not None and not comment.alone and last.start_pos not in after and index not in before:
+            after[last.start_pos or 0] = Remark(comment.written)
+        else:
+            entered = last is not None and last.type == "LBRACE" and tokens[index].type != "RBRACE"
+            moved = index > found or not comment.alone
+            before.setdefault(index, []).extend(_note(comment, lines, documents=entered and moved))
+    return before, after
+
+
+def _note(comment: Comment, lines: Sequence[str], *, documents: bool) -> Iterator[Document]:
+    """Yield a comment with the blank line above it; and one below it where it `documents` what it did not before."""
+    if _blank_above(lines, comment.span.line) and comment.alone:
+        yield Blank()
+    yield Note(comment.written)
+    if documents and comment.written.startswith("##"):
+        yield Blank()
 
 
 def _blank_above(lines: Sequence[str], line: int) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from lark import Token, Tree
 
@@ -20,26 +20,27 @@ class Steps(Inline):
         if not isinstance(tree, Tree):
             raise TypeError(f"a step was expected, not {tree!r}")
         if tree.data == "if_":
-            return self._if(tree.children)
+            return self._if(tree.children, all(self._is_short(block) for block in _blocks(tree)))
         start = index_of(tree.children, "LBRACE")
         if start < 0:
             return self.of(tree)
-        return d.joined(self.spaced(tree.children[:start]), self._braces(tree.children[start:]))
+        block = tree.children[start:]
+        return d.joined(self.spaced(tree.children[:start]), self._braces(block, self._is_short(block)))
 
-    def _if(self, children: Sequence[Branch]) -> d.Document:
-        """Return `if C { }`, `else { }` on the line of the `}` before it."""
-        head = self.spaced(children[:2])
-        parts: list[d.Document] = [self._braces(_inside(children[2]))]
+    def _if(self, children: Sequence[Branch], short: bool) -> d.Document:
+        """Return `if C { }` with `else { }` on the line of the `}` before it; all blocks are `short`, or none is."""
+        then = _inside(children[2])
+        parts: list[d.Document] = [self.spaced(children[:2]), self._braces(then, short)]
         for child in children[3:]:
             word, *rest = _inside(child)
-            free = self._is_free(_inside(children[2])[-1], word)
-            parts += [d.Space() if free else d.NewLine(), self.of(word)]
-            parts += [d.Space(), self.step(rest[0])] if isinstance(rest[0], Tree) else [self._braces(rest)]
-        return d.joined(head, *parts)
+            parts += [d.Space() if self._is_free(then[-1], word) else d.NewLine(), self.of(word)]
+            further = isinstance(rest[0], Tree)
+            parts += [d.Space(), self._if(_inside(rest[0]), short)] if further else [self._braces(rest, short)]
+        return d.Joined(tuple(parts))
 
     def opening(self, brace: Token) -> d.Document:
         """Return an opening brace, which stays on the line of what it follows."""
-        return d.joined(d.Mark(" {"), self.notes.above(brace), self.notes.behind(brace))
+        return d.joined(d.Mark(" {"), self.notes.behind(brace))
 
     def _is_free(self, closing: Branch, word: Branch) -> bool:
         """Whether no comment stands between a `}` and the `else` after it."""
@@ -47,21 +48,38 @@ class Steps(Inline):
         above = self.notes.above(word) if isinstance(word, Token) else d.NOTHING
         return behind == above == d.NOTHING
 
-    def _braces(self, children: Sequence[Branch]) -> d.Document:
-        """Return a block: its steps on lines of their own, but one short step stays on the line where it is written."""
-        opening, *steps, closing = children
+    def _is_short(self, block: Sequence[Branch]) -> bool:
+        """Whether a block is empty, or one short step that is written on the line of its braces."""
+        opening, *steps, closing = block
         if not isinstance(opening, Token) or not isinstance(closing, Token):
-            raise TypeError(f"braces were expected, not {children!r}")
+            raise TypeError(f"braces were expected, not {block!r}")
         bare = self.notes.behind(opening) == self.notes.above(closing) == d.NOTHING
-        if bare and not steps:
-            return d.joined(d.Mark(" {"), d.Space(), self.bare(closing))
-        short = all(isinstance(step, Tree) and step.data in _SHORT for step in steps)
-        if bare and len(steps) == 1 and short and opening.line == closing.line:
-            body = d.Nest(d.joined(d.Line(), self.of(steps[0])))
-            return d.Group(d.joined(self.opening(opening), body, d.Line(), self.bare(closing)))
-        lines = (part for step in steps for part in (d.NewLine(), self.step(step)))
+        plain = all(isinstance(step, Tree) and step.data in _SHORT for step in steps)
+        return bare and (not steps or (len(steps) == 1 and plain and opening.line == closing.line))
+
+    def _braces(self, block: Sequence[Branch], short: bool) -> d.Document:
+        """Return a block: on the line of its braces if it is `short` and fits, otherwise a line for each step."""
+        opening, *steps, closing = block
+        if not isinstance(opening, Token) or not isinstance(closing, Token):
+            raise TypeError(f"braces were expected, not {block!r}")
+        if not steps and self._is_short(block):
+            return d.joined(self.opening(opening), d.Space(), self.bare(closing))
+        gap = d.Line() if short else d.NewLine()
+        lines = (part for step in steps for part in (gap, self.step(step)))
         body = d.Nest(d.joined(*lines, self.above_closing(closing)))
-        return d.joined(self.opening(opening), body, d.NewLine(), self.bare(closing))
+        whole = d.joined(self.opening(opening), body, gap, self.bare(closing))
+        return d.Group(whole) if short else whole
+
+
+def _blocks(tree: Tree[Token]) -> Iterator[Sequence[Branch]]:
+    """Yield the blocks of an `if` and of every `else`, from `{` to `}`."""
+    _, _, then, *orelse = tree.children
+    yield _inside(then)
+    for _, first, *rest in map(_inside, orelse):
+        if isinstance(first, Tree):
+            yield from _blocks(first)
+        else:
+            yield [first, *rest]
 
 
 def _inside(branch: Branch) -> list[Branch]:
