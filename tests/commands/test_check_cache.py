@@ -13,7 +13,7 @@ from click.testing import CliRunner
 
 from skillc_dsl.keeping import keep, kept
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _checking
+from skillc_runtime.commands import _checking, _digests
 from skillc_runtime.commands.main import skillc
 
 HEAVY = ("lark", "rich", "pyoxigraph", "rdflib", "numpy", "mujoco", "jinja2", "skillc_compiler.pipeline")
@@ -40,8 +40,9 @@ impl looking of Look { run python "lab_primitives.look:Look" }
 
 @pytest.fixture
 def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a folder for this test's verdicts."""
+    """Return a folder for this test's verdicts, which nothing but the library and what it names invalidates."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setattr(_digests, "installation", lambda: ("this one",))
     return tmp_path / "cache" / "skillc" / "verdicts"
 
 
@@ -139,6 +140,25 @@ def test_writers_and_readers_at_once_see_all_or_nothing(tmp_path: Path) -> None:
     assert len(seen) == 160
     assert all(found in bodies for found in seen)
     assert [file.name for file in tmp_path.iterdir()] == ["x"]
+
+
+def test_another_state_of_the_installation_is_another_digest(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    package = tmp_path / "some_package"
+    (package / "inner").mkdir(parents=True)
+    (package / "__init__.py").touch()
+    module = package / "inner" / "module.py"
+    module.write_text("a = 1\n", encoding="utf-8")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.setattr(_digests, "PACKAGES", ("some_package",))
+    states = [tuple(_digests.installation())]
+    assert tuple(_digests.installation()) == states[0]
+    module.write_text("a = 12\n", encoding="utf-8")
+    states.append(tuple(_digests.installation()))
+    (package / "inner" / "added.py").touch()
+    states.append(tuple(_digests.installation()))
+    (tmp_path / "another_package").mkdir()
+    states.append(tuple(_digests.installation()))
+    assert len(set(states)) == 4
 
 
 def test_nothing_heavy_is_imported_for_what_is_remembered(library: Path, cache: Path) -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 from skillc_dsl.source import Source
 from skillc_runtime.commands._files import LibraryFiles
 
-_PACKAGES = ("skillc_dsl", "skillc_ontology", "skillc_compiler", "skillc_runtime", "skillc_skills")
+PACKAGES = ("skillc_dsl", "skillc_ontology", "skillc_compiler", "skillc_runtime", "skillc_skills")
 _SCENE = re.compile(r'\bscene\s+"([^"\n]+)"')
 _PYTHON = re.compile(r'\bpython\s+"([\w.]+):(\w+)"')
 
@@ -25,10 +25,19 @@ def digest_of(library: LibraryFiles, scene: Path | None) -> str:
     skillc itself with what is installed beside it.
     """
     digest = hashlib.sha256()
-    for part in (*_installation(), *_inputs(library, scene)):
+    for part in (*installation(), *_inputs(library, scene)):
         content = part if isinstance(part, bytes) else part.encode("utf-8", "surrogateescape")
         digest.update(b"%d:" % len(content) + content)
     return digest.hexdigest()
+
+
+def installation() -> Iterator[str]:
+    """Yield what tells one state of skillc, Python and the installed packages from another."""
+    yield sys.version
+    for folder in filter(os.path.isdir, sys.path):
+        yield f"{folder} {os.stat(folder).st_mtime_ns}"  # noqa: PTH116
+    for package in PACKAGES:
+        yield from sorted(_states(import_module(package).__path__[0]))
 
 
 def scenes_of(library: LibraryFiles) -> Iterator[Path]:
@@ -60,22 +69,13 @@ def _file(path: Path) -> Iterator[str | bytes]:
 def _python(sources: Iterable[Source]) -> Iterator[str]:
     """Yield what the Python that is named takes, as far as it is not skillc's own."""
     named = {target for source in sources for target in _PYTHON.findall(source.text)}
-    foreign = sorted(target for target in named if target[0].partition(".")[0] not in _PACKAGES)
+    foreign = sorted(target for target in named if target[0].partition(".")[0] not in PACKAGES)
     if not foreign:
         return
     from skillc_compiler.python_source import signature
 
     for module, name in foreign:
         yield from (module, name, repr(signature(module, name)))
-
-
-def _installation() -> Iterator[str]:
-    """Yield what tells one state of skillc, Python and the installed packages from another."""
-    yield sys.version
-    for folder in filter(os.path.isdir, sys.path):
-        yield f"{folder} {os.stat(folder).st_mtime_ns}"  # noqa: PTH116
-    for package in _PACKAGES:
-        yield from sorted(_states(import_module(package).__path__[0]))
 
 
 def _states(folder: str) -> Iterator[str]:
