@@ -24,6 +24,7 @@ def test_a_new_library_checks_and_compiles_without_a_word(tmp_path: Path) -> Non
     assert {path.rsplit("/", 1)[-1] for path in written} >= {"wipe_window.skill", "check.yml", ".gitignore"}
     checked = call(*SKILLC, "check", ".", "--scene", "cell.ttl", "--format", "concise", cwd=folder)
     assert (checked.returncode, checked.stdout) == (0, "")
+    assert call(*SKILLC, "fmt", "--check", ".", cwd=folder).returncode == 0
     compiled = call(*SKILLC, "compile", ".", "-o", "build", cwd=folder)
     assert compiled.returncode == 0, compiled.stderr
     assert "build/trees/WipeWindow.xml" in compiled.stdout.splitlines()
