@@ -11,12 +11,12 @@ from emit.unified import classical, disagreements, takes, takes_in_time, tempora
 from planning.samples import library
 from planning.test_agreement import VOCABULARY, Dice
 from skillc_compiler.library.conditions import And
+from skillc_runtime.assignment import Reach
 from skillc_runtime.commands._mission import Mission, of_task
 from skillc_runtime.planning.astar import AStar
 from skillc_runtime.planning.plan import Plan, Solved
 from skillc_runtime.planning.problem import Posed, pose_problem
 from skillc_runtime.planning.solve import solve
-from skillc_runtime.task import Reach
 
 EXAMPLES = int(os.environ.get("SKILLC_EXAMPLES", "10"))
 TASKS = ("clean_whiteboard", "clean_table")

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from skillc_ontology import catalogue
+from skillc_runtime.assignment import Assignment, Perform, Prepared, prepare
 from skillc_runtime.commands import _library
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.task import Assignment, Perform, Prepared, execute, prepare
+from skillc_runtime.task import execute
 from skillc_runtime.world.frames import pose
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene

@@ -14,12 +14,13 @@ import pytest
 
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
+from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare
 from skillc_runtime.commands import _library
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.report.summary import Choices, summarise
-from skillc_runtime.report.wiping import find_wiping
+from skillc_runtime.report.wiping import find_wipings
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.task import Assignment, Execution, Prepared, Reach, execute, prepare
+from skillc_runtime.task import Execution, execute
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
 
@@ -60,7 +61,7 @@ def test_the_goal_is_reached_and_the_surface_is_wiped_well(name: str, seed: int)
     prepared, cell = start(name, seed)
     choices = Choices()
     execution = execute(prepared, library(), cell, [choices])
-    result = summarise(execution, choices, library(), find_wiping(execution.tree, choices, cell))
+    result = summarise(execution, choices, library(), find_wipings([execution.last.tree], choices, cell))
     assert result.status == "success", result.failure
     assert result.plan_optimal
     assert result.wiping is not None

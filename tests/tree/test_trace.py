@@ -13,9 +13,9 @@ from skillc_runtime.trace import events
 from skillc_runtime.trace.events import Event, ImplementationChosen, NodeEnded, NodeStarted, Note, WorldChanged
 from skillc_runtime.trace.outcome import Outcome
 from skillc_runtime.trace.writer import TraceWriter, read_trace
-from skillc_runtime.tree.run import Run, plan_body
+from skillc_runtime.tree.run import Run
 from skillc_runtime.world.changes import SetProperty
-from tree.stage import DEVICES, FLAGS, ON, Library, Script, Stage, act, call, sel, seq, world
+from tree.stage import FLAGS, ON, Library, Script, Stage, act, call, sel, seq, world
 
 
 def heard(body: object, cell: Stage) -> tuple[Run, list[Event]]:
@@ -142,19 +142,3 @@ def test_the_outcome_is_the_tree_with_what_became_of_each_node() -> None:
     (primitive,) = outcome.children[0].children
     assert (primitive.kind, primitive.name) == ("primitive", "Scripted")
     assert msgspec.json.decode(msgspec.json.encode(outcome), type=Outcome) == outcome
-
-
-def test_a_plan_runs_step_by_step_and_stops_at_the_first_that_cannot_start() -> None:
-    cell, library = Stage(world()), Library().build()
-    steps = [("Use", {"name": "a", "device": DEVICES[0]}), ("Lit", {"name": "b", "flag": FLAGS[0]})]
-    body = plan_body(steps, library)
-    assert [step.skill for step in body.children] == ["Use", "Lit"]  # type: ignore[union-attr]
-    cell.world.commit([SetProperty(FLAGS[0], ON, False)])
-    run = Run(body, library, cell)
-    assert run.tick() is Status.FAILURE
-    assert cell.said("start") == ["start " + "a"] and run.failure is not None and run.failure.kind == "pre"
-
-
-def test_an_empty_plan_has_succeeded() -> None:
-    library = Library().build()
-    assert Run(plan_body([], library), library, Stage(world())).tick() is Status.SUCCESS

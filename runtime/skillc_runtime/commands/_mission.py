@@ -13,8 +13,8 @@ from skillc_compiler.goals import parse_call, parse_goal
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
+from skillc_runtime.assignment import Assignment, Perform, Reach
 from skillc_runtime.commands import _diagnostics, _files, _library, _scenes, _telling
-from skillc_runtime.task import Assignment, Perform, Reach
 from skillc_runtime.world.documents import SceneError
 from skillc_runtime.world.scene import load_scene
 from skillc_runtime.world.state import WorldState

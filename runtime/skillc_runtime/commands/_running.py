@@ -12,16 +12,17 @@ from types import FrameType
 
 import click
 
+from skillc_runtime.assignment import Prepared, prepare
 from skillc_runtime.commands._live import Live
 from skillc_runtime.commands._mission import Mission
 from skillc_runtime.report.result import TaskResult
 from skillc_runtime.report.summary import Choices, summarise
-from skillc_runtime.report.wiping import Wiping, find_wiping
+from skillc_runtime.report.wiping import Wiping, find_wipings
 from skillc_runtime.report.write import write_report
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.film import Film, FilmError
 from skillc_runtime.simulation.rendering import RenderingError
-from skillc_runtime.task import Execution, Prepared, execute, prepare
+from skillc_runtime.task import Execution, execute
 from skillc_runtime.trace.events import Listener
 from skillc_runtime.trace.writer import TraceWriter
 from skillc_runtime.world.frames import FrameError
@@ -71,17 +72,20 @@ def _run(prepared: Prepared, mission: Mission, cell: SimulatedCell, options: Opt
             if trace is not None:
                 listeners.append(trace)
             execution = execute(prepared, mission.library, cell, listeners, watch, lambda: interruption.wanted)
-        wiping = find_wiping(execution.tree, choices, cell)
-        result = summarise(execution, choices, mission.library, wiping)
+        trees = [attempt.tree for attempt in execution.attempts]
+        wipings = find_wipings(trees, choices, cell)
+        result = summarise(execution, choices, mission.library, wipings)
         if options.out is not None:
             live.say("writing the report")
-            _report(options.out, result, execution, wiping, film)
+            _report(options.out, result, execution, wipings, film)
     return result
 
 
-def _report(out: Path, result: TaskResult, execution: Execution, wiping: Wiping | None, film: Film | None) -> None:
+def _report(
+    out: Path, result: TaskResult, execution: Execution, wipings: tuple[Wiping, ...], film: Film | None
+) -> None:
     with _writing(out):
-        write_report(out, result, execution, wiping, _filmed(out / "film.mp4", film))
+        write_report(out, result, execution, wipings, _filmed(out / "film.mp4", film))
 
 
 def _filmed(path: Path, film: Film | None) -> str | None:

@@ -26,11 +26,11 @@ def command(
     task: str | None, scene: Path | None, goal: str | None, library: Path | None, deadline: float, as_json: bool
 ) -> None:
     """Plan for TASK (`LIBRARY:NAME`, or a shipped task), or for a goal in a scene."""
+    from skillc_runtime.assignment import Reach
     from skillc_runtime.commands import _mission, _plans
     from skillc_runtime.planning.plan import Solved, Unsolvable
     from skillc_runtime.planning.problem import GoalError
     from skillc_runtime.planning.solve import solve
-    from skillc_runtime.task import Reach
 
     if task is not None and (scene or goal or library):
         raise click.UsageError("a TASK has its own scene, goal and library; leave the options out")

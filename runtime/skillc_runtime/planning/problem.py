@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import msgspec
@@ -17,7 +18,9 @@ from skillc_compiler.library.pddl.translate import Untranslatable
 from skillc_compiler.library.reading import walk
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_runtime.planning.excluding import excluding
 from skillc_runtime.planning.initial import Initial
+from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.variables import variables
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.expressions import EvaluationError
@@ -40,8 +43,8 @@ class Posed:
     undecided: tuple[str, ...]
 
 
-def pose_problem(library: SkillLibrary, state: WorldState, goal: Condition) -> Posed:
-    """Return the problem of reaching the goal from a version of the world.
+def pose_problem(library: SkillLibrary, state: WorldState, goal: Condition, without: Sequence[Step] = ()) -> Posed:
+    """Return the problem of reaching the goal from a version of the world, by other steps than those of `without`.
 
     Individuals that no action and no goal can speak of are left out. GoalError when the goal names an unknown
     individual or says what a planner cannot reason about.
@@ -55,7 +58,7 @@ def pose_problem(library: SkillLibrary, state: WorldState, goal: Condition) -> P
     objects = tuple(Typed(name, types[iri]) for name, iri in sorted(names.items()))
     by_iri = {iri: name for name, iri in names.items()}
     ground = _ground(goal, library, domain, by_iri, state)
-    domain = with_predicates_of(ground, library, domain)
+    domain = excluding(without, with_predicates_of(ground, library, domain), by_iri, types)
     initial = Initial(domain, state, objects, names)
     problem = Problem(
         name="task",

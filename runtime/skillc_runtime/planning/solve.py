@@ -9,7 +9,7 @@ from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.planning.choose import available
 from skillc_runtime.planning.diagnose import why_unsolvable
-from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Unsolvable
+from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Step, Unsolvable
 from skillc_runtime.planning.problem import Posed, pose_problem
 from skillc_runtime.planning.validate import PlanError, validate
 from skillc_runtime.world.conditions import evaluate
@@ -24,13 +24,15 @@ def solve(
     goal: Condition,
     planners: Sequence[Planner] | None = None,
     deadline_s: float = DEADLINE_S,
+    without: Sequence[Step] = (),
 ) -> PlanResult:
     """Return a plan from a version of the world to the goal; every plan was run in the world model first.
 
+    `without` are steps that the plan may not have.
     Where a planner gives up, the next one gets the time that is left. GoalError when the goal cannot be planned for.
     """
     end = time.monotonic() + deadline_s
-    posed = pose_problem(library, state, goal)
+    posed = pose_problem(library, state, goal, without)
     if evaluate(goal, state, {}):
         return Solved(Plan((), 0.0), "proven", "the world as it is")
     failures: list[str] = []

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.skills import Implementation, Parameter, Post, Requirement, SkillLibrary
+from skillc_compiler.library.skills import Implementation, Parameter, Requirement, SkillLibrary
 from skillc_compiler.library.vocabulary import ClassType
 from skillc_runtime.planning.plan import Plan, Step
+from skillc_runtime.world.changes import Change
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.effects import changes_of
 from skillc_runtime.world.explain import explain
-from skillc_runtime.world.expressions import EvaluationError, value_of
+from skillc_runtime.world.expressions import Bindings, EvaluationError, value_of
 from skillc_runtime.world.model import WorldError, WorldModel
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
@@ -29,36 +30,63 @@ def validate(plan: Plan, library: SkillLibrary, state: WorldState, goal: Conditi
     """
     for number, step in enumerate(plan.steps, start=1):
         try:
-            state = _after(step, library, state)
-        except (EvaluationError, WorldError, _StepError) as reason:
+            state = after_step(step, library, state)
+        except PlanError as reason:
             raise PlanError(f"step {number}, {step.skill}: {reason}") from reason
+    return reached(goal, state)
+
+
+def reached(goal: Condition, state: WorldState) -> WorldState:
+    """Return the world itself where the goal holds in it; PlanError where it does not, with the facts."""
     try:
-        reached = evaluate(goal, state, {})
+        holds = evaluate(goal, state, {})
     except EvaluationError as reason:
         raise PlanError(f"the goal cannot be decided after the plan: {reason}") from reason
-    if not reached:
+    if not holds:
         raise PlanError(f"the goal does not hold after the plan: {explain(goal, state, {}, state.vocabulary)}")
     return state
 
 
-class _StepError(Exception):
-    """What is wrong with a step."""
+def after_step(step: Step, library: SkillLibrary, state: WorldState) -> WorldState:
+    """Return the world after one step; PlanError when it cannot start, or when its effects break an axiom."""
+    try:
+        _check(step, library, state)
+        return with_effects(step, library, state)
+    except (EvaluationError, WorldError) as reason:
+        raise PlanError(str(reason)) from reason
 
 
-def _after(step: Step, library: SkillLibrary, state: WorldState) -> WorldState:
+def with_effects(step: Step, library: SkillLibrary, state: WorldState) -> WorldState:
+    """Return the world with a step's effects, whether it could start or not; EvaluationError, WorldError."""
+    return WorldModel(state).commit(effects_of(step, library, state)).after
+
+
+def effects_of(step: Step, library: SkillLibrary, state: WorldState) -> tuple[Change, ...]:
+    """Return the changes that a step's posts stand for; EvaluationError when one cannot be computed."""
+    skill = library.skills[step.skill]
+    effects = [effect for post in skill.post for effect in post.effects]
+    return changes_of(effects, state, bindings_of(step, library, state))
+
+
+def bindings_of(step: Step, library: SkillLibrary, state: WorldState) -> Bindings:
+    """Return what the skill's parameters stand for in a step: what the planner bound, defaults, or None."""
+    return _bindings(library.skills[step.skill].parameters, step, state)
+
+
+def _check(step: Step, library: SkillLibrary, state: WorldState) -> None:
     skill = library.skills.get(step.skill)
     if skill is None:
-        raise _StepError("there is no such skill")
+        raise PlanError("there is no such skill")
     bindings = _bindings(skill.parameters, step, state)
     for problem in _problems(skill.parameters, (*skill.pre, *skill.hold), bindings, state):
-        raise _StepError(problem)
+        raise PlanError(problem)
     refusals: list[str] = []
     for implementation in library.implementations_of(skill.name):
-        problems = list(_implementation_problems(implementation, step, state))
-        if not problems:
-            return _applied(skill.post, bindings, state)
-        refusals.append(f"{implementation.name}: {problems[0]}")
-    raise _StepError("no implementation fits: " + "; ".join(refusals))
+        misfit = next(_implementation_problems(implementation, step, state), None)
+        if misfit is None:
+            return
+        refusals.append(f"{implementation.name}: {misfit}")
+    raise PlanError("no implementation fits: " + "; ".join(refusals))
 
 
 def _implementation_problems(implementation: Implementation, step: Step, state: WorldState) -> Iterator[str]:
@@ -96,8 +124,3 @@ def _problems(
             why = explain(requirement.condition, state, bindings, state.vocabulary)
             yield f"`{requirement.text}` does not hold: {why}"
             return
-
-
-def _applied(posts: tuple[Post, ...], bindings: dict[str, Value | None], state: WorldState) -> WorldState:
-    effects = [effect for post in posts for effect in post.effects]
-    return WorldModel(state).commit(changes_of(effects, state, bindings)).after

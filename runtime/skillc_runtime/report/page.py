@@ -21,8 +21,8 @@ class Picture:
     png: bytes
 
 
-def render(result: TaskResult, tree: Outcome | None, pictures: list[Picture], film: str | None = None) -> str:
-    """Return the page; `film` is the name of a video file beside it."""
+def render(result: TaskResult, trees: list[Outcome], pictures: list[Picture], film: str | None = None) -> str:
+    """Return the page; `trees` are those of all attempts, `film` is the name of a video file beside it."""
     environment = Environment(
         loader=PackageLoader("skillc_runtime.report", "."),
         autoescape=True,
@@ -34,7 +34,7 @@ def render(result: TaskResult, tree: Outcome | None, pictures: list[Picture], fi
         result=result,
         rows=rows(result) if result.sim_time_s else [],
         reason_of=reason_of,
-        tree=tree,
+        trees=trees,
         pictures=[(picture.title, b64encode(picture.png).decode()) for picture in pictures],
         film=film,
         speed_up=SPEED_UP,

@@ -36,6 +36,7 @@ class ChoiceResult(msgspec.Struct, frozen=True, kw_only=True):
 class WipingResult(msgspec.Struct, frozen=True, kw_only=True):
     """How well a surface was wiped, measured by the simulator and not by the controller."""
 
+    surface: str
     coverage: float
     force_command_n: float
     force_mean_n: float
@@ -48,7 +49,11 @@ class WipingResult(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
-    """How a task went. `plan_optimal` is None where nothing was planned; `failure` says why a task did not succeed."""
+    """How a task went. `plan_optimal` is None where nothing was planned; `failure` says why a task did not succeed.
+
+    `plan` is the last one; `replanned` says why each one before it was given up. `wipings` has one entry for each
+    surface that was wiped, `wiping` is the first of them.
+    """
 
     task: str
     status: Literal["success", "failure", "halted", "refused"]
@@ -64,4 +69,6 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     seed: int = 0
     variation: str = ""
     wiping: WipingResult | None = None
+    wipings: tuple[WipingResult, ...] = ()
+    replanned: tuple[str, ...] = ()
     failure: str | None = None

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Literal
 
 import numpy as np
+from msgspec import structs
 
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.primitives.primitive import Status
@@ -33,17 +34,19 @@ class Choices(dict[int, ImplementationChosen]):
 
 
 def summarise(
-    execution: Execution, choices: Mapping[int, ImplementationChosen], library: SkillLibrary, wiping: Wiping | None
+    execution: Execution, choices: Mapping[int, ImplementationChosen], library: SkillLibrary, wipings: Sequence[Wiping]
 ) -> TaskResult:
-    """Return everything that reports, tables and JSON say of a task that ran; `wiping` is the one in it, if any."""
-    cell, solved = execution.cell, execution.prepared.solved
+    """Return everything that reports, tables and JSON say of a task that ran; `wipings` are those in it."""
+    cell, last = execution.cell, execution.last
+    solved = last.prepared.planned.solved if last.prepared.planned else None
+    judged = tuple(judge(wiping, cell) for wiping in wipings)
     short = cell.world.snapshot().vocabulary.short
     robots = sorted({short(arm.robot or arm.individual) for arm in cell.facts.arms})
     wall = execution.wall_time_s
     return TaskResult(
-        task=execution.prepared.assignment.name,
+        task=last.prepared.assignment.name,
         status=ENDED[execution.status],
-        plan=_steps(execution.tree, choices, library),
+        plan=_steps(last.tree, choices, library),
         choices=_choices(choices, library),
         plan_optimal=None if solved is None else solved.optimal == "proven",
         planner="" if solved is None else solved.planner,
@@ -54,15 +57,26 @@ def summarise(
         real_time_factor=cell.now / wall if wall else 0.0,
         seed=cell.variation.seed,
         variation=_variation(cell),
-        wiping=judge(wiping, cell) if wiping else None,
+        wiping=judged[0] if judged else None,
+        wipings=judged,
+        replanned=tuple(each.why for each in execution.attempts[:-1]),
         failure=_told(execution),
     )
 
 
 def _steps(tree: Outcome, choices: Mapping[int, ImplementationChosen], library: SkillLibrary) -> tuple[StepResult, ...]:
-    """Return the calls at the top of the tree."""
-    calls = [tree] if tree.kind == "call" else [child for child in tree.children if child.kind == "call"]
+    """Return the calls at the top of the tree in the order in which they started; those that never did come last."""
+    calls = sorted(_calls(tree), key=lambda call: (call.started is None, call.started))
     return tuple(_step(call, choices.get(call.id), library) for call in calls)
+
+
+def _calls(tree: Outcome) -> Iterator[Outcome]:
+    """Yield the calls that no other call is around; one that was passed over has the status `skipped`."""
+    if tree.kind == "call":
+        yield tree
+    for child in () if tree.kind == "call" else tree.children:
+        passed_over = tree.kind == "if" and tree.status == "success" and child.status == "idle"
+        yield from _calls(structs.replace(child, status="skipped") if passed_over else child)
 
 
 def _step(call: Outcome, choice: ImplementationChosen | None, library: SkillLibrary) -> StepResult:
@@ -113,7 +127,7 @@ def _told(execution: Execution) -> str | None:
     failure = execution.failure
     if failure is None or execution.status is Status.HALTED:
         return failure.message if failure else None
-    calls = " > ".join(f"{call.name} ({call.source})" for call in _failed_calls(execution.tree))
+    calls = " > ".join(f"{call.name} ({call.source})" for call in _failed_calls(execution.last.tree))
     return f"{failure.message}\n  in {calls}" if calls else failure.message
 
 

@@ -30,13 +30,17 @@ def _plan(result: TaskResult) -> RenderableType:
     lines: list[RenderableType] = []
     for number, step in enumerate(result.plan, 1):
         arguments = ", ".join(f"{name}: {value}" for name, value in step.arguments.items())
-        how = f"{step.implementation}: {reason_of(step)}" if step.implementation else "did not start"
+        how = f"{step.implementation}: {reason_of(step)}" if step.implementation else _not_run(step)
         lines += [
             Text.assemble(f"{number} {step.skill:<16}", (f"{step.status:<9}", STYLES.get(step.status, "")), how),
             Padding(Text(arguments, style="dim"), (0, 0, 0, 4)),
         ]
     lines += [Text(f"  {each.skill:<25}{each.implementation}: {reason_of(each)}") for each in result.choices]
     return Group(*lines)
+
+
+def _not_run(step: StepResult) -> str:
+    return "achieved already" if step.status == "skipped" else "did not start"
 
 
 def reason_of(taken: StepResult | ChoiceResult) -> str:
@@ -62,7 +66,8 @@ def rows(result: TaskResult) -> list[tuple[str, str]]:
         *planned,
         ("robot", f"{result.robot}, controller {result.controller}"),
         ("reality", f"{result.variation} (seed {result.seed})"),
-        *(_wiping_rows(result.wiping) if result.wiping else []),
+        *(("planned anew", why) for why in result.replanned),
+        *(row for wiping in result.wipings for row in _wiping_rows(wiping, len(result.wipings) > 1)),
         ("time", f"{result.sim_time_s:.1f} s simulated in {result.wall_time_s:.1f} s"),
         ("speed", f"{result.real_time_factor:.1f} x real time"),
     ]
@@ -73,9 +78,10 @@ def _plan_words(result: TaskResult) -> str:
     return f"{len(result.plan)} steps by {result.planner}, {quality}"
 
 
-def _wiping_rows(wiping: WipingResult) -> list[tuple[str, str]]:
+def _wiping_rows(wiping: WipingResult, one_of_several: bool) -> list[tuple[str, str]]:
     share = wiping.force_rmse_n / wiping.force_command_n
     return [
+        *([("surface", wiping.surface)] if one_of_several else []),
         ("coverage", f"{wiping.coverage:.1%}"),
         ("force", f"{wiping.force_mean_n:.2f} N mean of {wiping.force_command_n:g} N"),
         ("force RMSE", f"{wiping.force_rmse_n:.2f} N, {share:.1%}"),

@@ -1,8 +1,8 @@
-"""Finds the wiping in a run and judges it."""
+"""Finds the wiping in a task and judges it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from skillc_runtime.report.result import WipingResult
@@ -30,10 +30,12 @@ class Wiping:
     end: float
 
 
-def find_wiping(tree: Outcome, choices: Mapping[int, ImplementationChosen], cell: SimulatedCell) -> Wiping | None:
-    """Return the last call about a surface and a tool below which, pushing, a path was followed to its end."""
-    state, found = cell.world.snapshot(), None
-    for node in _nodes(tree):
+def find_wipings(
+    trees: Iterable[Outcome], choices: Mapping[int, ImplementationChosen], cell: SimulatedCell
+) -> tuple[Wiping, ...]:
+    """Return for each surface the last call about it and a tool in which, pushing, a path was followed to the end."""
+    state, found = cell.world.snapshot(), dict[str, Wiping]()
+    for node in (node for tree in trees for node in _nodes(tree)):
         individuals = _individuals(choices.get(node.id), state)
         surfaces = [each for each in individuals if state.is_a(each, SURFACE)]
         tools = [each for each in individuals if state.is_a(each, TOOL)]
@@ -41,8 +43,8 @@ def find_wiping(tree: Outcome, choices: Mapping[int, ImplementationChosen], cell
         for _, path in _done(node, choices, PATH_SKILL):
             if surfaces and tools and pushes and path.started is not None and path.ended is not None:
                 force, began = float(pushes[-1].split()[0]), node.started or 0.0
-                found = Wiping(surfaces[0], tools[0], force, began, path.started, path.ended)
-    return found
+                found[surfaces[0]] = Wiping(surfaces[0], tools[0], force, began, path.started, path.ended)
+    return tuple(found.values())
 
 
 def described(wiping: Wiping, cell: SimulatedCell) -> Wiped:
@@ -57,6 +59,7 @@ def judge(wiping: Wiping, cell: SimulatedCell) -> WipingResult:
     recording = cell.recording(wiping.tool).between(wiping.began, wiping.end)
     metrics = wiping_metrics(recording, wiping.start, wiping.end, described(wiping, cell))
     return WipingResult(
+        surface=cell.world.snapshot().vocabulary.short(wiping.surface),
         coverage=metrics.coverage,
         force_command_n=metrics.force_command_n,
         force_mean_n=metrics.force_mean_n,

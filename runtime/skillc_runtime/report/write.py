@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import msgspec
@@ -18,11 +19,12 @@ from skillc_runtime.task import Execution
 
 
 def write_report(
-    directory: Path, result: TaskResult, execution: Execution, wiping: Wiping | None, film: str | None
+    directory: Path, result: TaskResult, execution: Execution, wipings: Sequence[Wiping], film: str | None
 ) -> None:
     """Write report.html and result.json; OSError when the folder cannot be written to."""
-    pictures = pictures_of(wiping, execution.cell) if wiping else []
-    _write(directory / "report.html", page.render(result, execution.tree, pictures, film).encode())
+    pictures = [picture for wiping in wipings for picture in pictures_of(wiping, execution.cell)]
+    trees = [attempt.tree for attempt in execution.attempts]
+    _write(directory / "report.html", page.render(result, trees, pictures, film).encode())
     _write(directory / "result.json", msgspec.json.format(msgspec.json.encode(result), indent=2) + b"\n")
 
 
@@ -38,7 +40,8 @@ def pictures_of(wiping: Wiping, cell: SimulatedCell) -> list[Picture]:
     )
     path = path_figure(wiped.extent, coverage(window, wiped).dose > 0, *paths)
     force = force_figure(recording.time[::5], recording.force[::5], wiped.force_command_n, (wiping.start, wiping.end))
-    return [Picture("Path and coverage", path), Picture("Force", force)]
+    name = cell.world.snapshot().vocabulary.short(wiping.surface)
+    return [Picture(f"{name}: path and coverage", path), Picture(f"{name}: force", force)]
 
 
 def _write(path: Path, content: bytes) -> None:

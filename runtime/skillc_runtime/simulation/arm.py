@@ -44,7 +44,7 @@ class SimulatedArm:
         joints = [j for j in range(model.njnt) if model.joint(j).name.startswith(part(name, ""))]
         first, count = int(model.jnt_dofadr[joints[0]]), len(joints)
         q_first = int(model.jnt_qposadr[joints[0]])
-        actuator = next(a for a in range(model.nu) if model.actuator_trnid[a, 0] == joints[0])
+        actuator = _actuator_of(joints[0], model)
         self._dofs = slice(first, first + count)
         self._q, self._dq = data.qpos[q_first : q_first + count], data.qvel[self._dofs]
         self._bias, self._feedforward = data.qfrc_bias[self._dofs], data.qfrc_applied[self._dofs]
@@ -184,6 +184,12 @@ def _wrist(facts: ArmFacts, gripper: str | None, model: Any, data: Any) -> Wrist
     if not facts.force_torque or gripper is None:
         return None
     return Wrist(model, data, gripper, facts.sheet.number("forceTorqueTime"))
+
+
+def _actuator_of(joint: int, model: Any) -> int:
+    """Return the actuator that moves a joint; those of tendons count tendons where others count joints."""
+    on_joints = model.actuator_trntype == mujoco.mjtTrn.mjTRN_JOINT
+    return int(np.flatnonzero(on_joints & (model.actuator_trnid[:, 0] == joint))[0])
 
 
 def _root_body(model: Any, body: int, prefix: str) -> int:

@@ -65,7 +65,8 @@ class SimulatedCell:
     @property
     def at_rest(self) -> bool:
         """Whether nothing moves or pushes any more."""
-        return all(device.at_rest for device in (*self._drivers.values(), *self._bases.values()))
+        arms = all(arm.at_rest for arm in self._drivers.values())
+        return arms and all(base.at_rest for base in self._bases.values())
 
     @property
     def period_s(self) -> float:

@@ -43,6 +43,12 @@ class PlanMade(_Event, tag="plan-made", frozen=True, kw_only=True):
     steps: tuple[PlanStep, ...]
 
 
+class Replanned(_Event, tag="replanned", frozen=True, kw_only=True):
+    """What was planned failed or no longer leads to the goal; the plan that follows replaces it."""
+
+    reason: str
+
+
 class NodeStarted(_Event, tag="node-started", frozen=True, kw_only=True):
     """A node of the tree starts; `parent` is the id of the node above it, 0 at the root."""
 
@@ -116,6 +122,7 @@ class TaskEnded(_Event, tag="task-ended", frozen=True, kw_only=True):
 Event: TypeAlias = (
     TaskStarted
     | PlanMade
+    | Replanned
     | NodeStarted
     | NodeEnded
     | ImplementationChosen

@@ -8,7 +8,9 @@ import msgspec
 
 from skillc_compiler.library.vocabulary import Position
 
-FailureKind: TypeAlias = Literal["pre", "hold", "post", "inference", "lock", "timeout", "body", "error", "halted"]
+FailureKind: TypeAlias = Literal[
+    "pre", "hold", "post", "inference", "lock", "timeout", "body", "plan", "error", "halted"
+]
 Stage: TypeAlias = Literal["argument", "inference", "pre", "hold", "lock", "start", "run"]
 
 _KIND_OF_STAGE: dict[Stage, FailureKind] = {

@@ -20,9 +20,9 @@ class Context:
     `time` is the cell's clock. `emit` is None when nobody listens, and then no event is built.
     """
 
-    __slots__ = ("_ids", "_snapshot", "cell", "emit", "library", "locks", "now", "paused_s", "state", "time")
+    __slots__ = ("_snapshot", "cell", "emit", "last_id", "library", "locks", "now", "paused_s", "state", "time")
 
-    def __init__(self, library: SkillLibrary, cell: Cell, emit: Listener | None, locks: Locks) -> None:
+    def __init__(self, library: SkillLibrary, cell: Cell, emit: Listener | None, locks: Locks, ids: int = 0) -> None:
         self.library = library
         self.cell = cell
         self.emit = emit
@@ -30,14 +30,14 @@ class Context:
         self.paused_s = 0.0
         self.time = self.now = 0.0
         self.state: WorldState
-        self._ids = 0
+        self.last_id = ids
         self._snapshot = cell.world.snapshot
         self.begin_tick()
 
     def next_id(self) -> int:
-        """Return a number no other node of the run has; the first is 1."""
-        self._ids += 1
-        return self._ids
+        """Return a number no other node of the run has."""
+        self.last_id += 1
+        return self.last_id
 
     def begin_tick(self) -> None:
         """Take the time and the newest snapshot."""

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Sequence
 
 from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Individual
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.robots.cell import Cell
 from skillc_runtime.trace.events import Listener, Paused, Resumed
@@ -29,24 +27,8 @@ from skillc_runtime.world.model import ChangeEvent
 _ALIVE = (RUNNING, Status.IDLE)
 
 
-def plan_body(steps: Iterable[tuple[str, Mapping[str, str]]], library: SkillLibrary) -> tree.Sequence:
-    """Return a plan, skills with individuals by parameter name, as a body: one call after the other."""
-    calls = tuple(
-        tree.Call(
-            skill=skill,
-            implementation=None,
-            arguments={name: Individual(iri) for name, iri in arguments.items()},
-            out=None,
-            source=library.skills[skill].source,
-        )
-        for skill, arguments in steps
-    )
-    source = calls[0].source if calls else Position(path=library.name, line=1, column=1)
-    return tree.Sequence(children=calls, reactive=False, source=source)
-
-
 class Run:
-    """Runs a body of a task: its own, that of a plan (`plan_body`), or a single call.
+    """Runs a body of a task: its own, that of a plan, or a single call.
 
     `status` is IDLE before the first tick, RUNNING, and at the end SUCCESS, FAILURE or HALTED; `failure` says why.
     What scoped skills set up outside any `with` is undone when the run ends. `problems` are those of the listeners.
@@ -59,10 +41,14 @@ class Run:
         cell: Cell,
         listeners: Sequence[Listener] = (),
         locks: Locks | None = None,
+        nodes_before: int = 0,
     ) -> None:
-        """Ground the body; nothing starts. Runs on the same devices share `locks`."""
+        """Ground the body; nothing starts.
+
+        Runs on the same devices share `locks`; runs that are told of together number their nodes one after the other.
+        """
         self._listeners = Listeners(listeners)
-        self._context = Context(library, cell, self._listeners if listeners else None, locks or Locks())
+        self._context = Context(library, cell, self._listeners if listeners else None, locks or Locks(), nodes_before)
         self._undo = Undo()
         self._unlisten = cell.world.listen(self._tell_world) if listeners else None
         self._root = build(body, self._context, Enclosing(self._undo))
@@ -75,6 +61,11 @@ class Run:
     def paused(self) -> bool:
         """Whether the run holds still."""
         return self._paused_at is not None
+
+    @property
+    def last_node(self) -> int:
+        """The number of the last node."""
+        return self._context.last_id
 
     @property
     def outcome(self) -> Outcome:

@@ -1,0 +1,77 @@
+"""A plan as a body: calls in the arrangement of its steps, each skipped where what it would achieve holds already."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TypeVar, assert_never
+
+import msgspec
+
+from skillc_compiler.library import tree
+from skillc_compiler.library.conditions import And, Condition, Expression, Individual, Not, Variable
+from skillc_compiler.library.reading import free_variables
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.planning.plan import Plan, Step
+from skillc_runtime.plans.order import Arrangement, InOrder, Together
+
+S = TypeVar("S", bound=msgspec.Struct)
+
+
+def plan_body(plan: Plan, arrangement: Arrangement, library: SkillLibrary) -> tree.Node:
+    """Return the body that runs the steps of a plan in an arrangement of them."""
+    if not plan.steps:
+        return tree.Sequence(children=(), reactive=False, source=Position(path=library.name, line=1, column=1))
+    return _body(arrangement, plan.steps, library)
+
+
+def achieved(step: Step, library: SkillLibrary) -> Condition | None:
+    """Return the condition that a step achieves all it is for; None for one that says nothing of that kind."""
+    individuals = {name: Individual(iri) for name, iri in step.arguments.items()}
+    posts = library.skills[step.skill].post
+    if not posts or any(free_variables(post.condition) - individuals.keys() for post in posts):
+        return None
+    return And(tuple(_grounded(post.condition, individuals) for post in posts))
+
+
+def _body(arrangement: Arrangement, steps: tuple[Step, ...], library: SkillLibrary) -> tree.Node:
+    match arrangement:
+        case int():
+            return _step(steps[arrangement], library)
+        case InOrder(parts):
+            children = tuple(_body(part, steps, library) for part in parts)
+            return tree.Sequence(children=children, reactive=False, source=children[0].source)
+        case Together(parts):
+            children = tuple(_body(part, steps, library) for part in parts)
+            return tree.Parallel(policy="all", children=children, source=children[0].source)
+        case _:
+            assert_never(arrangement)
+
+
+def _step(step: Step, library: SkillLibrary) -> tree.Node:
+    skill = library.skills[step.skill]
+    arguments: dict[str, Expression] = {name: Individual(iri) for name, iri in step.arguments.items()}
+    call = tree.Call(skill=skill.name, implementation=None, arguments=arguments, out=None, source=skill.source)
+    done = achieved(step, library)
+    if done is None:
+        return call
+    text = " and ".join(post.text for post in skill.post)
+    return tree.If(condition=Not(done), text=f"not ({text})", then=call, orelse=None, source=skill.source)
+
+
+def _grounded(item: S, individuals: Mapping[str, Individual]) -> S:
+    """Return a condition or expression with individuals in the place of variables."""
+    changed = {name: _replaced(getattr(item, name), individuals) for name in item.__struct_fields__}
+    return msgspec.structs.replace(item, **changed)
+
+
+def _replaced(value: object, individuals: Mapping[str, Individual]) -> object:
+    match value:
+        case Variable(name=name):
+            return individuals.get(name, value)
+        case msgspec.Struct():
+            return _grounded(value, individuals)
+        case tuple():
+            return tuple(_replaced(each, individuals) for each in value)
+        case _:
+            return value

@@ -1,0 +1,106 @@
+"""A depot where robots carry crates: a library, a world, and a cell in which every step takes as long as it says."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+
+from skillc_compiler.goals import parse_goal
+from skillc_compiler.library.conditions import Condition
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare
+from skillc_runtime.commands import _library
+from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.task import Execution, execute
+from skillc_runtime.trace.events import Event
+from skillc_runtime.world.changes import AddIndividual, AddRelation
+from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.state import WorldState
+
+LAB = "http://example.org/lab#"
+SKIROS, SKILLC = "http://rvmi.aau.dk/ontologies/skiros.owl#", "https://w3id.org/skillc/core#"
+AT, CONTAIN = SKIROS + "at", SKIROS + "contain"
+
+
+@cache
+def library() -> SkillLibrary:
+    outcome = _library.compile_library(_library.find(Path(__file__).with_name("depot.skill")))
+    assert outcome.ok, outcome.diagnostics
+    return outcome.value
+
+
+def iri(name: str) -> str:
+    return LAB + name
+
+
+def contain(holder: str, held: str) -> AddRelation:
+    return AddRelation(iri(holder), CONTAIN, iri(held))
+
+
+def world(robots: dict[str, str], crates: dict[str, str], places: str = "a b c d") -> WorldState:
+    """Return robots and crates by the places where they are."""
+    changes = [AddIndividual(iri(name), (SKIROS + "Location",)) for name in places.split()]
+    changes += [AddIndividual(iri(name), (SKILLC + "MobileRobot",)) for name in robots]
+    changes += [AddIndividual(iri(name), (SKIROS + "Product",)) for name in crates]
+    facts = [AddRelation(iri(name), AT, iri(place)) for name, place in robots.items()]
+    facts += [contain(place, name) for name, place in crates.items()]
+    return WorldState.empty(library().vocabulary).changed([*changes, *facts])
+
+
+def goal(text: str, state: WorldState) -> Condition:
+    individuals = {each: sorted(state.types(each)) for each in state.individuals}
+    outcome = parse_goal(text, library().vocabulary, individuals, {**state.vocabulary.prefixes, "lab": LAB})
+    assert outcome.value is not None, outcome.diagnostics
+    return outcome.value
+
+
+@dataclass
+class Depot:
+    """The cell; `meanwhile` happens once, when its time has come; `fails` says which start of which step fails."""
+
+    world: WorldModel
+    meanwhile: dict[float, Callable[[WorldModel], object]] = field(default_factory=dict)
+    fails: Callable[[str, int], bool] = lambda step, number: False
+    now: float = 0.0
+    at_rest: bool = True
+    log: list[str] = field(default_factory=list)
+
+    def advance(self, seconds: float) -> None:
+        """Let time pass."""
+        self.now += seconds
+        for time in [time for time in self.meanwhile if time <= self.now]:
+            self.meanwhile.pop(time)(self.world)
+
+
+class Scripted(Primitive):
+    """A step that takes its time, and fails in the end where the depot says so."""
+
+    def __init__(self, cell: Depot, *, robot: str, **others: str) -> None:
+        super().__init__(cell)  # type: ignore[arg-type]
+        self._depot = cell
+        named = {name: value.removeprefix(LAB) for name, value in others.items()}
+        words = (named[key] for key in ("crate", "from", "to") if key in named)
+        self._name = " ".join((robot.removeprefix(LAB), *words))
+        self._lasts = 2.0 if "crate" in named else 5.0
+
+    def start(self) -> None:
+        self._depot.log.append(self._name)
+        self._fails = self._depot.fails(self._name, self._depot.log.count(self._name))
+        self._ends = self._depot.now + self._lasts
+
+    def tick(self) -> Status:
+        if self._depot.now < self._ends:
+            return Status.RUNNING
+        if self._fails:
+            raise SkillFailure(f"{self._name} failed")
+        return Status.SUCCESS
+
+
+def carried_out(text: str, state: WorldState, depot: Depot, events: list[Event] | None = None) -> Execution:
+    """Plan for a goal and carry it out."""
+    prepared = prepare(Assignment("carry", state, Reach(goal(text, state))), library())
+    assert isinstance(prepared, Prepared), prepared
+    listeners = [] if events is None else [events.append]
+    return execute(prepared, library(), depot, listeners)  # type: ignore[arg-type]

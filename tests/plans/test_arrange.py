@@ -1,0 +1,89 @@
+"""Steps keep the order they need: every arrangement respects it, and every sequence of it leaves the same world."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from random import Random
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from plans.depot import goal, library, world
+from skillc_runtime.planning.plan import Plan, Solved
+from skillc_runtime.planning.solve import solve
+from skillc_runtime.planning.validate import validate
+from skillc_runtime.plans.order import Arrangement, InOrder, Together, arrange, arranged, numbers
+
+PAIRS = st.integers(2, 9).flatmap(
+    lambda count: st.tuples(st.just(count), st.sets(st.sampled_from([(a, b) for b in range(count) for a in range(b)])))
+)
+
+
+def in_order(arrangement: Arrangement) -> set[tuple[int, int]]:
+    """Return the pairs of which an arrangement keeps the order."""
+    if isinstance(arrangement, int):
+        return set()
+    within = set().union(*(in_order(part) for part in arrangement.parts)) if arrangement.parts else set()
+    if isinstance(arrangement, Together):
+        return within
+    parts = [numbers(part) for part in arrangement.parts]
+    return within | {(a, b) for i, one in enumerate(parts) for other in parts[i + 1 :] for a in one for b in other}
+
+
+def closed(pairs: set[tuple[int, int]]) -> set[tuple[int, int]]:
+    while more := {(a, d) for a, b in pairs for c, d in pairs if b == c} - pairs:
+        pairs = pairs | more
+    return pairs
+
+
+@given(PAIRS)
+def test_an_arrangement_has_every_step_once_and_keeps_the_order(drawn: tuple[int, set[tuple[int, int]]]) -> None:
+    count, pairs = drawn[0], closed(drawn[1])
+    found = arrange(range(count), lambda one, other: (one, other) in pairs)
+    assert sorted(numbers(found)) == list(range(count))
+    assert pairs <= in_order(found)
+
+
+def test_series_and_parallel_parts_are_found_exactly() -> None:
+    chains = {(0, 1), (2, 3), (3, 4), (2, 4)}
+    assert arrange(range(5), lambda a, b: (a, b) in chains) == Together((InOrder((0, 1)), InOrder((2, 3, 4))))
+    diamond = closed({(0, 1), (0, 2), (1, 3), (2, 3)})
+    assert arrange(range(4), lambda a, b: (a, b) in diamond) == InOrder((0, Together((1, 2)), 3))
+    assert arrange((), lambda a, b: False) == InOrder(())
+
+
+def a_sequence(arrangement: Arrangement, random: Random) -> list[int]:
+    """Return one of the sequences that an arrangement allows."""
+    if isinstance(arrangement, int):
+        return [arrangement]
+    parts = [a_sequence(part, random) for part in arrangement.parts]
+    if isinstance(arrangement, InOrder):
+        return [number for part in parts for number in part]
+    merged: list[int] = []
+    while any(parts):
+        merged.append(random.choice([part for part in parts if part]).pop(0))
+    return merged
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_every_sequence_that_an_arrangement_allows_leaves_the_same_world(seed: int) -> None:
+    random = Random(seed)
+    robots = {name: random.choice("abcd") for name in ("carl", "dora", "emil")}
+    crates = {name: random.choice("abcd") for name in ("crate", "box", "bin")}
+    state = world(robots, crates)
+    wanted = " and ".join(f"lab:{random.choice('abcd')} contain lab:{name}" for name in crates)
+    aim = goal(wanted, state)
+    answer = solve(library(), state, aim)
+    assert isinstance(answer, Solved), answer
+    arrangement = arranged(answer.plan, library(), state)
+    first = validate(answer.plan, library(), state, aim)
+    for _ in range(20):
+        steps = tuple(answer.plan.steps[number] for number in a_sequence(arrangement, random))
+        last = validate(Plan(steps, 0.0), library(), state, aim)
+        assert all(set(last.facts[iri].pairs()) == set(first.facts[iri].pairs()) for iri in first.facts)
+    own = [each.arguments["robot"] for each in answer.plan.steps]
+    ordered = in_order(arrangement)
+    assert all((i, j) in ordered for i, j in pairwise(range(len(own))) if own[i] == own[j]), (
+        "a robot does one at a time"
+    )

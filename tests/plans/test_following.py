@@ -1,0 +1,95 @@
+"""Plans are followed while they lead to the goal, side by side where they can be, and replaced when they do not."""
+
+from __future__ import annotations
+
+from plans.depot import LAB, Depot, carried_out, contain, iri, world
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.task import MOST_ATTEMPTS
+from skillc_runtime.trace.events import Event, Replanned
+from skillc_runtime.world.changes import RemoveIndividual
+from skillc_runtime.world.model import WorldModel
+
+MOVED = "lab:b contain lab:crate"
+
+
+def one_robot() -> tuple[WorldModel, object]:
+    state = world({"carl": "c"}, {"crate": "a"})
+    return WorldModel(state), state
+
+
+def test_robots_that_do_not_need_each_other_work_at_the_same_time() -> None:
+    state = world({"carl": "c", "dora": "d"}, {"crate": "c", "box": "d"})
+    depot = Depot(WorldModel(state))
+    execution = carried_out("lab:a contain lab:crate and lab:b contain lab:box", state, depot)
+    assert execution.status is Status.SUCCESS, execution.failure
+    assert [step for step in depot.log if "carl" in step] == ["carl crate c", "carl c a", "carl crate a"]
+    assert [step for step in depot.log if "dora" in step] == ["dora box d", "dora d b", "dora box b"]
+    assert depot.now < 9.2, "two ways of 9 s each, side by side"
+
+
+def test_a_thing_that_is_moved_away_meanwhile_is_looked_for_where_it_is_now() -> None:
+    model, state = one_robot()
+    depot = Depot(model, {2.0: lambda world: world.commit([contain("d", "crate")], "somebody")})
+    events: list[Event] = []
+    execution = carried_out(MOVED, state, depot, events)
+    assert execution.status is Status.SUCCESS
+    assert len(execution.attempts) == 2 and execution.attempts[0].status is Status.HALTED
+    (replanned,) = [event for event in events if isinstance(event, Replanned)]
+    assert "Load can no longer follow" in replanned.reason and "contain" in replanned.reason
+    assert depot.now < 2.0 + 5.0 + 2.0 + 5.0 + 2.0 + 0.2, "it does not drive on to the old place first"
+
+
+def test_what_somebody_else_has_done_already_is_not_done_again() -> None:
+    state = world({"carl": "c"}, {"crate": "a", "box": "a"})
+    depot = Depot(WorldModel(state), {1.0: lambda world: world.commit([contain("b", "box")], "somebody")})
+    execution = carried_out("lab:b contain lab:crate and lab:b contain lab:box", state, depot)
+    assert execution.status is Status.SUCCESS
+    assert not any("box" in step for step in depot.log)
+
+
+def test_a_goal_that_becomes_true_by_itself_ends_the_task() -> None:
+    model, state = one_robot()
+    depot = Depot(model, {1.0: lambda world: world.commit([contain("b", "crate")], "somebody")})
+    execution = carried_out(MOVED, state, depot)
+    assert execution.status is Status.SUCCESS and execution.failure is None
+    assert depot.now < 5.2 and not any("crate" in step for step in depot.log)
+
+
+def test_a_step_that_failed_is_left_to_somebody_else() -> None:
+    state = world({"carl": "a", "dora": "d"}, {"crate": "a"})
+    depot = Depot(WorldModel(state), fails=lambda step, number: step.startswith("carl crate a"))
+    execution = carried_out(MOVED, state, depot)
+    assert execution.status is Status.SUCCESS
+    assert depot.log[0] == "carl crate a" and "dora crate a" in depot.log
+
+
+def test_a_step_that_failed_is_tried_again_where_there_is_no_other_way() -> None:
+    model, state = one_robot()
+    depot = Depot(model, fails=lambda step, number: "crate a" in step and number == 1)
+    execution = carried_out(MOVED, state, depot)
+    assert execution.status is Status.SUCCESS and len(execution.attempts) == 2
+    assert execution.attempts[0].why == "carl crate a failed"
+
+
+def test_a_step_that_always_fails_is_given_up() -> None:
+    model, state = one_robot()
+    depot = Depot(model, fails=lambda step, number: "crate a" in step)
+    execution = carried_out(MOVED, state, depot)
+    assert execution.status is Status.FAILURE and len(execution.attempts) == MOST_ATTEMPTS
+    assert execution.failure is not None and execution.failure.kind == "plan"
+    assert "carl crate a failed; there is no other way: the task was tried" in execution.failure.message
+
+
+def test_a_goal_that_has_become_unreachable_is_told_with_the_reason() -> None:
+    model, state = one_robot()
+    depot = Depot(model, {1.0: lambda world: world.commit([RemoveIndividual(iri("crate"))], "somebody")})
+    execution = carried_out(MOVED, state, depot)
+    assert execution.status is Status.FAILURE
+    assert execution.failure is not None and "lab:crate" in execution.failure.message.replace(LAB, "lab:")
+
+
+def test_a_goal_that_holds_already_needs_no_step() -> None:
+    state = world({"carl": "c"}, {"crate": "b"})
+    depot = Depot(WorldModel(state))
+    assert carried_out(MOVED, state, depot).status is Status.SUCCESS
+    assert depot.log == []

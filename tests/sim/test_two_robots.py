@@ -1,0 +1,79 @@
+"""Two robots in one cell work at the same time, from one goal; where they need the same tool, one hands it over."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_ontology import catalogue
+from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare
+from skillc_runtime.commands import _library
+from skillc_runtime.report.result import TaskResult
+from skillc_runtime.report.summary import Choices, summarise
+from skillc_runtime.report.wiping import find_wipings
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.task import execute
+from skillc_runtime.trace.outcome import Outcome
+from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.scene import load_scene
+
+pytestmark = pytest.mark.sim
+
+
+@cache
+def library() -> SkillLibrary:
+    outcome = _library.compile_library(_library.find(_library.SHIPPED / "wiping"))
+    assert outcome.ok
+    return outcome.value
+
+
+def run(name: str) -> tuple[TaskResult, dict[str, list[Outcome]]]:
+    """Run a task; return its result and the steps of each robot's arm in order."""
+    task = library().tasks[name]
+    assert task.scene is not None and task.goal is not None
+    state = load_scene(catalogue.scene(task.scene), library().vocabulary)
+    prepared = prepare(Assignment(name, state, Reach(task.goal)), library())
+    assert isinstance(prepared, Prepared), prepared
+    cell, choices = SimulatedCell(WorldModel(state), seed=4), Choices()
+    execution = execute(prepared, library(), cell, [choices])
+    result = summarise(execution, choices, library(), find_wipings([execution.last.tree], choices, cell))
+    steps: dict[str, list[Outcome]] = {}
+    for call in sorted(calls_in(execution.last.tree), key=lambda each: each.started or 0.0):
+        steps.setdefault(choices[call.id].bindings["arm"], []).append(call)
+    return result, steps
+
+
+def calls_in(tree: Outcome) -> list[Outcome]:
+    return [tree] if tree.kind == "call" else [call for child in tree.children for call in calls_in(child)]
+
+
+def names(calls: list[Outcome]) -> list[str]:
+    return [call.name.partition("[")[0] for call in calls]
+
+
+def check_quality(result: TaskResult) -> None:
+    assert result.status == "success", result.failure
+    assert {wiping.surface for wiping in result.wipings} == {"lab:Whiteboard-1", "lab:Table-1"}
+    for wiping in result.wipings:
+        assert wiping.coverage >= 0.99 and wiping.contact_lost <= 0.01
+        assert abs(wiping.force_mean_n / wiping.force_command_n - 1) <= 0.1
+
+
+def test_each_with_a_tool_of_its_own_they_work_side_by_side() -> None:
+    result, steps = run("clean_both")
+    check_quality(result)
+    lasted = [sum((call.ended or 0.0) - (call.started or 0.0) for call in calls) for calls in steps.values()]
+    assert len(lasted) == 2
+    assert result.sim_time_s < max(lasted) + 1.0
+
+
+def test_a_shared_tool_is_put_down_by_one_before_the_other_takes_it() -> None:
+    result, steps = run("share_eraser")
+    check_quality(result)
+    fixed, mobile = steps["lab:Iiwa-1"], steps["lab:Ur5e-1"]
+    assert names(fixed) == ["Pick", "Wipe", "Place"]
+    assert names(mobile) == ["Drive", "Pick", "Drive", "Wipe"]
+    assert mobile[0].started == fixed[0].started, "it drives up while the other still wipes"
+    assert (mobile[1].started or 0.0) >= (fixed[-1].ended or 0.0)
