@@ -98,6 +98,17 @@ def no_object(token: Token, predicate: Token) -> Complaint:
     return Complaint(f"{shown(predicate)} has no value", help_)
 
 
+def goes_on() -> Complaint:
+    """Say that a `.` ends a statement that goes on behind it."""
+    return Complaint("this `.` ends the statement, and it goes on behind", "`;` says more of the same thing", ";")
+
+
+def surplus(token: Token, before: Token) -> Complaint:
+    """Say that a term stands where a mark should."""
+    help_ = "a `;` stands before the next thing that is said"
+    return Complaint(f"{shown(token)} stands behind {shown(before)}", help_, ";")
+
+
 def missing_mark(mark: str, after: Token) -> Complaint:
     """Say that a mark is missing."""
     what = {".": "ends the statement", ";": "says more of the same thing", ",": "gives another value"}

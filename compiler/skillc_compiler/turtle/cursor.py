@@ -47,6 +47,18 @@ class Cursor:
         return self.peek.kind in ("name", "iri") and self._tokens[self._next + 1].is_word("a")
 
     @property
+    def at_lost_prefix(self) -> bool:
+        """Whether a prefix and its IRI come next, as in a declaration, and nothing else."""
+        first, second, third = (*self._tokens[self._next : self._next + 3], self.peek, self.peek)[:3]
+        return first.kind == "name" and first.text.endswith(":") and second.kind == "iri" and third.is_mark(".")
+
+    @property
+    def at_value_of_name(self) -> bool:
+        """Whether a name and a value come next, as in the middle of a statement."""
+        after = self._tokens[min(self._next + 1, len(self._tokens) - 1)]
+        return self.peek.kind == "name" and after.kind in ("number", "text") and self.before.is_mark(".")
+
+    @property
     def at_new_line(self) -> bool:
         """Whether the next token stands on a later line than the one taken last."""
         return self.lines.line(self.peek.start) > self.lines.line(self.before.start)
@@ -84,10 +96,14 @@ class Cursor:
 
     def put(self, mark: str) -> None:
         """Say that a mark is missing here, and put it before the next token."""
+        self.complain_missing(mark)
+        self.insert(mark)
+
+    def complain_missing(self, mark: str) -> None:
+        """Say that a mark is missing here."""
         before = self.before
         place = self.lines.place(before.end, before.end)
         self.complain(before, missing_mark(mark, before), Edit(place, f" {mark}", f"insert `{mark}`"))
-        self.insert(mark)
 
     def insert(self, mark: str) -> None:
         """Put a mark before the next token."""

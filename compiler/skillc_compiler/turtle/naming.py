@@ -35,6 +35,11 @@ class Naming:
         elif iri is not None:
             self._base = iri
 
+    def give_up(self, name: Token | None) -> None:
+        """Take in that a declaration was not understood; without a name it is that of the base."""
+        if name is not None:
+            self.prefixes.give_up(name.text.removesuffix(":"))
+
     def iri(self, token: Token) -> str | None:
         """Return the IRI of an `iri` or a `name`; None where it is wrong, which is told."""
         return self._name(token) if token.kind == "name" else self._iri(token)
@@ -60,6 +65,8 @@ class Naming:
         """Remember a name in what was not understood."""
         if token.kind == "name":
             prefix, local = local_of(token)
+            if not local:
+                self.prefixes.give_up(prefix)
             self.doubtful.add((self.prefixes.base_of(prefix, token) or "") + local)
 
     def _text(self, token: Token) -> Found:

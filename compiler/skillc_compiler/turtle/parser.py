@@ -12,8 +12,8 @@ from skillc_compiler.turtle.complaints import Complaint
 from skillc_compiler.turtle.cursor import Cursor, extent
 from skillc_compiler.turtle.naming import Found, Naming
 from skillc_compiler.turtle.other_formats import other_format
-from skillc_compiler.turtle.problems import Place, Problem
-from skillc_compiler.turtle.statements import Extent, Node, Parsed, Statement
+from skillc_compiler.turtle.problems import Edit, Place, Problem
+from skillc_compiler.turtle.statements import SOMETHING, Extent, Node, Parsed, Statement
 from skillc_compiler.turtle.terms import RDF, RDF_TYPE, local_of, named
 from skillc_compiler.turtle.tokens import Token
 
@@ -47,17 +47,44 @@ class _Parser:
         while not cursor.at_end:
             if cursor.at_directive:
                 self._directive()
-                continue
-            if cursor.peek.is_mark(";,."):
-                cursor.complain(cursor.peek, complaints.no_subject(cursor.peek))
-                cursor.take()
+            elif cursor.at_lost_prefix:
+                self._lost_prefix()
+            elif cursor.peek.is_mark("."):
+                cursor.complain(cursor.peek, complaints.no_subject(cursor.take()))
             else:
-                subject = self._subject()
-            self._pairs(*subject)
-            self._end()
+                subject = self._sentence(subject)
         problems = sorted((*cursor.problems, *self._naming.prefixes.problems()), key=lambda problem: problem.place)
         prefixes = self._naming.prefixes.all()
         return Parsed(tuple(self._statements), prefixes, tuple(problems), frozenset(self._naming.doubtful))
+
+    def _sentence(self, before: Found) -> Found:
+        """Read what is said of a subject and return it; what goes on with the subject before says more of that."""
+        cursor = self._cursor
+        if cursor.peek.is_mark(";,"):
+            cursor.complain(cursor.peek, complaints.no_subject(cursor.take()))
+            if before[0] is None:
+                self._leave_line()
+                return before
+            subject = before
+        elif cursor.at_value_of_name and before[0] is not None:
+            cursor.complain(cursor.before, complaints.goes_on())
+            subject = before
+        else:
+            subject = self._subject()
+            if subject[0] is None and cursor.at_lost_prefix:
+                return before
+        self._pairs(*subject)
+        self._end()
+        return subject
+
+    def _lost_prefix(self) -> None:
+        """Read the declaration of a prefix that has lost its first word."""
+        name = self._cursor.take()
+        place = self._cursor.lines.place(name.start, name.start)
+        edit = Edit(place, "@prefix ", "insert `@prefix`")
+        self._cursor.complain(name, Complaint("before this `@prefix` is missing"), edit)
+        self._naming.declare(name, self._cursor.take())
+        self._cursor.take_mark(".")
 
     def _directive(self) -> None:
         keyword = self._cursor.take()
@@ -69,6 +96,7 @@ class _Parser:
         if name is not None and (name.kind != "name" or local_of(name)[1]):
             self._not_understood(name, complaints.no_declaration(word.lower()))
         elif self._cursor.peek.kind != "iri":
+            self._naming.give_up(name)
             self._not_understood(self._cursor.peek, complaints.no_declaration(word.lower()))
         else:
             self._naming.declare(name, self._cursor.take())
@@ -76,10 +104,23 @@ class _Parser:
 
     def _end_directive(self, keyword: Token) -> None:
         if keyword.kind == "at":
-            self._end()
+            self._end_line()
         elif self._cursor.peek.is_mark("."):
             complaint = Complaint(f"`{keyword.text}` is not ended by a `.`", "delete the `.`")
             self._cursor.complain(self._cursor.take(), complaint)
+
+    def _end_line(self) -> None:
+        """Take the `.` of a declaration; if there is none, leave out what else stands on its line."""
+        if self._cursor.take_mark("."):
+            return
+        self._cursor.complain_missing(".")
+        self._leave_line()
+
+    def _leave_line(self) -> None:
+        """Leave out what else stands on the line."""
+        cursor = self._cursor
+        while not (cursor.at_new_line or cursor.at_end or cursor.at_directive or cursor.at_lost_prefix):
+            self._naming.doubt(cursor.take())
 
     def _not_understood(self, token: Token, complaint: Complaint) -> None:
         """Complain and go on behind the sentence."""
@@ -102,6 +143,7 @@ class _Parser:
         self._cursor.complain(token, complaint)
         if not token.is_word("a"):
             self._cursor.take()
+        self._naming.doubtful.add(SOMETHING)
         return None, extent(token)
 
     def _pairs(self, subject: Node | None, at: Extent) -> None:
@@ -114,10 +156,11 @@ class _Parser:
                 if cursor.at_typed_thing and not self._depth:
                     cursor.replace_last(".", complaints.new_statement(cursor.peek))
                 continue
-            statements, told = len(self._statements), len(cursor.problems)
-            if not self._pair(subject, at):
-                self._leave_out(statements)
-            if len(cursor.problems) > told and isinstance(subject, ox.NamedNode):
+            statements = len(self._statements)
+            if self._pair(subject, at):
+                continue
+            self._leave_out(statements)
+            if isinstance(subject, ox.NamedNode):
                 self._naming.doubtful.add(subject.value)
 
     def _says_nothing(self, subject: Node | None) -> bool:
@@ -171,11 +214,20 @@ class _Parser:
             self._cursor.complain(self._cursor.take(), Complaint("this `)` closes nothing", "delete it"))
         elif before.kind == "number" and token.is_unit:
             self._cursor.complain(self._cursor.take(), complaints.number_with_unit(before, token))
+        elif self._is_surplus():
+            self._cursor.complain(token, complaints.surplus(self._cursor.take(), before))
+            self._naming.doubt(token)
+            self._cursor.insert(";")
         else:
             mark = self._missing()
             self._cursor.put(mark)
             return mark != ","
         return self._cursor.peek.is_mark(";.],") or self._mended()
+
+    def _is_surplus(self) -> bool:
+        """Whether a term stands in the place of the `;` before another pair on the same line."""
+        cursor = self._cursor
+        return cursor.terms_ahead(most=3) == 3 and not cursor.at_new_line and not cursor.at_typed_thing
 
     def _missing(self) -> str:
         """Return the mark that is missing here, judged by how many terms come before the next one."""

@@ -30,17 +30,24 @@ class Prefixes:
         self._lines = lines
         self._declared: dict[str, _Declared] = {}
         self._used: set[str] = set()
+        self._lost: set[str] = set()
         self._missing: dict[str, list[Token]] = {}
 
     def declare(self, name: Token, value: Token, iri: str) -> None:
         """Take in a declaration; a namespace that is nearly that of the vocabulary so called is taken for it."""
         self._declared[name.text.removesuffix(":")] = _Declared(self._meant(name, iri), iri, name, value)
 
+    def give_up(self, prefix: str) -> None:
+        """Take in that a prefix is declared and nobody understands how."""
+        self._lost.add(prefix)
+
     def base_of(self, prefix: str, token: Token) -> str | None:
         """Return what a prefix stands for where it is used; None if it was not declared, which is told in the end."""
         if prefix in self._declared:
             self._used.add(prefix)
             return self._declared[prefix].iri
+        if prefix in self._lost:
+            return self._known.get(prefix)
         self._missing.setdefault(prefix, []).append(token)
         near = self._near(prefix)
         return self._known.get(prefix) or (self._declared[near].iri if near else None)

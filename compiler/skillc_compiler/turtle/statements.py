@@ -14,6 +14,10 @@ Node: TypeAlias = ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple
 """A term; `ox.Triple` only for the type checker, Turtle 1.1 has no statements about statements."""
 
 
+SOMETHING = ""
+"""Stands for what a statement is about that has lost its beginning."""
+
+
 class Extent(NamedTuple):
     """A stretch of text by the offsets where it begins and ends."""
 
@@ -52,7 +56,7 @@ class Statement(NamedTuple):
 class Parsed:
     """The statements of a text in order, its prefixes, and what is wrong with it.
 
-    `doubtful` are the IRIs of which more may be said than was understood.
+    `doubtful` are the IRIs of which more may be said than was understood, with SOMETHING where one is not known.
     """
 
     statements: tuple[Statement, ...]

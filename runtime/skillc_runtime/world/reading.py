@@ -10,7 +10,7 @@ import pyoxigraph as ox
 
 from skillc_compiler.library.vocabulary import THING, Vocabulary
 from skillc_compiler.turtle.problems import Edit, Note, Place, Problem
-from skillc_compiler.turtle.statements import Statement
+from skillc_compiler.turtle.statements import SOMETHING, Statement
 from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.individuals import iri_of
@@ -60,7 +60,9 @@ class Reader:
                 self._unknown_predicate(each, subject)
         for (subject, property_), found in values.items():
             yield from self._property(subject, property_, found)
-        self.problems += (self._unknown_individual(iri, places) for iri, places in self._missing.items())
+        if SOMETHING not in self._doubtful:
+            missing = {iri: uses for iri, uses in self._missing.items() if iri not in self._doubtful}
+            self.problems += (self._unknown_individual(iri, uses) for iri, uses in missing.items())
 
     def _individuals(self) -> Iterator[Written]:
         for each in self._types:
@@ -148,7 +150,7 @@ class Reader:
             for one, classes in self._classes.items()
             if any(self._vocabulary.is_a(cls, range_) for cls in classes for range_ in ranges)
         ]
-        near = suggest(iri, first.object_place, self._vocabulary, self._declared, fitting)
+        near = suggest(iri, first.object_place, self._vocabulary, fitting or self._declared, fitting)
         notes = [Note(use.object_place, "and here") for use in uses[1:]]
         if near.edit is not None:
             meant = next((s for one, s in self._declared.items() if self._short(one) == near.edit.text), None)
