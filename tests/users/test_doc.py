@@ -110,6 +110,7 @@ def test_a_page_shows_what_its_skill_says() -> None:
         assert words in text
     assert 'href="../terms.html#wiping-isClean">isClean</a>' in made()["skill/Wipe.html"]
     assert "Called by" in made()["skill/MoveTo.html"]
+    assert re.search(r'<a href="../skill/Push.html"><text [^>]*>with Push</text></a>', made()["skill/Wipe.html"])
 
 
 def test_another_process_writes_the_same_bytes(tmp_path: Path) -> None:

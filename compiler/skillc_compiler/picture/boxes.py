@@ -11,10 +11,11 @@ Look: TypeAlias = Literal["heading", "flow", "guard", "call", "time", "code"]
 
 @dataclass(frozen=True, slots=True)
 class Box:
-    """One box: its symbol (one character), its title, further lines, and the boxes under it."""
+    """One box: its symbol (one character), its title, further lines, the boxes under it, the skill it calls, if any."""
 
     look: Look
     symbol: str
     title: str
     lines: tuple[str, ...] = ()
     children: tuple[Box, ...] = ()
+    called: str | None = None

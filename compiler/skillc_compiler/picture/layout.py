@@ -30,6 +30,7 @@ class Placed:
     symbol: str
     title: tuple[str, ...]
     lines: tuple[str, ...]
+    called: str | None
     x: float
     y: float
     width: float
@@ -55,7 +56,7 @@ def _place(box: Box, x: float, y: float, parent: tuple[float, float] | None) -> 
     longest = max(cells(line) for line in (*title, *lines))
     width = SYMBOL + 2 * PADDING + CELL * longest
     height = 2 * PADDING + LINE * (len(title) + len(lines)) - 3
-    yield Placed(box.look, box.symbol, title, lines, x, y, width, height, parent)
+    yield Placed(box.look, box.symbol, title, lines, box.called, x, y, width, height, parent)
     knee = (x + SYMBOL / 2, y + height)
     below = y + height + GAP
     for child in box.children:

@@ -73,4 +73,4 @@ class Nodes:
         arguments = ", ".join(self.places.written(argument.span) for argument in call.arguments)
         out = f"-> {call.out.text}" if call.out else ""
         lines = tuple(line for line in (arguments, out) if line)
-        return Box("call", "▶", f"{before}{call.skill.text}{fixed}", lines, children)
+        return Box("call", "▶", f"{before}{call.skill.text}{fixed}", lines, children, call.skill.text)

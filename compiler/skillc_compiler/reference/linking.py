@@ -27,10 +27,14 @@ class Links:
     terms: frozenset[str]
     sources: frozenset[str]
 
+    def page(self, skill: str) -> str | None:
+        """Return the address of a skill's page; None where it has none."""
+        return f"{self.root}skill/{skill}.html" if skill in self.skills else None
+
     def skill(self, name: str) -> Markup:
         """Return a link to a skill."""
-        href = f"{self.root}skill/{name}.html"
-        return _link(href, name) if name in self.skills else Markup("<code>{}</code>").format(name)
+        href = self.page(name)
+        return _link(href, name) if href else Markup("<code>{}</code>").format(name)
 
     def source(self, place: Position) -> Markup:
         """Return a link to a line of a source; its name alone where the source has no page."""

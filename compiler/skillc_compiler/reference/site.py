@@ -116,7 +116,7 @@ def _tasks(contents: Contents) -> list[ShownTask]:
     shown = []
     for name, task in sorted(contents.library.tasks.items()):
         tree = declared.tasks[name]
-        picture = Markup(svg.draw(task_box(tree, declared.source(tree.span))))
+        picture = Markup(svg.draw(task_box(tree, declared.source(tree.span)), links.page))
         shown.append(ShownTask(task, prose.block(task.doc), links.source(task.source), picture))
     return shown
 

@@ -133,7 +133,7 @@ def _way(implementation: Implementation, reason: str, written: Written, links: L
         prose.line(reason),
         links.source(implementation.source),
         body.python if isinstance(body, Primitive) else "",
-        Markup(svg.draw(implementation_box(declared, source))),
+        Markup(svg.draw(implementation_box(declared, source), links.page)),
         excerpt(source, declared.span.line, declared.span.end_line),
         tuple(links.skill(name) for name in called(implementation)),
     )
