@@ -9,7 +9,7 @@ from types import TracebackType
 from rich.console import Console
 from rich.status import Status as Spinner
 
-from skillc_runtime.trace.events import Event, NodeEnded, NodeStarted, PlanMade
+from skillc_runtime.trace.events import Event, NodeEnded, NodeStarted, PlanMade, Replanned
 
 STEP_DEPTH = 2
 """Calls this deep are told of where the output is no terminal: the steps of a plan and what they call."""
@@ -21,7 +21,7 @@ class Live:
     def __init__(self, title: str, quiet: bool, real_time: bool = False) -> None:
         self._console = Console(stderr=True, highlight=False)
         self._title, self._quiet, self._real_time = title, quiet, real_time
-        self._calls: dict[int, str] = {}
+        self._calls: dict[int, tuple[str, ...]] = {0: ()}
         self._spinner: Spinner | None = None
         self._began: float | None = None
 
@@ -46,11 +46,15 @@ class Live:
 
     def __call__(self, event: Event) -> None:
         match event:
-            case NodeStarted(kind="call", node=node, name=name):
-                self._calls[node] = name
-                self._show(event.time)
-            case NodeEnded(node=node) if node in self._calls:
-                del self._calls[node]
+            case NodeStarted(node=node, parent=parent, kind=kind, name=name):
+                around = self._calls.get(parent, ())
+                self._calls[node] = (*around, name) if kind == "call" else around
+                if kind == "call":
+                    self._show(event.time, self._calls[node])
+            case NodeEnded(node=node):
+                self._calls.pop(node, None)
+            case Replanned(reason=reason):
+                self.say(f"planning anew: {reason}")
             case PlanMade(steps=steps, optimal=optimal):
                 self.say(f"{' -> '.join(step.skill for step in steps)} ({optimal})")
             case _:
@@ -62,9 +66,9 @@ class Live:
             self._began = time.monotonic() - now if self._began is None else self._began
             time.sleep(max(0.0, self._began + now - time.monotonic()))
 
-    def _show(self, now: float) -> None:
-        stack = " > ".join(self._calls.values())
+    def _show(self, now: float, calls: tuple[str, ...]) -> None:
+        stack = " > ".join(calls)
         if self._spinner is not None:
             self._spinner.update(f"{self._title}  {now:6.1f} s  {stack}")
-        elif not self._quiet and len(self._calls) <= STEP_DEPTH:
+        elif not self._quiet and len(calls) <= STEP_DEPTH:
             self._console.print(f"{self._title}  {now:6.1f} s  {stack}", soft_wrap=True)
