@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import sys
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Iterator
 
 import pytest
 import pytest_lsp
@@ -46,6 +46,9 @@ async def client(lsp_client: LanguageClient, tmp_path_factory: pytest.TempPathFa
 
 
 @pytest.fixture
-def desk(client: LanguageClient, tmp_path_factory: pytest.TempPathFactory) -> Desk:
-    """Return a desk with a folder of its own."""
-    return Desk(client, tmp_path_factory.mktemp(f"library_{next(_numbers)}"))
+def desk(client: LanguageClient, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Desk]:
+    """Return a desk with a folder of its own, and tidy it in the end."""
+    desk = Desk(client, tmp_path_factory.mktemp(f"library_{next(_numbers)}"))
+    yield desk
+    for name in list(desk.versions):
+        desk.close(name)

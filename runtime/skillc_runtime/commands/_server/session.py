@@ -10,6 +10,7 @@ from typing import Protocol
 from lsprotocol import types
 from pygls.lsp.server import LanguageServer
 
+from skillc_compiler.assist.analysis import Analysis
 from skillc_runtime.commands._server import problems
 from skillc_runtime.commands._server.files import Root
 from skillc_runtime.commands._server.libraries import Libraries, View
@@ -27,6 +28,14 @@ class At:
     lines: Lines
     line: int
     column: int
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """What the editor was told of last, and of which files."""
+
+    analysis: Analysis
+    uris: frozenset[str]
 
 
 class Placed(Protocol):
@@ -50,7 +59,7 @@ class Session:
     server: LanguageServer
     over: bool = False
     libraries: Libraries = field(default_factory=Libraries)
-    _published: dict[Root, frozenset[str]] = field(default_factory=dict)
+    _told: dict[Root, Told] = field(default_factory=dict)
     _waiting: asyncio.TimerHandle | None = None
 
     @property
@@ -76,19 +85,19 @@ class Session:
         self._waiting = asyncio.get_running_loop().call_later(PAUSE_S, self.publish)
 
     def publish(self) -> None:
-        """Tell the editor of all problems now; those of files that are no longer open or have none are taken back."""
-        told: dict[Root, frozenset[str]] = {}
-        for root, analysis in self.libraries.known():
+        """Tell the editor of the problems of every library that has changed; those that are gone are taken back."""
+        known = dict(self.libraries.known())
+        for root in self._told.keys() - known.keys():
+            self._take_back(self._told.pop(root).uris)
+        for root, analysis in known.items():
+            before = self._told.get(root)
+            if before is not None and before.analysis is analysis:
+                continue
             by_uri = problems.by_uri(self.libraries, root, analysis, self.encoding)
-            for uri in self._published.get(root, frozenset()) - by_uri.keys():
-                self._tell(uri, [])
+            self._take_back(before.uris - by_uri.keys() if before else frozenset())
             for uri, found in by_uri.items():
                 self._tell(uri, found)
-            told[root] = frozenset(uri for uri, found in by_uri.items() if found)
-        for root in self._published.keys() - told.keys():
-            for uri in self._published[root]:
-                self._tell(uri, [])
-        self._published = told
+            self._told[root] = Told(analysis, frozenset(by_uri))
 
     def folders(self, uris: list[str]) -> None:
         """Note which folders are open in the editor."""
@@ -97,6 +106,10 @@ class Session:
     def file(self, uri: str) -> Path:
         """Return the file of a URI."""
         return self.libraries.file(uri)
+
+    def _take_back(self, uris: frozenset[str]) -> None:
+        for uri in uris:
+            self._tell(uri, [])
 
     def _tell(self, uri: str, found: list[types.Diagnostic]) -> None:
         self.server.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, found))
