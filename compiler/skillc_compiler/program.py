@@ -139,6 +139,35 @@ class Let:
     value: Valued
 
 
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """The measured contact force, compared with a limit."""
+
+    operator: OneOf["==", "!=", "<", "<=", ">", ">="]
+    limit: Valued
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """What a `verify` line speaks of: one of a skill, a condition and the measured force."""
+
+    span: Span
+    skill: str | None = None
+    clause: Clause | None = None
+    measured: Measured | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Property:
+    """A `verify` line; `text` is the line as written."""
+
+    pattern: OneOf["never", "outside", "before", "eventually"]
+    first: Event
+    second: Event | None
+    text: str
+    span: Span
+
+
 Body: TypeAlias = Step | s.RunPython | None
 
 
@@ -156,7 +185,7 @@ class Implementation:
     prefer: float
     lets: tuple[Let, ...]
     body: Body
-    verify: tuple[str, ...]
+    verify: tuple[Property, ...]
     name_span: Span
     span: Span
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Call, Clause, Implementation, Program, Requirement, Skill, Step, Valued
+from skillc_compiler.program import Call, Clause, Event, Implementation, Program, Requirement, Skill, Step, Valued
 
 
 def steps(program: Program) -> Iterator[Step]:
@@ -41,12 +41,22 @@ def clauses(program: Program) -> Iterator[Clause]:
     """Yield every condition and its parts."""
     for requirement in requirements(program):
         yield from clauses_in(requirement.clause)
+    for event in events(program):
+        if event.clause:
+            yield from clauses_in(event.clause)
     for task in program.tasks:
         if task.goal:
             yield from clauses_in(task.goal)
     for step in steps(program):
         for clause in step.clauses:
             yield from clauses_in(clause)
+
+
+def events(program: Program) -> Iterator[Event]:
+    """Yield what all `verify` lines speak of."""
+    for implementation in program.implementations:
+        for line in implementation.verify:
+            yield from (event for event in (line.first, line.second) if event)
 
 
 def clauses_in(clause: Clause) -> Iterator[Clause]:
@@ -64,6 +74,9 @@ def values(program: Program) -> Iterator[Valued]:
         yield from _all(*implementation_values(implementation))
     for clause in clauses(program):
         yield from _all(*clause.values)
+    for event in events(program):
+        if event.measured:
+            yield from _all(event.measured.limit)
     for step in steps(program):
         yield from _all(*step_values(step))
 

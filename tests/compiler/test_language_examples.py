@@ -4,6 +4,7 @@ import pytest
 from shipped import shelf, vocabulary
 
 from skillc_compiler.library.conditions import Holds, Not, Retract
+from skillc_compiler.library.properties import Runs
 from skillc_compiler.library.skills import Compound, SkillLibrary
 from skillc_compiler.library.tree import Call, Parallel, Sequence, With
 from skillc_compiler.library.vocabulary import Position
@@ -159,7 +160,12 @@ def test_a_body_becomes_a_tree() -> None:
     assert isinstance(yielding, With) and isinstance(yielding.child, With)
     assert isinstance(yielding.child.child, Parallel) and yielding.child.child.policy == "lead"
     assert isinstance(last, Call) and last.skill == "Inspect"
-    assert wipe.verify[0] == "verify never Push outside Compliance"
+    assert wipe.verify[0].text == "verify never Push outside Compliance"
+    assert [(each.pattern, each.first, each.second) for each in wipe.verify[:3]] == [
+        ("outside", Runs("Push"), Runs("Compliance")),
+        ("before", Runs("Push"), Runs("Inspect")),
+        ("eventually", Runs("Push"), Runs("Inspect")),
+    ]
     assert isinstance(outcome.tasks["wipe_table"].body, Call)
 
 

@@ -199,6 +199,9 @@ def _read_in(implementation: Implementation) -> set[str]:
     if isinstance(implementation.body, Step):
         for step in within(implementation.body):
             read |= _names(step_values(step), step.clauses)
+    for event in (event for line in implementation.verify for event in (line.first, line.second) if event):
+        limits = (event.measured.limit,) if event.measured else ()
+        read |= _names(limits, (event.clause,) if event.clause else ())
     return read
 
 

@@ -8,6 +8,7 @@ from typing import TypeAlias
 import msgspec
 
 from skillc_compiler.library.conditions import Condition, Effect, Expression
+from skillc_compiler.library.properties import Property
 from skillc_compiler.library.tree import Node
 from skillc_compiler.library.vocabulary import Position, ValueType, Vocabulary
 
@@ -103,7 +104,7 @@ class Implementation(msgspec.Struct, frozen=True, kw_only=True):
     prefer: float = 0.0
     lets: tuple[Let, ...] = ()
     body: ImplementationBody
-    verify: tuple[str, ...] = ()
+    verify: tuple[Property, ...] = ()
     source: Position
 
 

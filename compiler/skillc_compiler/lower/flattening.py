@@ -9,6 +9,7 @@ from skillc_compiler.library.conditions import Expression
 from skillc_compiler.lower.bodies import node
 from skillc_compiler.lower.effects import NoEffect, effects
 from skillc_compiler.lower.folding import fold, fold_condition, number
+from skillc_compiler.lower.properties import verified
 from skillc_compiler.program import (
     Implementation,
     Parameter,
@@ -58,7 +59,7 @@ def implementation(understood: Implementation, body: Step | s.RunPython) -> libr
         prefer=understood.prefer,
         lets=tuple(library.Let(let.name.text, fold(let.value.meaning)) for let in understood.lets),
         body=library.Compound(node(body)) if isinstance(body, Step) else library.Primitive(body.target.value),
-        verify=understood.verify,
+        verify=tuple(verified(each) for each in understood.verify),
         source=position(understood.span),
     )
 

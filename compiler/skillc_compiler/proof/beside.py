@@ -5,7 +5,7 @@ from __future__ import annotations
 from skillc_compiler.program import Call, Step
 from skillc_compiler.proof.binding import bound, required
 from skillc_compiler.proof.learning import learned
-from skillc_compiler.proof.run import Around, Run
+from skillc_compiler.proof.run import Around, Run, mixed
 from skillc_compiler.proof.sorts import Sorts
 from skillc_compiler.proof.state import State
 from skillc_compiler.proof.trail import Ends, Way, Ways, add, after, few, merge
@@ -23,9 +23,10 @@ def parallel(run: Run, node: Step, kind: str, ways: Ways, around: Around) -> End
     ends, place = Ends(), around if kind != "par any" else around.catching()
     for number, child in enumerate(node.children):
         others = _others(writes, number)
-        one = run.explore(
-            run, child, after(run.sorts, ways, others), _place(kind, number, around, place).beside(others)
-        )
+        siblings = _siblings(node, number)
+        entry = mixed(run, after(run.sorts, ways, others), *siblings)
+        one = run.explore(run, child, entry, _place(kind, number, around, place).beside(others))
+        one = Ends(*(dict(mixed(run, each, *siblings)) for each in (one.success, one.failure, one.broken)))
         if number == 0 or kind != "par lead":
             merge(ends.success, one.success)
             ends.add_failures(one)
@@ -49,7 +50,9 @@ def _all(run: Run, node: Step, writes: list[frozenset[Write]], ways: Ways, aroun
         ends.success = {}
         for state, way in before.items():
             entry = _not_yet(forgotten(run.sorts, state, others), others, known)
-            one = run.explore(run, child, {entry: way}, around.beside(others))
+            siblings = _siblings(node, number)
+            one = run.explore(run, child, mixed(run, {entry: way}, *siblings), around.beside(others))
+            one.success = dict(mixed(run, one.success, *siblings))
             for found, found_way in one.success.items():
                 add(ends.success, _with_facts_of(found, state), found_way)
             ends.add_failures(one)
@@ -74,13 +77,17 @@ def _not_yet(state: State, others: frozenset[Write], known: frozenset[str]) -> S
     return state.replaced(assigned=state.assigned - (assigned - known))
 
 
+def _siblings(node: Step, number: int) -> tuple[Step, ...]:
+    return (*node.children[:number], *node.children[number + 1 :])
+
+
 def _others(writes: list[frozenset[Write]], number: int) -> frozenset[Write]:
     return frozenset().union(*(each for index, each in enumerate(writes) if index != number))
 
 
 def stopped(run: Run, node: Step, ways: Ways, around: Around) -> dict[State, Way]:
     """Return what is known after a node was halted, wherever it was."""
-    return after(run.sorts, ways, run.writes(node) | around.disturbing)
+    return after(run.sorts, mixed(run, ways, node), run.writes(node) | around.disturbing)
 
 
 def reactive_sequence(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
@@ -90,7 +97,7 @@ def reactive_sequence(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
     ends = Ends(success={**after(run.sorts, ways, together), **ways})
     for number, child in enumerate(node.children):
         earlier = frozenset[Write]().union(*writes[:number])
-        one = run.explore(run, child, few(ends.success), around.beside(earlier))
+        one = run.explore(run, child, few(mixed(run, ends.success, *node.children)), around.beside(earlier))
         ends.success = one.success
         ends.add_failures(one)
     ends.success = _lasting(run, node, writes, after(run.sorts, ends.success, together))
@@ -136,7 +143,8 @@ def reactive_selector(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
     for number, child in enumerate(node.children):
         earlier = frozenset[Write]().union(*writes[:number])
         last = number == len(node.children) - 1
-        one = run.explore(run, child, few(entry), (around if last else around.catching()).beside(earlier))
+        entry = few(mixed(run, entry, *node.children))
+        one = run.explore(run, child, entry, (around if last else around.catching()).beside(earlier))
         merge(ends.success, one.success)
         ends.failure, ends.broken = one.failure, one.broken
         entry = {**after(run.sorts, one.failed, together), **one.failed}

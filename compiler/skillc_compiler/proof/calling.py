@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.program import Call, Requirement
@@ -82,14 +83,14 @@ def _watched(
         if breaks:
             yield "broken", after[1], trails[1]
         return
-    name = call.skill.name
-    begun = run.watch.starts(run, before, trails[0], name)
-    for outcome, monitors in run.watch.inside(call, begun).items():
+    name, started = call.skill.name, replace(trails[0], event=f"`{call.skill.name}` starts")
+    begun = run.watch.starts(run, before, started, name)
+    for outcome, monitors in run.watch.inside(call, before, begun, started).items():
+        good = outcome == "success"
+        ended, trail = (after[0], trails[0]) if good else (after[1], trails[1])
         for monitor in sorted(monitors):
-            good = outcome == "success"
-            ended, trail = (after[0], trails[0]) if good else (after[1], trails[1])
-            ended = ended.replaced(monitor=monitor)
-            yield outcome, run.watch.succeeds(run, ended, trail, name) if good else ended, trail
+            told = ended.replaced(monitor=monitor)
+            yield outcome, run.watch.succeeds(run, told, name) if good else told, trail
 
 
 def _started(run: Run, binding: Binding, conditions: Sequence[Requirement], state: State) -> State:

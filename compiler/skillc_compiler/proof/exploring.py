@@ -13,7 +13,7 @@ from skillc_compiler.proof.opening import requirements_of
 from skillc_compiler.proof.run import Around, Run, disturbed, in_order
 from skillc_compiler.proof.state import State
 from skillc_compiler.proof.summaries import key_of
-from skillc_compiler.proof.trail import LIMIT, Ends, Way, Ways, add, few, merge, step
+from skillc_compiler.proof.trail import LIMIT, Ends, Way, Ways, add, decided, few, merge, step
 from skillc_compiler.proof.undoing import scoped
 from skillc_compiler.proof.waiting import awaited
 from skillc_compiler.proof.writing import applied
@@ -27,7 +27,7 @@ def explore(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
     run.reached.add(id(node))
     if len(ways) > LIMIT and run.crowded is None:
         run.crowded = node.written.span
-    ways = few(ways)
+    ways = few(ways) if run.watch is None else run.watch.sees(run, few(ways))
     run.read(node.values, node.clauses, ways)
     written = node.written
     match written:
@@ -130,9 +130,8 @@ def _leaf(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
             case s.CheckNode(text=text, span=span):
                 for holds, ended in ((True, ends.success), (False, ends.failure)):
                     known = learned(run.sorts, state, node.clauses[0].meaning, holds)
-                    event = f"`{text}` {'holds' if holds else 'does not hold'}"
                     if known is not None:
-                        add(ended, disturbed(run, known, around), step(way, span, event))
+                        add(ended, disturbed(run, known, around), decided(state, known, way, span, text, holds))
             case s.WaitUntil():
                 run.watch_holds(state, way)
                 add(ends.success, disturbed(run, awaited(run.sorts, state, node.clauses[0].meaning), around), way)
@@ -149,8 +148,7 @@ def _if(run: Run, node: Step, written: s.If, ways: Ways, around: Around) -> Ends
         for state, way in ways.items():
             known = learned(run.sorts, state, node.clauses[0].meaning, holds)
             if known is not None:
-                place = node.clauses[0].span
-                add(chosen, known, step(way, place, f"`{written.text}` {'holds' if holds else 'does not hold'}"))
+                add(chosen, known, decided(state, known, way, node.clauses[0].span, written.text, holds))
         one = in_order(run, branch, chosen, around)
         merge(ends.success, one.success)
         ends.add_failures(one)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from skillc_compiler.program import Call, Implementation, Parameter, Requirement, Step
+from skillc_compiler.program import Call, Implementation, Parameter, Property, Requirement, Step
 from skillc_compiler.proof.trail import Way
 from skillc_dsl.source import Span
 
@@ -101,8 +101,15 @@ class Unreleased:
 class Violated:
     """A `verify` property that some execution breaks."""
 
-    index: int
+    property: Property
     way: Way
+
+
+@dataclass(frozen=True, slots=True)
+class Unverified:
+    """A `verify` property that is neither proved nor refuted."""
+
+    property: Property
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,5 +130,6 @@ Finding: TypeAlias = (
     | Clash
     | Unreleased
     | Violated
+    | Unverified
     | Undecided
 )

@@ -116,7 +116,7 @@ def _asked(run: Run, node: Step, ways: Ways) -> tuple[dict[State, Way], dict[Sta
             known = learned(run.sorts, state, node.clauses[0].meaning, holds)
             if known is not None:
                 event = "the loop goes on" if holds else "the loop ends"
-                add(target, known, step(way, node.clauses[0].span, event))
+                add(target, known, way if known is state else step(way, node.clauses[0].span, event))
     return found
 
 

@@ -32,7 +32,7 @@ def name_sorts(sorts: Sorts, of: Implementation | Task) -> None:
 
 def opening(sorts: Sorts, implementation: Implementation) -> State:
     """Return the state at the start: preconditions and holds hold, numbers are in range, lets are named."""
-    state = _unconditional(implementation)
+    state = unconditional(implementation)
     for requirement in _required(implementation):
         state = learned(sorts, state, requirement.clause.meaning) or state
     return state
@@ -40,7 +40,7 @@ def opening(sorts: Sorts, implementation: Implementation) -> State:
 
 def can_start(sorts: Sorts, implementation: Implementation) -> bool:
     """Whether the preconditions and holds do not contradict each other."""
-    state: State | None = _unconditional(implementation)
+    state: State | None = unconditional(implementation)
     for requirement in _required(implementation):
         state = learned(sorts, state, requirement.clause.meaning) if state is not None else None
     return state is not None
@@ -50,7 +50,8 @@ def _required(implementation: Implementation) -> tuple[Requirement, ...]:
     return (*requirements_of(implementation, "pre"), *requirements_of(implementation, "hold"))
 
 
-def _unconditional(implementation: Implementation) -> State:
+def unconditional(implementation: Implementation) -> State:
+    """Return what is known without the conditions: numbers are in range, lets are named."""
     return State(facts=dict(_ranges(implementation.parameters)), same=_lets(implementation))
 
 

@@ -12,15 +12,16 @@ from skillc_compiler.proof import ending
 from skillc_compiler.proof.axioms import Axioms, axioms_of
 from skillc_compiler.proof.clashes import clashes
 from skillc_compiler.proof.exploring import explore
-from skillc_compiler.proof.findings import Finding, Undecided, Unreachable
+from skillc_compiler.proof.findings import Finding, Undecided, Unreachable, Unverified, Violated
 from skillc_compiler.proof.lasting import lasting
-from skillc_compiler.proof.opening import can_start, name_sorts, opening
+from skillc_compiler.proof.opening import can_start, name_sorts, opening, unconditional
 from skillc_compiler.proof.run import NOWHERE, Around, Run
 from skillc_compiler.proof.sorts import Sorts
 from skillc_compiler.proof.state import State
 from skillc_compiler.proof.summaries import Summaries
 from skillc_compiler.proof.truth import truth
 from skillc_compiler.proof.understood import Understood
+from skillc_compiler.proof.watching import PropertyWatch
 from skillc_compiler.proof.writing import Write
 from skillc_compiler.walk import within
 from skillc_dsl import syntax as s
@@ -82,7 +83,7 @@ class Prover:
         if task.body is not None:
             run = self.run(None, task.body)
             run.explore(run, task.body, {State(): None}, Around())
-            findings = self._kept(task, task.body, run, State(), ())
+            findings = self._kept(task, task.body, run, ())
             self.done[f"task {task.name}"] = Proof(task, findings)
 
     def run(self, implementation: Implementation | None, body: Step) -> Run:
@@ -96,25 +97,42 @@ class Prover:
             stable |= {p.name for p in implementation.parameters if p.direction != "out"}
             outputs |= {p.name for p in implementation.parameters if p.direction == "out"}
         return Run(
-            self.program, sorts, self.summaries, implementation, self.leaks, explore,
-            frozenset(outputs) - stable, frozenset(stable),
-        )  # fmt: skip
+            program=self.program,
+            sorts=sorts,
+            summaries=self.summaries,
+            implementation=implementation,
+            leaks=self.leaks,
+            explore=explore,
+            outputs=frozenset(outputs) - stable,
+            stable=frozenset(stable),
+        )
 
     def _implementation(self, implementation: Implementation, body: Step) -> Proof:
         run = self.run(implementation, body)
         start = opening(run.sorts, implementation)
         ends = explore(run, body, {start: None}, Around())
         told = tuple(ending.findings(run, implementation, start, ends))
+        told = (*told, *self._verified(implementation, body, start))
         leaks = ending.leaks(run, implementation, start, ends)
-        return Proof(implementation, self._kept(implementation, body, run, start, told), leaks)
+        return Proof(implementation, self._kept(implementation, body, run, told), leaks)
 
-    def _kept(
-        self, of: Implementation | Task, body: Step, run: Run, start: State, told: tuple[Finding, ...]
-    ) -> tuple[Finding, ...]:
+    def _verified(self, implementation: Implementation, body: Step, start: State) -> Iterator[Finding]:
+        for line in implementation.verify:
+            run = self.run(implementation, body)
+            run.watch = watch = PropertyWatch(line, self.program, self.summaries, self.run)
+            ends = explore(run, body, {start: None}, Around())
+            watch.ended(run, ends.success)
+            watch.sees(run, ends.failed)
+            if watch.broken is not None:
+                yield Violated(line, watch.broken)
+            elif watch.open_ or run.crowded is not None:
+                yield Unverified(line)
+
+    def _kept(self, of: Implementation | Task, body: Step, run: Run, told: tuple[Finding, ...]) -> tuple[Finding, ...]:
         found = [
             *run.found.values(),
             *run.unguaranteed(),
-            *unreachable(run, body, start),
+            *unreachable(run, body, unconditional(of) if isinstance(of, Implementation) else State()),
             *clashes(self.program, self.summaries, self._axioms, body),
             *lasting(of, body),
             *told,
@@ -128,7 +146,7 @@ class Prover:
 def unreachable(run: Run, node: Step, start: State) -> Iterator[Unreachable]:
     """Yield the nodes that never start, of those inside each other the outer, of those after each other the first.
 
-    A branch whose condition is decided before anything runs is told as such a condition.
+    A branch whose condition is decided whatever is required is told as such a condition.
     """
     if id(node) not in run.reached:
         yield Unreachable(node)

@@ -14,7 +14,7 @@ from skillc_compiler.proof.opening import requirements_of
 from skillc_compiler.proof.sorts import Sorts
 from skillc_compiler.proof.state import State
 from skillc_compiler.proof.summaries import Summaries, hidden
-from skillc_compiler.proof.trail import Ends, Way, Ways, length
+from skillc_compiler.proof.trail import Ends, Trail, Way, Ways, length
 from skillc_compiler.proof.truth import truth
 from skillc_compiler.proof.writing import Write, forgotten
 from skillc_compiler.walk import clauses_in, values_in
@@ -44,16 +44,24 @@ class Around:
 class Watch(Protocol):
     """Follows what happens, for a `verify` property; a state's `monitor` is what it remembers."""
 
-    def starts(self, run: Run, state: State, way: Way, skill: str) -> State:
+    def starts(self, run: Run, state: State, way: Trail, skill: str) -> State:
         """Return the state after a skill started."""
         ...
 
-    def succeeds(self, run: Run, state: State, way: Way, skill: str) -> State:
+    def succeeds(self, run: Run, state: State, skill: str) -> State:
         """Return the state after a skill succeeded."""
         ...
 
-    def inside(self, call: Call, state: State) -> Mapping[str, frozenset[tuple[int, bool]]]:
-        """Return what may be remembered after a compound skill's body, by how it ends."""
+    def inside(self, call: Call, before: State, state: State, way: Trail) -> Mapping[str, frozenset[tuple[int, bool]]]:
+        """Return what may be remembered after the body of a call, by how it ends."""
+        ...
+
+    def sees(self, run: Run, ways: Ways) -> dict[State, Way]:
+        """Return the states between two nodes."""
+        ...
+
+    def beside(self, ways: Ways, others: tuple[Step, ...]) -> dict[State, Way]:
+        """Return the states, each also as it is after what others may have done meanwhile."""
         ...
 
 
@@ -166,3 +174,8 @@ def in_order(run: Run, children: Sequence[Step], ways: Ways, around: Around) -> 
         ends.success = one.success
         ends.add_failures(one)
     return ends
+
+
+def mixed(run: Run, ways: Ways, *others: Step) -> Ways:
+    """Return the states where others run beside, as far as a watched property tells them apart."""
+    return run.watch.beside(ways, others) if run.watch is not None else ways

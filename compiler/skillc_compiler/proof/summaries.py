@@ -28,6 +28,7 @@ class Summaries:
         self._whole: dict[str, frozenset[Write]] = {}
         self._steps: dict[int, frozenset[Write]] = {}
         self._holding: dict[str, bool] = {}
+        self._names: dict[str, frozenset[str]] = {}
 
     def anything(self, implementation: Implementation) -> frozenset[Write]:
         """Return what the implementation may write before it ends in any way."""
@@ -73,15 +74,35 @@ class Summaries:
             self._steps[id(step)] = frozenset(self._of_step(step, implementation))
         return self._steps[id(step)]
 
-    def lasting(self, call: Call) -> frozenset[Write]:
-        """Return what scoped skills write that stays in place after the call, until a `with` around it ends."""
-        if call.skill is None:
+    def lasting(self, call: Call, around: tuple[str, ...] = ()) -> frozenset[Write]:
+        """Return what scoped skills write that stays in place after the call, until a `with` around it ends.
+
+        `around` names the skills whose bodies this is in.
+        """
+        if call.skill is None or call.skill.name in around:
             return NONE
         if "scoped" in call.skill.flags:
             return self.of_call(call)
         bodies = [one.body for one in candidates(self._program, call) if isinstance(one.body, Step)]
-        inner = (write for body in bodies for each in calls_in(body) for write in self.lasting(each))
+        inner = (
+            write
+            for body in bodies
+            for each in calls_in(body)
+            for write in self.lasting(each, (*around, call.skill.name))
+        )
         return seen_from(call, hidden(inner, [p.name for p in call.skill.parameters]))
+
+    def names(self, call: Call) -> frozenset[str]:
+        """Return the names of all skills that a call may run."""
+        if call.skill is None:
+            return frozenset()
+        if call.skill.name not in self._names:
+            self._names[call.skill.name] = frozenset({call.skill.name})
+            known = self._program.implementations_of.get(call.skill.name, ())
+            bodies = [one.body for one in known if isinstance(one.body, Step)]
+            inner = (self.names(each) for body in bodies for each in calls_in(body))
+            self._names[call.skill.name] = frozenset({call.skill.name}).union(*inner)
+        return self._names[call.skill.name]
 
     def may_break(self, skill: Skill) -> bool:
         """Whether some run of the skill may end because a hold broke."""

@@ -63,6 +63,11 @@ def step(way: Way, span: Span, event: str) -> Trail:
     return Trail(way, span, event, length(way) + 1)
 
 
+def decided(before: State, after: State, way: Way, span: Span, text: str, holds: bool) -> Way:
+    """Return the way after a condition was looked at; where it was known before, nothing happened."""
+    return way if after is before else step(way, span, f"`{text}` {'holds' if holds else 'does not hold'}")
+
+
 def length(way: Way) -> int:
     """Return how many steps a way has."""
     return 0 if way is None else way.length

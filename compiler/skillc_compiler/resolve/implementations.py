@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from skillc_compiler.program import Body, Implementation, Let, Parameter, Refinement, Skill
+from skillc_compiler.program import Body, Implementation, Let, Parameter, Property, Refinement, Skill
 from skillc_compiler.resolve.members import constant, duration, only, requirements
 from skillc_compiler.resolve.nodes import assignable, step
+from skillc_compiler.resolve.properties import verified
 from skillc_compiler.resolve.scope import Scope, Setting, Variable
 from skillc_compiler.resolve.skills import scopes
 from skillc_compiler.resolve.typenames import value_type
@@ -40,7 +41,7 @@ def implementation(
         prefer=prefer.value.value if prefer else 0.0,
         lets=lets,
         body=_body(setting, inner, written),
-        verify=tuple(_text(lines, m.span) for m in written.members if isinstance(m, s.Verify)),
+        verify=tuple(_verified(setting, inner, written, lines)),
         name_span=written.name.span,
         span=written.span,
     )
@@ -128,6 +129,15 @@ def _body(setting: Setting, scope: Scope, written: s.ImplementationDeclaration) 
         case [s.RunPython() as python]:
             return python
     return None
+
+
+def _verified(
+    setting: Setting, scope: Scope, written: s.ImplementationDeclaration, lines: Sequence[str]
+) -> Iterator[Property]:
+    for member in written.members:
+        if isinstance(member, s.Verify):
+            understood = verified(setting, scope, member, _text(lines, member.span))
+            yield from (understood,) if understood is not None else ()
 
 
 def _text(lines: Sequence[str], span: Span) -> str:
