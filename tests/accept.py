@@ -1,5 +1,7 @@
 """Build cases: `python tests/accept.py` rewrites what each folder of `cases/build` is expected to compile to.
 
+It also writes the table of features in the documentation anew.
+
 A case holds the `.skill` files of a library, its vocabularies in Turtle, and the artifacts below `expected/`.
 """
 
@@ -10,6 +12,7 @@ import sys
 from pathlib import Path
 
 from docs.manual import MANUAL, manual
+from matrix.table import PAGE, page
 from skillc_compiler.emit.artifacts import artifacts
 from skillc_compiler.emit.write import write
 from skillc_compiler.pipeline import compile
@@ -52,6 +55,7 @@ def main() -> None:
         write(after, case / "expected")
         changed = sorted(path for path in before.keys() | after.keys() if before.get(path) != after.get(path))
         sys.stderr.write(f"{case.name}: {', '.join(changed) or 'unchanged'}\n")
+    PAGE.write_text(page())
     MANUAL.write_text(manual(), encoding="utf-8")
 
 

@@ -32,8 +32,12 @@ class Stage:
         """Start an action; the function returned advances it by a tick."""
         raise NotImplementedError
 
+    def found(self, path: tuple[str, ...]) -> Blackboard:
+        """Return what the action that ended last under this path puts out."""
+        return {}
+
     def halt(self, path: tuple[str, ...], values: Blackboard) -> None:
-        """Halt an action that runs."""
+        """Halt an action that runs, by the values that it was started with."""
 
     def undo(self, path: tuple[str, ...], values: Blackboard) -> None:
         """Undo what a scoped skill set up."""
@@ -101,8 +105,11 @@ class Player:
     def values(self, node: Node) -> Blackboard:
         """Return what the input ports of a node read, by the names of the parameters."""
         parameters = self.reader.parameters(self._identity(node))
+        inputs = {each.get("name") for each in self.reader.models[self._identity(node)].findall("input_port")}
         found = {}
         for port, parameter in parameters.items():
+            if port not in inputs:
+                continue
             written = node.element.get(port)
             if written is not None and not written.startswith("{"):
                 found[parameter] = self._converted(node, port, written)
@@ -112,7 +119,7 @@ class Player:
 
     def _converted(self, node: Node, port: str, written: str) -> object:
         model = self.reader.models[self._identity(node)]
-        (kind,) = [each.get("type") for each in model if each.get("name") == port]
+        kind = next((each.get("type") for each in model if each.get("name") == port), None)
         return {"bool": lambda: written == "true", "double": lambda: float(written)}.get(kind or "", lambda: written)()
 
     def _identity(self, node: Node) -> str:
@@ -219,7 +226,8 @@ class Player:
         return Outcome(True) if self.stage.now >= until - 1e-9 else None
 
     def _seconds(self, node: Node) -> float:
-        return int(node.element.attrib["msec"]) / 1000
+        written = node.element.attrib["msec"]
+        return float(str(node.board[written[1:-1]] if written.startswith("{") else written)) / 1000
 
     def _always_success(self, node: Node) -> Outcome:
         return Outcome(True)
@@ -248,7 +256,11 @@ class Player:
                     inner[port] = node.board[value[1:-1]]
             else:
                 inner[port] = self._converted(node, port, value)
-        return node.children[0].tick()
+        outcome = node.children[0].tick()
+        for port, value in mapped.items():
+            if value.startswith("{") and port in inner:
+                node.board[value[1:-1]] = inner[port]
+        return outcome
 
     # nodes that a file declares
 
@@ -260,6 +272,8 @@ class Player:
                 return Outcome(holds, not holds and "hold" in path[2:3])
             case "Decorator", ("", "With", skill):
                 return self._with(node, skill)
+            case "Decorator", ("", "ForEach"):
+                return self._for_each(node)
             case "Decorator", ("", "Try" | "Invert" as word):
                 outcome = node.children[0].tick()
                 if outcome is None or outcome.hold:
@@ -270,14 +284,37 @@ class Player:
         raise NotImplementedError(path)
 
     def _action(self, node: Node, path: tuple[str, ...]) -> Outcome | None:
-        if not node.running:
-            node.state["values"] = self.values(node)
-            node.state["step"] = self.stage.action(path, self.values(node))
+        if "step" not in node.state:
+            values = node.state["values"] = self.values(node)
+            node.state["step"] = self.stage.action(path, values)
         step = node.state["step"]
         assert callable(step)
         outcome = step()
         assert outcome is None or isinstance(outcome, Outcome)
+        if outcome is not None and outcome.ok:
+            self._put_out(node, self.stage.found(path))
         return outcome
+
+    def _put_out(self, node: Node, found: Blackboard) -> None:
+        parameters = self.reader.parameters(node.element.tag)
+        for port in self.reader.models[node.element.tag].findall("output_port"):
+            name = port.attrib["name"]
+            if parameters[name] in found and name in node.element.attrib:
+                node.board[node.element.attrib[name][1:-1]] = found[parameters[name]]
+
+    def _for_each(self, node: Node) -> Outcome | None:
+        if "items" not in node.state:
+            node.state["items"] = list(self.values(node)["items"])  # type: ignore[call-overload]
+        items = node.state["items"]
+        assert isinstance(items, list)
+        if not items:
+            return Outcome(True)
+        node.board[node.element.attrib["item"][1:-1]] = items[0]
+        outcome = node.children[0].tick()
+        if outcome is None or not outcome.ok:
+            return outcome
+        items.pop(0)
+        return None if items else outcome
 
     def _with(self, node: Node, skill: str) -> Outcome | None:
         if not node.state.get("set up"):
@@ -297,12 +334,14 @@ class Player:
         if node.element.tag not in self.names:
             return
         path, kind = self.names[node.element.tag], self.reader.models[node.element.tag].tag
+        values = node.state.get("values", {})
+        assert isinstance(values, dict)
         if kind == "Action":
-            self.stage.halt(path, self.values(node))
+            self.stage.halt(path, values)
         if path[:2] == ("", "With"):
             if not node.state.get("set up"):
-                self.stage.halt(path[2:], self.values(node))
-            self.stage.undo(path[2:], self.values(node))
+                self.stage.halt(path[2:], values)
+            self.stage.undo(path[2:], values)
 
 
 def _method(tag: str) -> str:

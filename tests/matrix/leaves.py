@@ -1,0 +1,170 @@
+"""The leaves of an exported tree, done by the primitives, functions and conditions of the library itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import cast
+
+import msgspec
+
+from emit.bt_player import Blackboard, Outcome
+from emit.bt_player import Stage as Leaves
+from skillc_compiler.library.conditions import Arithmetic, Condition, Expression, IsA, Literal, Variable
+from skillc_compiler.library.reading import walk
+from skillc_compiler.library.skills import Compound, Implementation, Primitive, SkillLibrary
+from skillc_compiler.library.tree import Call, Check, ForEach, If, Timeout, Wait, WaitUntil, While
+from skillc_compiler.library.vocabulary import ClassType
+from skillc_runtime.primitives.primitive import Primitive as Running
+from skillc_runtime.primitives.primitive import SkillFailure, Status
+from skillc_runtime.selection.fit import Fitted, fit
+from skillc_runtime.selection.python import primitive_class
+from skillc_runtime.world.conditions import evaluate
+from skillc_runtime.world.effects import changes_of
+from skillc_runtime.world.expressions import value_of
+from skillc_runtime.world.values import Value
+from tree.stage import Stage
+
+Path = tuple[str, ...]
+Bindings = dict[str, Value]
+
+
+class LibraryLeaves(Leaves):
+    """Does on a stage what the names behind each node stand for."""
+
+    def __init__(self, library: SkillLibrary, stage: Stage) -> None:
+        self.library, self.stage = library, stage
+        self.running: dict[int, Running] = {}
+        self.set_up: list[Running] = []
+        self.outputs: dict[Path, Blackboard] = {}
+
+    def found(self, path: Path) -> Blackboard:
+        return self.outputs.get(path, {})
+
+    def action(self, path: Path, values: Blackboard) -> Callable[[], Outcome | None]:
+        bindings = cast(Bindings, values)
+        match path:
+            case (skill, "", "infer"):
+                return self._at_once(path, lambda: self._inferred(skill, bindings))
+            case (*_, "evaluate", _):
+                return self._at_once(path, lambda: self._value(path, bindings))
+            case (skill, implementation, "apply", label):
+                key = f"{skill}.{implementation}"
+                return self._at_once(path, lambda: self._applied(self.library.implementations[key], label, bindings))
+            case (skill,):
+                fitted = self._fitted(skill, bindings)
+                bindings.update(fitted.bindings)
+                return self._primitive(path, fitted.implementation, bindings)
+            case (skill, implementation):
+                return self._primitive(path, self.library.implementations[f"{skill}.{implementation}"], bindings)
+        raise NotImplementedError(path)
+
+    def halt(self, path: Path, values: Blackboard) -> None:
+        running = self.running.pop(id(values), None)
+        if running is not None:
+            running.halt("the tree says so")
+
+    def undo(self, path: Path, values: Blackboard) -> None:
+        if self.set_up:
+            self.set_up.pop().release()
+
+    def holds(self, path: Path, source: str, values: Blackboard) -> bool:
+        return evaluate(self._condition(path, source), self.stage.world.snapshot(), cast(Bindings, values))
+
+    def _at_once(self, path: Path, do: Callable[[], Blackboard | None]) -> Callable[[], Outcome]:
+        def step() -> Outcome:
+            found = do()
+            self.outputs[path] = found or {}
+            return Outcome(found is not None)
+
+        return step
+
+    def _inferred(self, skill: str, bindings: Bindings) -> Blackboard | None:
+        parameters = self.library.skills[skill].parameters
+        for each in self.library.implementations_of(skill):
+            fitted = fit(each, bindings, self.stage.world.snapshot())
+            if isinstance(fitted, Fitted):
+                names = [each.name for each in parameters if each.direction == "infer"]
+                return {name: fitted.bindings[name] for name in names}
+        return None
+
+    def _fitted(self, skill: str, bindings: Bindings) -> Fitted:
+        fitted = fit(self.library.implementations_of(skill)[0], bindings, self.stage.world.snapshot())
+        assert isinstance(fitted, Fitted)
+        return fitted
+
+    def _value(self, path: Path, bindings: Bindings) -> Blackboard:
+        expression = self._expression(path)
+        value = value_of(expression, self.stage.world.snapshot(), bindings)
+        return {"value": value, "value_": value}
+
+    def _applied(self, implementation: Implementation, label: str, bindings: Bindings) -> Blackboard:
+        effects = [effect for post in implementation.post if post.label == label for effect in post.effects]
+        self.stage.world.commit(changes_of(effects, self.stage.world.snapshot(), bindings))
+        return {}
+
+    def _primitive(
+        self, path: Path, implementation: Implementation, bindings: Bindings
+    ) -> Callable[[], Outcome | None]:
+        assert isinstance(implementation.body, Primitive)
+        inputs = {each.name: bindings.get(each.name) for each in implementation.parameters if each.direction != "out"}
+        running = primitive_class(implementation.body.python)(self.stage, **inputs)  # type: ignore[arg-type]
+        running.start()
+        self.running[id(bindings)] = running
+        if self.library.skills[implementation.skill].scoped:
+            self.set_up.append(running)
+
+        def step() -> Outcome | None:
+            try:
+                if running.tick() is Status.RUNNING:
+                    return None
+            except SkillFailure:
+                self.running.pop(id(bindings)).halt("it failed")
+                return Outcome(False)
+            del self.running[id(bindings)]
+            effects = [effect for post in implementation.post if not post.sensed for effect in post.effects]
+            self.stage.world.commit(changes_of(effects, self.stage.world.snapshot(), bindings))
+            self.outputs[path] = dict(running.outputs)
+            return Outcome(True)
+
+        return step
+
+    def _condition(self, path: Path, source: str) -> Condition:
+        match path:
+            case (skill, implementation, "type", name):
+                narrowed = self.library.implementations[f"{skill}.{implementation}"].parameters
+                (type_,) = [each.type for each in narrowed if each.name == name]
+                assert isinstance(type_, ClassType)
+                return IsA(Variable(name), type_.iri)
+            case (skill, implementation, "pre" | "hold" | "post", label):
+                key = f"{skill}.{implementation}"
+                owner = self.library.implementations[key] if implementation else self.library.skills[skill]
+                (found,) = [each for each in (*owner.pre, *owner.hold, *owner.post) if each.label == label]
+                return found.condition
+        tests = (each for each in self._nodes() if isinstance(each, Check | WaitUntil | If | While))
+        (found_one,) = {each.condition for each in tests if str(each.source) == source}
+        return found_one
+
+    def _expression(self, path: Path) -> Expression:
+        """Return the expression of a node that evaluates one: a let by its name, else by the text that it declares."""
+        lets = self.library.implementations[".".join(path[:2])].lets if path[0] else ()
+        for each in lets:
+            if each.name == path[-1]:
+                return each.value
+        word = path[-1].rsplit("__", 1)[0]
+        return next(self._computed(word))
+
+    def _computed(self, word: str) -> Iterator[Expression]:
+        for each in self._nodes():
+            match each:
+                case Call(arguments=arguments) if word in arguments and not isinstance(arguments[word], Variable):
+                    yield arguments[word]
+                case ForEach(items=items) if word == "items":
+                    yield items
+                case Wait(seconds=seconds) | Timeout(seconds=seconds) if word == "milliseconds":
+                    yield Arithmetic("*", seconds, Literal(1000.0))
+
+    def _nodes(self) -> Iterator[msgspec.Struct]:
+        bodies = [each.body.node for each in self.library.implementations.values() if isinstance(each.body, Compound)]
+        bodies += [each.body for each in self.library.tasks.values() if each.body is not None]
+        for body in bodies:
+            yield from walk(body)
