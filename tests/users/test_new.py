@@ -7,26 +7,29 @@ import sys
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner, Result
 
-SKILLC = (sys.executable, "-m", "skillc_runtime")
-
-
-def call(*command: str, cwd: Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False)
+from skillc_runtime.commands.main import skillc
 
 
-def test_a_new_library_checks_and_compiles_without_a_word(tmp_path: Path) -> None:
-    made = call(*SKILLC, "new", "shelves/wipe_window", cwd=tmp_path)
-    assert made.returncode == 0, made.stderr
+def call(*arguments: str) -> Result:
+    return CliRunner().invoke(skillc, arguments)
+
+
+def test_a_new_library_checks_and_compiles_without_a_word(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    made = call("new", "shelves/wipe_window")
+    assert made.exit_code == 0, made.output
     folder = tmp_path / "shelves/wipe_window"
     written = {path.relative_to(tmp_path).as_posix() for path in folder.rglob("*") if path.is_file()}
     assert set(made.stdout.splitlines()) == written
     assert {path.rsplit("/", 1)[-1] for path in written} >= {"wipe_window.skill", "check.yml", ".gitignore"}
-    checked = call(*SKILLC, "check", ".", "--scene", "cell.ttl", "--format", "concise", cwd=folder)
-    assert (checked.returncode, checked.stdout) == (0, "")
-    assert call(*SKILLC, "fmt", "--check", ".", cwd=folder).returncode == 0
-    compiled = call(*SKILLC, "compile", ".", "-o", "build", cwd=folder)
-    assert compiled.returncode == 0, compiled.stderr
+    monkeypatch.chdir(folder)
+    checked = call("check", ".", "--scene", "cell.ttl", "--format", "concise")
+    assert (checked.exit_code, checked.stdout) == (0, "")
+    assert call("fmt", "--check", ".").exit_code == 0
+    compiled = call("compile", ".", "-o", "build")
+    assert compiled.exit_code == 0, compiled.output
     assert "build/trees/WipeWindow.xml" in compiled.stdout.splitlines()
 
 
@@ -43,19 +46,23 @@ def test_a_new_library_checks_and_compiles_without_a_word(tmp_path: Path) -> Non
         (".", "exists already"),
     ],
 )
-def test_a_name_that_cannot_be_is_refused(name: str, words: str, tmp_path: Path) -> None:
+def test_a_name_that_cannot_be_is_refused(
+    name: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
     (tmp_path / "taken").mkdir()
-    refused = call(*SKILLC, "new", name, cwd=tmp_path)
-    assert refused.returncode == 2
+    refused = call("new", name)
+    assert refused.exit_code == 2
     assert words in refused.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["taken"]
 
 
 @pytest.mark.sim
 def test_a_new_library_lives(tmp_path: Path) -> None:
-    skillc = str(Path(sys.executable).with_name("skillc"))
+    command = str(Path(sys.executable).with_name("skillc"))
     life = "skillc new press_bell && cd press_bell && skillc check . && skillc compile . -o build"
     life = f"{life} && skillc run .:press_bell && {sys.executable} -m pytest -q -p no:cacheprovider"
-    lived = call("sh", "-ec", life.replace("skillc ", f"{skillc} "), cwd=tmp_path)
+    shell = ["sh", "-ec", life.replace("skillc ", f"{command} ")]
+    lived = subprocess.run(shell, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert lived.returncode == 0, lived.stdout + lived.stderr
     assert "3 passed" in lived.stdout
