@@ -67,7 +67,7 @@ def _partial_poses(state: WorldState) -> Iterator[Flaw]:
         if lost:
             message = f"{short(individual)} has a {short(BASE_FRAME_ID)} and no {', '.join(lost)}"
             cure = "write all of its position and orientation; for no turn write OrientationW 1.0 and three times 0.0"
-            yield Flaw(individual, BASE_FRAME_ID, "missing-property", message, cure)
+            yield Flaw(individual, BASE_FRAME_ID, "partial-pose", message, cure)
 
 
 def _nowhere(state: WorldState) -> Iterator[Flaw]:

@@ -57,11 +57,11 @@ def _frictions(state: WorldState) -> Iterator[Flaw]:
         if low is None and high is None:
             if state.value(surface, FRICTION) is None:
                 message = f"{short(surface)} has no {short(FRICTION)}"
-                yield Flaw(surface, None, "missing-property", message, f"write `{short(FRICTION)} NUMBER`")
+                yield Flaw(surface, None, "missing-friction", message, f"write `{short(FRICTION)} NUMBER`")
         elif low is None or high is None:
             there, lost = (FRICTION_LOW, FRICTION_HIGH) if high is None else (FRICTION_HIGH, FRICTION_LOW)
             message = f"{short(surface)} has a {short(there)} and no {short(lost)}"
-            yield Flaw(surface, there, "missing-property", message, "the two go together")
+            yield Flaw(surface, there, "missing-friction", message, "the two go together")
         elif isinstance(low, int | float) and isinstance(high, int | float) and low > high:
             message = f"{short(surface)}.{short(FRICTION_LOW)} = {low:g} is above its {short(FRICTION_HIGH)} = {high:g}"
             yield Flaw(surface, FRICTION_LOW, "not-a-range", message, "exchange the two")
