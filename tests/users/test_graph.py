@@ -93,6 +93,34 @@ def test_a_task_shows_its_scene_and_goal() -> None:
     assert drawable(FILES) == ("Everything", "Locate", "everything")
 
 
+def test_a_name_stays_with_its_value() -> None:
+    assert wrapped("arm: lab:Arm-1, to: lab:Dock", 20) == ("arm: lab:Arm-1,", "  to: lab:Dock")
+
+
+def test_the_plan_of_a_task_is_drawn() -> None:
+    drawn = CliRunner().invoke(command, ["wiping", "clean_table", "--plan", "--format", "mermaid"])
+    assert drawn.exit_code == 0, drawn.output
+    assert drawn.stdout.index("▶ Pick") < drawn.stdout.index("▶ Wipe")
+    unplanned = CliRunner().invoke(command, [str(HERE), "Everything", "--plan"])
+    assert unplanned.exit_code == 2
+
+
+def test_a_goal_out_of_reach_has_no_plan(tmp_path: Path) -> None:
+    text = """
+use skiros
+import "handling.skill"
+prefix lab: <http://example.org/lab#>
+task swap {
+    scene "iiwa_table.ttl"
+    goal  lab:Table-1 contain lab:Eraser-1
+}
+"""
+    (tmp_path / "swap.skill").write_text(text, encoding="utf-8")
+    refused = CliRunner().invoke(command, [str(tmp_path), "swap", "--plan"])
+    assert refused.exit_code == 3, refused.output
+    assert "there is no plan" in refused.stderr
+
+
 def test_python_is_named() -> None:
     box = picture_of("Locate", FILES)
     assert box is not None

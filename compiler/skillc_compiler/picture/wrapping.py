@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from collections.abc import Iterator
 
 from skillc_dsl.rendering.printable import printable
 
 INDENT = "  "
+_BETWEEN = re.compile(r"(?<!:)\s+")
 
 
 def cells(text: str) -> int:
@@ -31,8 +33,8 @@ def wrapped(text: str, width: int) -> tuple[str, ...]:
 
 
 def _words(text: str, width: int) -> Iterator[str]:
-    """Yield the words, those longer than `width` cells in pieces."""
-    for word in text.split():
+    """Yield the words, a name with the value after it as one, and those longer than `width` cells in pieces."""
+    for word in _BETWEEN.split(text.strip()):
         piece = ""
         for character in word:
             if cells(piece) + cells(character) > width:

@@ -1,22 +1,28 @@
-"""Draw a skill's behaviour trees or a task.
+"""Draw a skill's behaviour trees, a task or its plan.
 
-SVG opens in every browser; Mermaid goes into Markdown. Exit code 1 when the library has errors.
+SVG opens in every browser; Mermaid goes into Markdown.
+
+Exit code 1 when the library has errors, 3 when there is no plan.
 """
 
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import click
+
+FILE = click.Path(path_type=Path, dir_okay=False)
 
 
 @click.command()
 @click.argument("path", type=click.Path(path_type=Path))
 @click.argument("name")
+@click.option("--plan", "with_plan", is_flag=True, help="Plan for the goal of a task, and draw the steps too.")
 @click.option("--format", "form", type=click.Choice(["svg", "mermaid"]), help="SVG, unless the output ends in .mmd.")
-@click.option("-o", "--output", type=click.Path(path_type=Path, dir_okay=False), help="The file, instead of stdout.")
-def command(path: Path, name: str, form: str | None, output: Path | None) -> None:
+@click.option("-o", "--output", type=FILE, help="The file to write; without, it is printed.")
+def command(path: Path, name: str, with_plan: bool, form: str | None, output: Path | None) -> None:
     """Draw the skill or the task NAME of the library at PATH."""
     from skillc_compiler.picture import mermaid, svg
     from skillc_compiler.picture.find import drawable, picture_of
@@ -34,8 +40,19 @@ def command(path: Path, name: str, form: str | None, output: Path | None) -> Non
     if box is None:
         hint = did_you_mean(name, drawable(files)) or "it has none"
         raise click.UsageError(f"there is no skill or task `{name}` in {library.name}: {hint}")
+    if with_plan:
+        from skillc_runtime.commands._planned import NoPlan, planned
+
+        try:
+            box = replace(box, children=(*box.children, planned(path, name)))
+        except NoPlan as reason:
+            click.echo(f"there is no plan: {reason}", err=True)
+            sys.exit(3)
     wanted = form or ("mermaid" if output and output.suffix in {".mmd", ".mermaid"} else "svg")
-    text = mermaid.draw(box) if wanted == "mermaid" else svg.document(box)
+    _put(mermaid.draw(box) if wanted == "mermaid" else svg.document(box), output)
+
+
+def _put(text: str, output: Path | None) -> None:
     if output is None:
         click.echo(text, nl=False)
         return
