@@ -64,22 +64,29 @@ class Desk:
         assert isinstance(found, types.CompletionList)
         return [item.label for item in found.items]
 
-    async def problems(self, name: str, expected: Sequence[str] | None = None) -> list[types.Diagnostic]:
-        """Return the problems of a file once they are those that are expected, or any are told."""
+    async def problems(self, name: str, errors: Sequence[str] | None = None) -> list[types.Diagnostic]:
+        """Return the errors of a file once they are those named, with `[]` once nothing at all is told of it.
+
+        Without names, return whatever is told of it first, warnings too.
+        """
         told: Sequence[types.Diagnostic] | None = None
         try:
             async with asyncio.timeout(PATIENCE_S):
-                while not _as_expected(told := self.client.diagnostics.get(self.uri(name)), expected):
+                while not _as_expected(told := self.client.diagnostics.get(self.uri(name)), errors):
                     await self.client.wait_for_notification(types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)
         except TimeoutError:
-            raise AssertionError(f"expected {expected}, not {told}") from None
-        return list(told or ())
+            raise AssertionError(f"expected {errors}, not {told}") from None
+        return _errors(told or ()) if errors else list(told or ())
 
 
-def _as_expected(told: Sequence[types.Diagnostic] | None, expected: Sequence[str] | None) -> bool:
-    if told is None or expected is None:
-        return told is not None
-    return sorted(str(problem.code) for problem in told) == sorted(expected)
+def _as_expected(told: Sequence[types.Diagnostic] | None, errors: Sequence[str] | None) -> bool:
+    if told is None or not errors:
+        return told is not None and (errors is None or not told)
+    return sorted(str(problem.code) for problem in _errors(told)) == sorted(errors)
+
+
+def _errors(told: Sequence[types.Diagnostic]) -> list[types.Diagnostic]:
+    return [problem for problem in told if problem.severity == types.DiagnosticSeverity.Error]
 
 
 def split(text: str) -> tuple[str, types.Position]:

@@ -38,10 +38,6 @@ def test_an_editor_that_vanishes_ends_it_with_1() -> None:
     assert served(HELLO).returncode == 1
 
 
-def test_exit_without_goodbye_ends_it_with_1() -> None:
-    assert served(HELLO + message("exit")).returncode == 1
-
-
 def test_without_pygls_it_says_what_to_install() -> None:
     script = "import sys; sys.modules['pygls'] = None; from skillc_runtime.commands.main import main; main(['lsp'])"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, timeout=PATIENCE_S, check=False)
