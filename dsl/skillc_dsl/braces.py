@@ -61,11 +61,11 @@ def _close(
 
 
 def _unclosed(opener: Token, indent: int, last: Token, found: Token, path: str) -> Diagnostic:
-    """Report at `found`, the token that shows it, that `opener` is open."""
-    where = "at the end of the file" if found.type == END else f"before this `{found}`"
-    gap = span_of(last, path)
-    end = Span(path, gap.end_line, gap.end_column, gap.end_line, gap.end_column)
+    """Report after `last`, where the brace belongs, that `opener` is open; `found` is the token that shows it."""
+    where = "at the end of the file" if found.type == END else f"before the `{found}` of line {found.line}"
+    place = span_of(last, path)
+    end = Span(path, place.end_line, place.end_column, place.end_line, place.end_column)
     fix = Fix(end, "\n" + " " * (indent - 1) + "}", "close the brace")
     message = f"the `{{` of line {opener.line} is not closed {where}"
     label = Label(span_of(opener, path), "opened here")
-    return Diagnostic("unclosed-brace", span_of(found, path), message, "add a `}`", labels=(label,), fix=fix)
+    return Diagnostic("unclosed-brace", place, message, "add a `}` on the next line", labels=(label,), fix=fix)

@@ -24,7 +24,8 @@ def parse(source: Source) -> Outcome[s.File]:
     lexed = tokens_of(source)
     mended = mend(lexed.value, source.path)
     closed = close_braces(mended.value, source.path)
-    recovery = Recovery(closed.value, source.path)
+    told = {problem.span.line for problem in mended.diagnostics}
+    recovery = Recovery(closed.value, source.path, told)
     builder = Declarations(source)
     file = builder.file(recovery.run())
     wrong = wrong_bytes(source)

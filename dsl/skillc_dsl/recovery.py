@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from lark import Token, Tree
 from lark.exceptions import UnexpectedToken
@@ -15,16 +15,20 @@ from skillc_dsl.lexing import after, span_of
 from skillc_dsl.repairs import Fault, repair
 
 _LISTS = ("__start_star", "__skill_star", "__impl_star", "__task_star", "___nodes_star")
+_CALM = 2
+"""So many tokens must fit after a fault before the next one is told."""
 
 
 class Recovery:
-    """One run over the tokens of a file. `tokens` is a copy that repairs change."""
+    """One run over the tokens of a file, a copy that repairs change; lines in `told` have a problem already."""
 
-    def __init__(self, tokens: Sequence[Token], path: str) -> None:
+    def __init__(self, tokens: Sequence[Token], path: str, told: Collection[int]) -> None:
         self.tokens = list(tokens)
         self.path = path
+        self.told = told
         self.problems: list[Diagnostic] = []
         self._state: ParserState[int] = machine().parse_interactive("").parser_state
+        self._since = _CALM
 
     def run(self) -> Tree[Token]:
         """Return the tree of everything understood."""
@@ -33,6 +37,7 @@ class Recovery:
             before = self._state.state_stack.copy()
             try:
                 feed(self.tokens[index])
+                self._since = 0 if _is_inserted(self.tokens[index]) else self._since + 1
                 index += 1
             except UnexpectedToken:
                 index = self._recover(before, index)
@@ -45,13 +50,18 @@ class Recovery:
         if found is not None:
             self._report(found.problem)
             self.tokens[index : index + 1] = found.tokens
+            self._since = 0
             return index
-        self._report(self._misfit(before, index))
-        return self._resume(index)
+        misfit = self._misfit(before, index)
+        if misfit.span.line not in self.told:
+            self._report(misfit)
+        position = self._resume(index)
+        self._since = _CALM if first_on_line(self.tokens, position) else 0
+        return position
 
     def _report(self, problem: Diagnostic) -> None:
-        """Keep `problem` unless its line has one already: the later one would follow from the first."""
-        if all(problem.span.line != other.span.line for other in self.problems[-1:]):
+        """Keep `problem` unless its line has one already or the last is hardly over: it would follow from that one."""
+        if self._since >= _CALM and all(problem.span.line != other.span.line for other in self.problems[-1:]):
             self.problems.append(problem)
 
     def _misfit(self, before: list[int], index: int) -> Diagnostic:
@@ -110,16 +120,33 @@ class Recovery:
         return last
 
     def _level(self, terminal: str) -> int | None:
-        """Return how much of the stack to keep so that `terminal` fits after a whole member or at the start."""
+        """Return how much of the stack to keep so that `terminal` fits after a whole member or at the start.
+
+        What is closed stays closed: nothing is cut between two braces.
+        """
         states, values = self._state.state_stack, self._state.value_stack
+        closed = 0
         for level in range(len(values), -1, -1):
-            if (level == 0 or _is_list(values[level - 1])) and fits(states[: level + 1], terminal):
+            closed = max(0, closed + _braces(values[level : level + 1]))
+            at_member = closed == 0 and (level == 0 or _is_list(values[level - 1]))
+            if at_member and fits(states[: level + 1], terminal):
                 return level
         return None
 
     def _drop(self, level: int) -> None:
         del self._state.state_stack[level + 1 :]
         del self._state.value_stack[level:]
+
+
+def _braces(values: Sequence[object]) -> int:
+    """Return how many more `}` than `{` there are among `values`."""
+    kinds = [value.type for value in values if isinstance(value, Token)]
+    return kinds.count("RBRACE") - kinds.count("LBRACE")
+
+
+def _is_inserted(token: Token) -> bool:
+    """Whether a token is a `}` that was left out."""
+    return token.type == "RBRACE" and not token
 
 
 def _is_list(value: object) -> bool:

@@ -70,8 +70,15 @@ class Fault:
 
 def repair(fault: Fault) -> Repair | None:
     """Return the first change of one token that lets the parser go on, None where none does."""
-    attempts: tuple[Callable[[Fault], Iterator[Repair]], ...] = (_label, _swapped, _keyword, _missing, _superfluous)
+    attempts: tuple[Callable[[Fault], Iterator[Repair]], ...]
+    attempts = (_repeated, _label, _swapped, _keyword, _missing, _superfluous)
     return next((found for attempt in attempts for found in attempt(fault)), None)
+
+
+def _repeated(fault: Fault) -> Iterator[Repair]:
+    """A word or mark that is written twice."""
+    if fault.index and fault.token == fault.tokens[fault.index - 1] and fault.token.type not in ("LBRACE", "RBRACE"):
+        yield from _superfluous(fault)
 
 
 def _label(fault: Fault) -> Iterator[Repair]:
@@ -104,7 +111,10 @@ def _keyword(fault: Fault) -> Iterator[Repair]:
     """A keyword with a slip of the pen."""
     if fault.token.type != "NAME":
         return
-    keywords = {words()[t]: t for t in fitting(fault.states) if words().get(t, "").isalpha()}
+    possible = fitting(fault.states)
+    if not first_on_line(fault.tokens, fault.index):
+        possible -= DECLARATIONS
+    keywords = {words()[t]: t for t in possible if words().get(t, "").isalpha()}
     for near in difflib.get_close_matches(fault.token, sorted(keywords), n=3, cutoff=0.7):
         if fault.mended_by(keywords[near]):
             fix = Fix(fault.span, near, f"write `{near}`", safe=False)
@@ -122,6 +132,8 @@ def _missing(fault: Fault) -> Iterator[Repair]:
         return
     span = span_of(fault.tokens[fault.index - 1], fault.path) if new_line and fault.index else fault.span
     for terminal in _INSERTED:
+        if new_line and terminal == "LPAR":
+            continue
         if fault.mended_by(terminal, skip=0) and not (name_fits and terminal in _WORDS):
             text, gap = words()[terminal], fault.gap
             before = fault.tokens[fault.index - 1] if fault.index else ""
@@ -133,7 +145,11 @@ def _missing(fault: Fault) -> Iterator[Repair]:
 
 
 def _superfluous(fault: Fault) -> Iterator[Repair]:
-    """A mark or a word too many on its line."""
-    if fault.token.type not in _KEPT and not first_on_line(fault.tokens, fault.index) and fault.mended_by():
+    """A mark or a word too many on its line; at the end of a line only if nothing is missing there."""
+    if fault.token.type in _KEPT or first_on_line(fault.tokens, fault.index):
+        return
+    complete = fits(fault.states, "RBRACE") or fits(fault.states, END)
+    at_end = first_on_line(fault.tokens, fault.index + 1)
+    if fault.mended_by() and (complete or not at_end):
         fix = Fix(fault.span, "", "delete it", safe=False)
         yield Repair(Diagnostic("syntax", fault.span, f"`{fault.token}` is one too many here", fix=fix), ())

@@ -19,6 +19,8 @@ def mend(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, ...]]:
         count = _unit_length(tokens, index)
         if count:
             token, problem = _unit(tokens[index : index + count], path)
+        elif _is_doubled_brace(tokens, index):
+            count, token, problem = 2, tokens[index], _doubled(tokens[index + 1], path)
         elif _is_split_label(tokens, index):
             count = 2
             token, problem = _label(tokens[index], tokens[index + 1], tokens[index + 2], path)
@@ -71,6 +73,17 @@ def _unit(tokens: tuple[Token, ...], path: str) -> tuple[Token, Diagnostic]:
     if near:
         return joined("QUANTITY", first, last, f"{digits} {near[0]}"), problem
     return joined("NUMBER", first, last, str(digits)), problem
+
+
+def _is_doubled_brace(tokens: tuple[Token, ...], index: int) -> bool:
+    """Whether two `{` stand on one line, one right after the other: nothing may stand between two but a word."""
+    first, second = tokens[index], tokens[min(index + 1, len(tokens) - 1)]
+    return first.type == second.type == "LBRACE" and first.line == second.line
+
+
+def _doubled(brace: Token, path: str) -> Diagnostic:
+    span = span_of(brace, path)
+    return Diagnostic("syntax", span, "this `{` is one too many", fix=Fix(span, "", "delete it"))
 
 
 def _is_split_label(tokens: tuple[Token, ...], index: int) -> bool:
