@@ -1,14 +1,21 @@
 """Cost of compiling a library of 10,000 lines, beside the bare parse of the same text by lark in the same process.
 
 The library is made of copies of the shipped one, whose skills, files and functions are renamed in each. Run it as
-`python benchmarks/compile.py [LINES]`; it prints the seconds of each stage and the ratio to the bare parse.
+`python benchmarks/compile.py [LINES]`; it prints the seconds of each stage and the ratio to the bare parse, then those
+of whole processes and the ratio to one that only imports click. The tasks are there once: checking them against their
+scenes is not the compiler's work.
 """
 
 from __future__ import annotations
 
+import os
 import re
+import resource
+import subprocess
 import sys
+import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
 from time import process_time
 from typing import TypeVar
 
@@ -22,13 +29,14 @@ from skillc_dsl.source import Source
 from skillc_runtime.commands._library import SHIPPED, vocabulary
 
 Result = TypeVar("Result")
+ROUNDS = 5
 _DECLARED = re.compile(r"^(?:skill|impl|task|function)\s+(\w+)", re.MULTILINE)
 
 
 def generated(lines: int) -> tuple[Source, ...]:
     """Return a library of at least so many lines, made of renamed copies of the shipped one."""
     files = {path.relative_to(SHIPPED).as_posix(): path.read_text("utf-8") for path in SHIPPED.glob("*/*.skill")}
-    each = sum(text.count("\n") for text in files.values())
+    each = sum(text.count("\n") for text in files.values() if "\ntask " not in text)
     return tuple(source for number in range(-(-lines // each)) for source in _copy(files, number))
 
 
@@ -36,6 +44,8 @@ def _copy(files: Mapping[str, str], number: int) -> Iterator[Source]:
     names = sorted({name for text in files.values() for name in _DECLARED.findall(text)})
     declared = re.compile(rf"\b({'|'.join(names)})\b(?![\"/]|\.ttl)")
     for path, text in sorted(files.items()):
+        if number and "\ntask " in text:
+            continue
         renamed = re.sub(r'^import "(?:.*/)?(\w+)\.skill"', rf'import "\g<1>_{number}.skill"', text, flags=re.MULTILINE)
         targets = re.sub(r'"[^"\n]*"|#.*|\b\w+\b', lambda word: _renamed(declared, word.group(), number), renamed)
         stem = path.rpartition("/")[2].removesuffix(".skill")
@@ -58,8 +68,43 @@ def main() -> None:
     whole, outcome = _seconds(lambda: compile(sources, terms, {}, "generated"))
     for stage, seconds in (*_stages(sources), ("whole", whole)):
         print(f"{stage:28} {seconds:8.2f} {seconds / bare:6.2f}")
+    print(f"\n{'process':45} {'seconds':>8} {'ratio':>6}")
+    least = 0.0
+    for name, seconds in _processes(sources):
+        least = least or seconds
+        print(f"{name:45} {seconds:8.2f} {seconds / least:6.2f}")
     for problem in outcome.diagnostics[:5]:
         print(f"{problem.span.path}:{problem.span.line}: {problem.name}: {problem.message}", file=sys.stderr)
+
+
+def _processes(sources: Sequence[Source]) -> Iterator[tuple[str, float]]:
+    """Yield the processor seconds of whole processes: the least there can be, then checks of these sources."""
+    with tempfile.TemporaryDirectory() as folder:
+        library = Path(folder, "generated")
+        library.mkdir()
+        for source in sources:
+            (library / source.path).write_text(source.text, encoding="utf-8")
+        os.environ["XDG_CACHE_HOME"] = str(Path(folder, "cache"))
+        check = [sys.executable, "-c", "from skillc_runtime.commands.main import main; main()", "check", str(library)]
+        shipped = [*check[:-1], "wiping"]
+        bare = [sys.executable, "-c", "import click"]
+        _process(check), _process(shipped)
+        yield "import click", min(_process(bare) for _ in range(ROUNDS))
+        yield "check of the shipped library, unchanged", min(_process(shipped) for _ in range(ROUNDS))
+        yield "check of these files, unchanged", min(_process(check) for _ in range(ROUNDS))
+        changed = []
+        for number in range(ROUNDS // 2):
+            (library / sources[0].path).write_text(f"{sources[0].text}# {number}\n", encoding="utf-8")
+            changed.append(_process(check))
+        yield "check of these files, one changed", min(changed)
+
+
+def _process(command: Sequence[str]) -> float:
+    """Return the processor seconds that a process took."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run(command, capture_output=True, check=False)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 def _stages(sources: Sequence[Source]) -> Iterator[tuple[str, float]]:

@@ -21,7 +21,7 @@ FORMS = ("full", "concise", "json", "sarif", "github")
 def show(diagnostics: Sequence[Diagnostic], texts: Mapping[str, Source], form: str) -> int:
     """Print the diagnostics in a form, with a summary on stderr, and return the exit code: 1 with errors."""
     click.echo(rendered(diagnostics, texts, form), nl=False, color=True)
-    click.echo(summary(diagnostics), err=True)
+    click.echo(("\n" if form == "full" and diagnostics else "") + summary(diagnostics), err=True)
     return exit_code(diagnostics)
 
 
@@ -70,8 +70,11 @@ def summary(diagnostics: Iterable[Diagnostic]) -> str:
     counts = ((errors, "error"), (len(found) - errors, "warning"))
     told = ", ".join(counted(count, word) for count, word in counts if count)
     files = counted(len({each.span.path for each in found}), "file")
-    fixes = sum(each.fix is not None and each.fix.safe for each in found)
-    return f"{told} in {files}" + (f"; {fixes} can be fixed with --fix" if fixes else "")
+    fixes = [each.fix for each in found if each.fix is not None]
+    safe = sum(fix.safe for fix in fixes)
+    cures = ((safe, "can be fixed with --fix"), (len(fixes) - safe, "guessed with --fix --unsafe-fixes"))
+    cured = ", ".join(f"{count} {how}" for count, how in cures if count)
+    return f"{told} in {files}" + (f"; {cured}" if cured else "")
 
 
 def counted(count: int, word: str) -> str:
