@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import re
+from collections.abc import Iterator
 from types import MappingProxyType
 from typing import Literal, TypeAlias
 
@@ -85,3 +87,18 @@ PATTERNS: MappingProxyType[TokenKind, str] = MappingProxyType(
 def group_of(word: str) -> Group | None:
     """Return what a keyword is for, None for a word that is none."""
     return next((group for group, words in KEYWORDS.items() if word in words), None)
+
+
+def tokens(text: str) -> Iterator[tuple[TokenKind, int, str]]:
+    """Yield the kind, position and text of each token, read from the left; what is none is left out."""
+    for match in _table().finditer(text):
+        yield _KINDS[match.lastgroup or ""], match.start(), match.group()
+
+
+_KINDS: dict[str, TokenKind] = {f"k{number}": kind for number, kind in enumerate(PATTERNS)}
+
+
+@functools.cache
+def _table() -> re.Pattern[str]:
+    """Return one expression with a group for each kind."""
+    return re.compile("|".join(f"(?P<{key}>{PATTERNS[kind]})" for key, kind in _KINDS.items()))

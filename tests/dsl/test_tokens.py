@@ -9,7 +9,17 @@ from skillc_dsl.comments import comments
 from skillc_dsl.grammar import END, following, words
 from skillc_dsl.lexing import tokens_of
 from skillc_dsl.source import Source
-from skillc_dsl.tokens import KEYWORDS, NAMES_ELSEWHERE, OPERATORS, PATTERNS, PUNCTUATION, TYPES, TokenKind, group_of
+from skillc_dsl.tokens import (
+    KEYWORDS,
+    NAMES_ELSEWHERE,
+    OPERATORS,
+    PATTERNS,
+    PUNCTUATION,
+    TYPES,
+    TokenKind,
+    group_of,
+    tokens,
+)
 from skillc_dsl.units import DIMENSIONS
 
 KINDS: dict[str, TokenKind] = {
@@ -51,16 +61,14 @@ def test_the_keywords_that_are_names_elsewhere_are_those_of_the_grammar() -> Non
 
 
 def by_the_table(text: str) -> list[tuple[str, int, int]]:
-    """Read from the left: the first pattern that matches makes the token."""
-    table = re.compile("|".join(f"(?P<k{n}>{pattern})" for n, pattern in enumerate(PATTERNS.values())) + r"|\s+")
-    names = {f"k{n}": name for n, name in enumerate(PATTERNS)}
-    return [(names[m.lastgroup], m.start(), m.end()) for m in table.finditer(text) if m.lastgroup]
+    """What the table finds."""
+    return [(kind, start, start + len(token)) for kind, start, token in tokens(text)]
 
 
 @pytest.mark.parametrize("kind", sorted({*PATTERNS} - {"comment", "documentation"}))
 def test_the_patterns_are_those_of_the_grammar(kind: TokenKind) -> None:
-    tokens = [t for t in tokens_of(Source("", WHOLE)).value if t.type != END]
-    lexed = [(kind_of(t.type), t.start_pos, t.end_pos) for t in tokens if kind_of(t.type) == kind]
+    parsed = [t for t in tokens_of(Source("", WHOLE)).value if t.type != END]
+    lexed = [(kind_of(t.type), t.start_pos, t.end_pos) for t in parsed if kind_of(t.type) == kind]
     assert lexed
     assert [found for found in by_the_table(WHOLE) if found[0] == kind] == lexed
 
