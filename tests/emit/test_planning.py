@@ -16,6 +16,7 @@ from skillc_compiler.library.conditions import (
     Exists,
     Forall,
     Given,
+    HasProperty,
     Holds,
     Individual,
     IsA,
@@ -245,8 +246,12 @@ def test_what_a_planner_cannot_reason_about_is_left_out_with_the_reason(case: st
     assert words in reason(skill)
 
 
-def test_a_measured_number_is_not_taken_for_static() -> None:
-    condition = Compare(read("surface", "weight"), ">=", Literal(1.0))
+@pytest.mark.parametrize(
+    "condition",
+    [Compare(read("surface", "weight"), ">=", Literal(1.0)), HasProperty(Variable("surface"), iri("weight"))],
+    ids=["compared", "there"],
+)
+def test_a_measured_number_is_not_taken_for_static(condition: Condition) -> None:
     measured = Post(label="m", condition=condition, effects=(), sensed=True, text="m", source=samples.HERE)
     weigh = varied(WIPE, name="Weigh", post=(*WIPE.post, measured))
     assert "`core:weight`" in reason(PICK, weigh)

@@ -147,4 +147,10 @@ def _fraction(seconds: Any) -> Fraction:
 
 @cache
 def _read(domain: str, problem: str) -> Any:
-    return PDDLReader().parse_problem_string(domain, problem)
+    return _reader().parse_problem_string(domain, problem)
+
+
+@cache
+def _reader() -> PDDLReader:
+    """Return a reader; making one takes as long as reading a small problem."""
+    return PDDLReader()

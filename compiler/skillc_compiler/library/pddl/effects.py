@@ -12,6 +12,7 @@ from skillc_compiler.library.conditions import (
     Assign,
     Compare,
     Effect,
+    HasProperty,
     Literal,
     PropertyOf,
     Retract,
@@ -53,9 +54,9 @@ def changed_terms(posts: Sequence[Post], relations: Relations) -> frozenset[str]
     A measured number counts too: no effect tells its value, yet nothing may take the old one for granted.
     """
     changed = {iri for post in posts for effect in post.effects for iri in _changed(effect, relations)}
-    for post in posts:
-        match post:
-            case Post(effects=(), condition=Compare(left=PropertyOf(property=measured))):
+    for condition in (post.condition for post in posts if not post.effects):
+        match condition:
+            case Compare(left=PropertyOf(property=measured)) | HasProperty(property=measured):
                 changed.add(measured)
     return frozenset(changed)
 
