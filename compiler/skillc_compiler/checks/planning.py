@@ -71,7 +71,7 @@ Good:
 
 ## colliding-names: two names are one to a planner
 
-Planners take no notice of capitals, nor do some file systems.
+Planners take no notice of capitals, and PDDL has no letters but a to z; some file systems do not either.
 
 Bad:
 
@@ -107,6 +107,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import Assign
+from skillc_compiler.library.pddl.names import kebab
 from skillc_compiler.library.vocabulary import local_name
 from skillc_compiler.lower.effects import effects
 from skillc_compiler.program import Program, Skill
@@ -170,12 +171,12 @@ def _numbers(program: Program, skill: Skill) -> Iterator[Diagnostic]:
 def _colliding(program: Program) -> Iterator[Diagnostic]:
     seen: dict[str, Skill] = {}
     for skill in program.skills.values():
-        first = seen.setdefault(skill.name.casefold(), skill)
+        first = seen.setdefault(kebab(skill.name), skill)
         if first is not skill:
             yield Diagnostic(
                 "colliding-names",
                 skill.name_span,
-                f"`{skill.name}` and `{first.name}` are one name to a planner, which takes no notice of capitals",
+                f"`{skill.name}` and `{first.name}` are one name to a planner: `{kebab(skill.name)}`",
                 help="give one of them another name",
                 labels=(Label(first.name_span, "the other one"),),
             )

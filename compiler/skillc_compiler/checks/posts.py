@@ -24,6 +24,7 @@ Good:
         in   object:  Product
         in   place:   Location
         post sensed gripper contain object or place contain object
+        noplan
     }
     impl waiting of Grab { run python "skillc_runtime.primitives.stand_in:StandIn" }
 
@@ -50,6 +51,7 @@ Good:
         in   object:  Product
         in   place:   Location
         post sensed object.pose == place.pose
+        noplan
     }
     impl waiting of Grab { run python "skillc_runtime.primitives.stand_in:StandIn" }
 

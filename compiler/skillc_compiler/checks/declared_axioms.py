@@ -1,0 +1,118 @@
+"""Axioms of declared terms that no individual can obey.
+
+## impossible-class: a class is below two that have nothing in common
+
+Bad:
+
+    use skiros, rparts
+    class Trolley < ArmDevice, Location
+
+Good:
+
+    use skiros
+    class Trolley < Location
+
+## class-cycle: a class is below itself
+
+Bad:
+
+    class Crate < Box
+    class Box < Crate
+
+Good:
+
+    use skiros
+    class Crate < Box
+    class Box < Container
+
+## impossible-relation: a relation is both transitive and functional
+
+What is passed on over several steps has several values, unless nothing is ever related twice.
+
+Bad:
+
+    use skiros
+    relation stackedOn(Product, Product)  transitive functional
+
+Good:
+
+    use skiros
+    relation stackedOn(Product, Product)  functional
+    relation above(Product, Product)  transitive
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+from skillc_compiler.library.vocabulary import Vocabulary, local_name
+from skillc_compiler.program import Program
+from skillc_compiler.resolve.declared import namespace
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Label
+
+NAMES = ("impossible-class", "class-cycle", "impossible-relation")
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield what is wrong with the terms that the library declares."""
+    told: set[frozenset[str]] = set()
+    for unit in program.files:
+        for declaration in unit.file.declarations:
+            match declaration:
+                case s.ClassDeclaration():
+                    iri = _iri(program, unit.library, declaration.name.text)
+                    yield from _class(program.vocabulary, declaration, iri, told)
+                case s.RelationDeclaration(traits=traits):
+                    yield from _relation(declaration, {trait.kind: trait for trait in traits})
+                case _:
+                    pass
+
+
+def _iri(program: Program, library: str, name: str) -> str:
+    """Return the IRI of a declared class: of the library, or of the vocabulary whose class is declared again."""
+    own = namespace(library) + name
+    return (
+        own
+        if own in program.vocabulary.classes
+        else next((iri for iri in sorted(program.vocabulary.classes) if local_name(iri) == name), own)
+    )
+
+
+def _class(
+    vocabulary: Vocabulary, declaration: s.ClassDeclaration, iri: str, told: set[frozenset[str]]
+) -> Iterator[Diagnostic]:
+    above = vocabulary.ancestors.get(iri, frozenset())
+    circle = frozenset(other for other in above if other != iri and vocabulary.is_a(other, iri))
+    if circle or (iri in vocabulary.classes and iri in vocabulary.classes[iri].parents):
+        if circle | {iri} not in told:
+            told.add(circle | {iri})
+            way = "".join(f", by `{local_name(other)}`" for other in sorted(circle))
+            message = f"`{declaration.name.text}` is declared below itself{way}"
+            yield Diagnostic("class-cycle", declaration.name.span, message, "take one of the parents away")
+        return
+    for one, other in combinations(declaration.parents, 2):
+        pair = [_parent(vocabulary, iri, name.text) for name in (one, other)]
+        if all(pair) and vocabulary.disjoint(pair[0], pair[1]):
+            message = f"nothing can be `{declaration.name.text}`: nothing is both `{one.text}` and `{other.text}`"
+            labels = (Label(one.span, "the other one"),)
+            help_ = "take one of the two parents away"
+            yield Diagnostic("impossible-class", other.span, message, help_, labels=labels)
+
+
+def _parent(vocabulary: Vocabulary, iri: str, name: str) -> str:
+    term = vocabulary.classes.get(iri)
+    local = name.rpartition(":")[2]
+    return next((parent for parent in (term.parents if term else ()) if local_name(parent) == local), "")
+
+
+def _relation(declaration: s.RelationDeclaration, traits: dict[str, s.Trait]) -> Iterator[Diagnostic]:
+    if {"transitive", "functional"} <= traits.keys():
+        yield Diagnostic(
+            "impossible-relation",
+            declaration.name.span,
+            f"`{declaration.name.text}` passes on over several steps and yet has one value only",
+            help="take one of the two away, or declare a transitive relation above a functional one: `sub RELATION`",
+            labels=tuple(Label(traits[kind].span, "this") for kind in ("transitive", "functional")),
+        )

@@ -1,0 +1,97 @@
+"""A skill that no task of the library can reach.
+
+A task reaches what its body calls; one with a goal reaches what a planner may take, which is every skill with a post
+and without `noplan`; and both reach what those call. A library without tasks is for others, who may call everything.
+
+## unreachable-skill: no task calls or plans a skill
+
+Bad:
+
+    use rparts
+    import "motion.skill"
+    prefix lab: <http://example.org/lab#>
+    skill Fold {
+        in arm: ArmDevice
+        noplan
+    }
+    impl folded of Fold { do TakePosture(arm) }
+    task rest {
+        scene "iiwa_table.ttl"
+        do    TakePosture(arm: lab:Iiwa-1)
+    }
+
+Good:
+
+    use rparts
+    import "motion.skill"
+    prefix lab: <http://example.org/lab#>
+    skill Fold {
+        in arm: ArmDevice
+        noplan
+    }
+    impl folded of Fold { do TakePosture(arm) }
+    task rest {
+        scene "iiwa_table.ttl"
+        do    Fold(arm: lab:Iiwa-1)
+    }
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.program import Implementation, Program, Skill, Step
+from skillc_compiler.walk import within
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic
+
+NAMES = ("unreachable-skill",)
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a warning for each skill of a library with tasks that none of them reaches."""
+    own = [unit for unit in program.files if unit.library == program.name]
+    if not any(isinstance(d, s.TaskDeclaration) for unit in own for d in unit.file.declarations):
+        return
+    reached = _reached(program)
+    paths = {unit.file.path for unit in own}
+    for skill in program.skills.values():
+        told = not program.implementations_of[skill.name] or _achieves_nothing(skill)
+        if skill.name not in reached and skill.name_span.path in paths and not told:
+            yield Diagnostic(
+                "unreachable-skill",
+                skill.name_span,
+                f"no task of this library can reach `{skill.name}`",
+                help="call it, give it a `post` for which it can be planned, or take it away",
+                severity="warning",
+            )
+
+
+def _reached(program: Program) -> set[str]:
+    todo = [name for task in program.tasks if task.body for name in _called(task.body)]
+    if any(task.goal for task in program.tasks):
+        todo += [skill.name for skill in program.skills.values() if _planned(skill)]
+    reached: set[str] = set()
+    while todo:
+        name = todo.pop()
+        if name not in reached:
+            reached.add(name)
+            todo += [other for each in program.implementations_of[name] for other in _calls(each)]
+    return reached
+
+
+def _planned(skill: Skill) -> bool:
+    return "noplan" not in skill.flags and not _achieves_nothing(skill)
+
+
+def _achieves_nothing(skill: Skill) -> bool:
+    """Whether a planner is offered a skill without a post, which is a problem of its own."""
+    return "noplan" not in skill.flags and not any(r.kind == "post" for r in skill.requirements)
+
+
+def _calls(implementation: Implementation) -> Iterator[str]:
+    return _called(implementation.body) if isinstance(implementation.body, Step) else iter(())
+
+
+def _called(body: Step) -> Iterator[str]:
+    return (step.call.skill.name for step in within(body) if step.call and step.call.skill)
