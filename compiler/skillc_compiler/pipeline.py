@@ -12,10 +12,11 @@ from skillc_compiler.followers import without_followers
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.lower.library import lower
-from skillc_compiler.program import Program
+from skillc_compiler.program import Program, ReadFile
 from skillc_compiler.resolve.files import Parse, read
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve
+from skillc_compiler.unplannable import unplannable
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.parser import parse
 from skillc_dsl.source import Source
@@ -39,8 +40,7 @@ def compile(
     The result holds everything in which no error was found; diagnostics are in the order of the files and lines, those
     of the shelf only where they are errors.
     """
-    program = understand(sources, vocabulary, shelf, name, scenes, parsed_by)
-    return Outcome(lower(program.value, program.diagnostics), told(program.diagnostics, sources))
+    return finish(understand(sources, vocabulary, shelf, name, scenes, parsed_by), sources)
 
 
 def understand(
@@ -54,10 +54,21 @@ def understand(
     """Read, resolve and check a library as `compile` does."""
     files = read(sources, shelf, name, parsed_by)
     program = resolve(files.value, vocabulary, name, scenes)
+    return Outcome(program.value, problems(files, program))
+
+
+def problems(files: Outcome[tuple[ReadFile, ...]], program: Outcome[Program]) -> tuple[Diagnostic, ...]:
+    """Check a program; return all that is wrong with it without what only follows from something else."""
     found = (*program.diagnostics, *check(program.value))
     own_faults = without_followers(found, files.diagnostics, files.value)
-    problems = (*files.diagnostics, *without_consequences(own_faults, (*files.diagnostics, *found), files.value))
-    return Outcome(program.value, problems)
+    return (*files.diagnostics, *without_consequences(own_faults, (*files.diagnostics, *found), files.value))
+
+
+def finish(program: Outcome[Program], sources: Sequence[Source]) -> Outcome[SkillLibrary]:
+    """Lower what was understood, and choose what the author of `sources` is told."""
+    library = lower(program.value, program.diagnostics)
+    left_out = unplannable(library, program.value, program.diagnostics)
+    return Outcome(library, told((*program.diagnostics, *left_out), sources))
 
 
 def told(problems: Sequence[Diagnostic], sources: Sequence[Source]) -> tuple[Diagnostic, ...]:

@@ -13,6 +13,8 @@ from skillc_compiler.manual import Page, pages
 from skillc_compiler.pipeline import compile
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.formatting import not_formatted
+from skillc_dsl.encoding import decode
+from skillc_dsl.parser import parse
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
 
@@ -43,6 +45,8 @@ def problems(page: Page, text: str) -> list[str]:
     if page.name == "not-formatted":
         warning = not_formatted(Source("example.skill", text))
         return [warning.name] if warning else []
+    if page.name == "encoding":
+        return [d.name for d in parse(decode("example.skill", text.encode("latin-1"))).diagnostics]
     if page.name == "missing-prefix":
         boards = {iri: classes for iri, classes in SCENE.items() if "board" in iri}
         return [d.name for d in parse_goal(text.strip(), vocabulary(), boards, {"lab": LAB}).diagnostics]

@@ -17,6 +17,7 @@ Bad:
         hold gripper contain object
         post to contain object
         post not gripper contain object
+        noplan
     }
     impl waiting of Drop { do seq { Release(arm, gripper, object, to) wait 1 s } }
 
@@ -32,6 +33,7 @@ Good:
         hold gripper contain object
         post to contain object
         post not gripper contain object
+        noplan
     }
     impl waiting of Drop { do seq { wait 1 s Release(arm, gripper, object, to) } }
 """

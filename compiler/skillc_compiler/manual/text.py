@@ -157,6 +157,22 @@ Good:
         do    TakePosture(arm: lab:Iiwa-1)
     }
 
+## encoding: the file is not UTF-8
+
+The bad example is saved as Latin-1, where the letters beyond ASCII are other bytes.
+
+Bad:
+
+    # Größe
+    skill Rest { noplan }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    # Groesse
+    skill Rest { noplan }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
 ## not-formatted: the file is not in its one layout
 
 Told by `skillc fmt --check`, not by `skillc check`. `skillc fmt` lays files out: one member a line, words in columns,
