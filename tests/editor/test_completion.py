@@ -14,7 +14,6 @@ BEGINNINGS = ("class", "function", "impl", "import", "prefix", "property", "rela
 EXACT = [
     ("infer at", "    |", "duration fallback hold in infer noplan opt out post pre range scoped shares uses"),
     ("do seq {", "        par |", "all any lead race"),
-    ("do seq {", "        with |", "Compliance Push"),
     ("do seq {", "        Move(arm, |", "target: speed:"),
     ("do seq {", "        Move(speed: 1 m/s, |", "arm arm: target:"),
     ("do seq {", "        Move[|", "line"),
@@ -44,6 +43,7 @@ AMONG = [
     ("infer at", "    in x: Pan|", "Panel", "Move"),
     ("infer at", "    pre panel is |", "Panel Location", "Force"),
     ("infer at", "    pre panel fixedTo at |", "and or implies", "pre duration"),
+    ("do seq {", "        with |", "Compliance Push", "Move Align seq"),
     ("do seq {", "        |", "Move Press Compliance seq sel par with apply", "pre in skill"),
     ("do seq {", "        Move(arm, target: |", "above lifted panel.pose", "push true panel.isClean"),
     ("do seq {", "        Push(arm, along: panel.normal, force: |", "push", "above true panel.wear"),
@@ -105,3 +105,15 @@ async def test_a_fault_above_does_not_hide_what_fits(desk: Desk, broken: str) ->
     desk.library(motion=MOTION)
     text = with_line(with_line(PRESS, "post  done", "    pre panel.|"), "infer at", broken)
     assert "isClean" in await desk.completions("press.skill", text)
+
+
+async def test_a_skill_that_is_not_imported_brings_its_import(desk: Desk) -> None:
+    desk.library(motion=MOTION)
+    text = with_line(PRESS, "do seq {", "        Insp|")
+    found = await desk.client.text_document_completion_async(types.CompletionParams(*desk.at("press.skill", text)))
+    assert isinstance(found, types.CompletionList)
+    by_label = {item.label: item for item in found.items}
+    assert not by_label["Move"].additional_text_edits
+    (edit,) = by_label["Inspect"].additional_text_edits or ()
+    assert edit.new_text == 'import "inspection.skill"\n'
+    assert edit.range == types.Range(types.Position(3, 0), types.Position(3, 0))

@@ -9,13 +9,14 @@ from functools import cached_property
 from skillc_compiler.assist.index import Index, index_of
 from skillc_compiler.assist.visible import Visible, visible_in
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.pipeline import NO_SCENES, told, understand
-from skillc_compiler.program import Program
-from skillc_compiler.resolve.files import Parse
+from skillc_compiler.pipeline import NO_SCENES, finish, problems
+from skillc_compiler.program import Program, ReadFile
+from skillc_compiler.resolve.files import Parse, read
 from skillc_compiler.resolve.individuals import Individuals
+from skillc_compiler.resolve.program import resolve
 from skillc_compiler.types import Type
 from skillc_compiler.walk import values
-from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.parser import parse
 from skillc_dsl.source import Source, Span
 
@@ -36,11 +37,23 @@ class Library:
 
 @dataclass(frozen=True)
 class Analysis:
-    """A library with what was understood of it. `problems` are those its author is told, in order of place."""
+    """A library with what was understood of it."""
 
     library: Library
-    program: Program
-    problems: tuple[Diagnostic, ...]
+    files: Outcome[tuple[ReadFile, ...]]
+    resolved: Outcome[Program]
+    parsed_by: Parse = parse
+
+    @property
+    def program(self) -> Program:
+        """The program that the files mean together."""
+        return self.resolved.value
+
+    @cached_property
+    def problems(self) -> tuple[Diagnostic, ...]:
+        """What the author is told, as the compiler tells it, in order of place. Takes longer than all else here."""
+        checked = Outcome(self.program, problems(self.files, self.resolved))
+        return finish(checked, _ordered(self.library)).diagnostics
 
     @cached_property
     def texts(self) -> Mapping[str, str]:
@@ -78,6 +91,10 @@ class Analysis:
 
 def analyse(library: Library, parsed_by: Parse = parse) -> Analysis:
     """Understand a library; `parsed_by` may remember what it parsed before."""
-    sources = [library.sources[path] for path in sorted(library.sources)]
-    outcome = understand(sources, library.vocabulary, library.shelf, library.name, library.scenes, parsed_by)
-    return Analysis(library, outcome.value, told(outcome.diagnostics, sources))
+    files = read(_ordered(library), library.shelf, library.name, parsed_by)
+    program = resolve(files.value, library.vocabulary, library.name, library.scenes)
+    return Analysis(library, files, program, parsed_by)
+
+
+def _ordered(library: Library) -> tuple[Source, ...]:
+    return tuple(library.sources[path] for path in sorted(library.sources))

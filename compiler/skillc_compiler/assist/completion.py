@@ -111,6 +111,7 @@ def _in_members(analysis: Analysis, around: Surroundings, cursor: InCode) -> Ite
     match types:
         case ("IMPL", _, "OF"):
             yield from offers.skills(analysis, around)
+            yield from offers.skills_elsewhere(analysis, cursor.word.path)
         case (*_, ("IN" | "OPT" | "INFER" | "ANY" | "OUT"), "LABEL") | (*_, "LABEL", "LSQB"):
             yield from _types(around)
         case (*_, "REFINE", "LABEL"):
@@ -150,6 +151,7 @@ def _in_values(analysis: Analysis, around: Surroundings, cursor: InCode) -> Iter
             yield from offers.values(around, Wanted(Thing(cls)))
     elif cursor.fits("NAME", "LSQB"):
         yield from offers.skills(analysis, around, scoped=types[-1] == "WITH")
+        yield from offers.skills_elsewhere(analysis, cursor.word.path, scoped=types[-1] == "WITH")
     elif cursor.fits("NAME", "DOT"):
         yield from offers.values(around, expected(around, analysis.program.skills, before))
 

@@ -8,6 +8,7 @@ from typing import Literal, TypeAlias
 
 from skillc_compiler.assist.analysis import Analysis
 from skillc_compiler.assist.describing import parameter_line
+from skillc_compiler.assist.imports import importable
 from skillc_compiler.assist.surroundings import Surroundings
 from skillc_compiler.assist.term_pages import function_head, type_text
 from skillc_compiler.library.vocabulary import THING, PropertyTerm, RelationTerm, local_name
@@ -16,6 +17,7 @@ from skillc_compiler.resolve.names import Kind
 from skillc_compiler.resolve.typenames import BUILT_IN
 from skillc_compiler.resolve.values import Wanted
 from skillc_compiler.types import BOOL, UNKNOWN, Thing, Type, describe, fits, of_library, of_property
+from skillc_dsl import syntax as s
 
 OfferKind: TypeAlias = Literal[
     "keyword", "class", "type", "relation", "property", "function", "skill", "implementation", "parameter", "variable",
@@ -25,7 +27,10 @@ OfferKind: TypeAlias = Literal[
 
 @dataclass(frozen=True, slots=True)
 class Offer:
-    """A word that fits: what to show and, where that differs, what to write. Lower ranks come first."""
+    """A word that fits: what to show and, where that differs, what to write. Lower ranks come first.
+
+    `imports` is the file that has to be imported for it, empty where none has.
+    """
 
     text: str
     kind: OfferKind
@@ -33,6 +38,7 @@ class Offer:
     documentation: str = ""
     written: str = ""
     rank: int = 0
+    imports: str = ""
 
     @property
     def inserted(self) -> str:
@@ -122,6 +128,14 @@ def skills(analysis: Analysis, around: Surroundings, scoped: bool = False) -> It
         if skill and (not scoped or "scoped" in skill.flags):
             takes = ", ".join(p.name for p in skill.parameters if p.direction == "in")
             yield Offer(name, "skill", f"({takes})", skill.doc, rank=1)
+
+
+def skills_elsewhere(analysis: Analysis, path: str, scoped: bool = False) -> Iterator[Offer]:
+    """Offer the skills that could be called here if their file were imported."""
+    for skill, file in importable(analysis, path):
+        flags = [member.flag for member in skill.members if isinstance(member, s.Flag)]
+        if not scoped or "scoped" in flags:
+            yield Offer(skill.name.text, "skill", f"import {file}", skill.doc, rank=7, imports=file)
 
 
 def parameters(analysis: Analysis, of: Iterable[Parameter]) -> Iterator[Offer]:

@@ -84,6 +84,8 @@ def _at(analysis: Analysis, path: str, line: int, column: int) -> Occurrence | R
     chosen = there[-1]
     if isinstance(chosen.symbol, TermSymbol) and chosen.symbol.iri in _ontology(analysis):
         return Refused(f"`{_text(analysis, chosen.span)}` is declared in the ontology, which other files rely on")
+    if isinstance(chosen.symbol, TermSymbol) and (task := _populating(analysis, chosen.symbol.iri)):
+        return Refused(f"the scene of the task `{task}` has a `{_text(analysis, chosen.span)}`: rename it there first")
     places = [occurrence.span for occurrence in analysis.index.declarations(chosen.symbol)]
     if not places:
         return Refused(f"the declaration of `{_text(analysis, chosen.span)}` is not known")
@@ -91,6 +93,12 @@ def _at(analysis: Analysis, path: str, line: int, column: int) -> Occurrence | R
     if elsewhere:
         return Refused(f"`{_text(analysis, chosen.span)}` is declared in {elsewhere[0]}, outside of this library")
     return chosen
+
+
+def _populating(analysis: Analysis, cls: str) -> str | None:
+    """Return a task in whose scene something is of this class."""
+    scenes = analysis.library.scenes.items()
+    return next((task for task, found in scenes if any(cls in classes for classes in found.values())), None)
 
 
 def _ontology(analysis: Analysis) -> frozenset[str]:

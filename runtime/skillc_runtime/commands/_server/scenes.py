@@ -13,9 +13,6 @@ from skillc_compiler.program import Program
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
-from skillc_runtime.commands._diagnostics import of_problems
-from skillc_runtime.world.documents import SceneError
-from skillc_runtime.world.scene import read_scene
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +66,11 @@ def path_of(scene: str, beside: Path) -> Path | None:
 
 
 def _scene(file: Path, vocabulary: Vocabulary) -> tuple[Individuals, tuple[Diagnostic, ...]]:
+    """Read a scene. The world model is imported only here: libraries without tasks do not wait for it."""
+    from skillc_runtime.commands._diagnostics import of_problems
+    from skillc_runtime.world.documents import SceneError
+    from skillc_runtime.world.scene import read_scene
+
     try:
         scene = read_scene(file, vocabulary)
     except SceneError as error:

@@ -9,6 +9,7 @@ from lsprotocol import types
 from pygls.exceptions import JsonRpcInvalidParams
 
 from skillc_compiler.assist.completion import complete
+from skillc_compiler.assist.imports import import_of
 from skillc_compiler.assist.offers import Offer
 from skillc_compiler.assist.rename import Refused, renamable
 from skillc_compiler.assist.rename import rename as renamed
@@ -50,7 +51,12 @@ def completion(session: Session, params: types.CompletionParams) -> types.Comple
     scenes = [*sorted(_scenes_beside(at.view)), *catalogue.scenes()]
     found = complete(at.view.analysis, at.view.path, at.line, at.column, scenes, warnings)
     place = at.lines.range(found.replaced)
-    return types.CompletionList(False, [_item(offer, order, place) for order, offer in enumerate(found.offers)])
+    items = [_item(offer, order, place) for order, offer in enumerate(found.offers)]
+    for item, offer in zip(items, found.offers, strict=True):
+        if offer.imports:
+            line = import_of(at.view.analysis, at.view.path, offer.imports)
+            item.additional_text_edits = [types.TextEdit(at.lines.range(line.span), line.text)]
+    return types.CompletionList(False, items)
 
 
 def prepare_rename(session: Session, params: types.PrepareRenameParams) -> types.PrepareRenamePlaceholder:
