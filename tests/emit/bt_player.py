@@ -7,74 +7,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
+from emit.bt_parts import Blackboard, Node, Outcome, Stage
 from emit.tree_rules import Reader
-
-Blackboard = dict[str, object]
-
-
-class Outcome(NamedTuple):
-    """How a node ended in a tick; None in place of it means that it still runs."""
-
-    ok: bool
-    hold: bool = False
-
-
-class Stage:
-    """What the leaves of a tree do: overridden by the test."""
-
-    now = 0.0
-
-    def action(self, path: tuple[str, ...], values: Blackboard) -> Callable[[], Outcome | None]:
-        """Start an action; the function returned advances it by a tick."""
-        raise NotImplementedError
-
-    def found(self, path: tuple[str, ...]) -> Blackboard:
-        """Return what the action that ended last under this path puts out."""
-        return {}
-
-    def halt(self, path: tuple[str, ...], values: Blackboard) -> None:
-        """Halt an action that runs, by the values that it was started with."""
-
-    def undo(self, path: tuple[str, ...], values: Blackboard) -> None:
-        """Undo what a scoped skill set up."""
-
-    def holds(self, path: tuple[str, ...], source: str, values: Blackboard) -> bool:
-        """Say whether a condition holds."""
-        raise NotImplementedError
-
-
-@dataclass
-class Node:
-    """A node of an instantiated tree."""
-
-    element: Element
-    children: list[Node]
-    board: Blackboard
-    player: Player
-    running: bool = False
-    state: Blackboard = field(default_factory=dict)
-
-    def tick(self) -> Outcome | None:
-        """Advance the node; its memory is lost once it has ended."""
-        if not self.running:
-            self.state.clear()
-        outcome = getattr(self.player, _method(self.element.tag), self.player.declared)(self)
-        self.running = outcome is None
-        if outcome is not None:
-            self.player.script(self.element.get("_onSuccess" if outcome.ok else "_onFailure"), self.board)
-        return outcome
-
-    def halt(self) -> None:
-        """Stop what runs below."""
-        if self.running:
-            self.running = False
-            for child in self.children:
-                child.halt()
-            self.player.halted(self)
 
 
 class Player:
@@ -89,6 +25,12 @@ class Player:
 
     def tick(self) -> Outcome | None:
         return self.root.tick()
+
+    def ticked(self, node: Node) -> Outcome | None:
+        """Tick a node of the library, or one that the file declares."""
+        own = re.sub(r"[A-Z]", lambda capital: f"_{capital[0].lower()}", node.element.tag)
+        tick: Callable[[Node], Outcome | None] = getattr(self, own, self.declared)
+        return tick(node)
 
     def _built(self, element: Element, board: Blackboard) -> Node:
         if element.tag == "SubTree":
@@ -342,11 +284,6 @@ class Player:
             if not node.state.get("set up"):
                 self.stage.halt(path[2:], values)
             self.stage.undo(path[2:], values)
-
-
-def _method(tag: str) -> str:
-    """Return the name of the method that ticks a node of the library."""
-    return re.sub(r"[A-Z]", lambda capital: f"_{capital[0].lower()}", tag)
 
 
 def _threshold(node: Node, word: str, size: int) -> int:

@@ -8,8 +8,9 @@ from collections.abc import Callable, Iterator
 import msgspec
 from hypothesis import HealthCheck, event, given, settings
 
-from emit.bt_player import Blackboard, Outcome, Player
-from emit.bt_player import Stage as Leaves
+from emit.bt_parts import Blackboard, Outcome
+from emit.bt_parts import Stage as Leaves
+from emit.bt_player import Player
 from skillc_compiler.emit import bt
 from skillc_compiler.emit.bt_calls import may_break_hold
 from skillc_compiler.library import tree

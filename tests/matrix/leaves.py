@@ -7,8 +7,8 @@ from typing import cast
 
 import msgspec
 
-from emit.bt_player import Blackboard, Outcome
-from emit.bt_player import Stage as Leaves
+from emit.bt_parts import Blackboard, Outcome
+from emit.bt_parts import Stage as Leaves
 from skillc_compiler.library.conditions import Arithmetic, Condition, Expression, IsA, Literal, Variable
 from skillc_compiler.library.reading import walk
 from skillc_compiler.library.skills import Compound, Implementation, Primitive, SkillLibrary
