@@ -1,4 +1,4 @@
-"""Braces left open: found by the indentation, told, and closed."""
+"""Braces left open, or closed twice: found by the indentation, told, and mended."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from skillc_dsl.source import Span
 
 
 def close_braces(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, ...]]:
-    """Return the tokens with a `}` wherever a declaration leaves a brace open."""
+    """Return the tokens with a `}` wherever a declaration leaves a brace open, without any that is one too many."""
     closed: list[Token] = []
     problems: list[Diagnostic] = []
     for start, end in _regions(tokens):
@@ -21,6 +21,9 @@ def close_braces(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, .
         missing = sum((t.type == "LBRACE") - (t.type == "RBRACE") for t in region)
         if missing > 0:
             region, found = _close(region, tokens[end], missing, path)
+            problems += found
+        elif missing < 0:
+            region, found = _without_surplus(region, -missing, path)
             problems += found
         closed += region
     return Outcome((*closed, tokens[-1]), tuple(problems))
@@ -58,6 +61,33 @@ def _close(
         problems.append(_unclosed(opener, column, result[-1], following, path))
         result.append(after(result[-1], "RBRACE"))
     return tuple(result), problems
+
+
+def _without_surplus(region: Sequence[Token], surplus: int, path: str) -> tuple[tuple[Token, ...], list[Diagnostic]]:
+    """Leave out each `}` that is indented deeper than the line of the brace it would close."""
+    result: list[Token] = []
+    problems: list[Diagnostic] = []
+    opened: list[int] = []
+    indent = 1
+    for index, token in enumerate(region):
+        if first_on_line(region, index):
+            indent = token.column or 1
+        if token.type == "LBRACE":
+            opened.append(indent)
+        elif token.type == "RBRACE" and opened:
+            if opened[-1] < indent and len(problems) < surplus:
+                problems.append(_unopened(span_of(token, path)))
+                continue
+            opened.pop()
+        result.append(token)
+    return tuple(result), problems
+
+
+def _unopened(span: Span) -> Diagnostic:
+    fix = Fix(span, "", "delete it", safe=False)
+    return Diagnostic(
+        "unopened-brace", span, "this `}` is one too many", "delete it, or add the `{` before it", fix=fix
+    )
 
 
 def _unclosed(opener: Token, indent: int, last: Token, found: Token, path: str) -> Diagnostic:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Iterable
 from dataclasses import dataclass
+from types import MappingProxyType
 
 from lark import Token
 
@@ -66,6 +67,29 @@ def home(token: Token) -> str:
     )
     fitting = [kind for kind, start in homes if token.type != "RBRACE" and token.type in following(start)]
     return f"`{token}` belongs in {' or '.join(fitting)}" if fitting else ""
+
+
+_FOREIGN = MappingProxyType(
+    {
+        "then": "the braces follow the condition right away: `if C { }`",
+        "sequence": "write `seq { }`",
+        "selector": "write `sel { }`",
+        "parallel": "write `par all { }`, `par any { }`, `par race { }` or `par lead { }`",
+        "param": "write `in`, `opt`, `infer` or `out`",
+        "input": "write `in`",
+        "output": "write `out`",
+        "return": "a step succeeds or fails by itself; give a value out with `Skill(..) -> name`",
+        "/": "a comment begins with `#`",
+    }
+)
+"""What authors used to other languages write, and what to write instead."""
+
+
+def advice(token: Token, before: Token | None) -> str:
+    """Return help for a word or mark of another language, at the fault or right before it; empty for any other."""
+    if token == "=" and before is not None and before.isidentifier():
+        return "an argument is written `name: value`, a value is named by `let` before the steps"
+    return _FOREIGN.get(str(token)) or (_FOREIGN.get(str(before), "") if before is not None else "")
 
 
 def _set(terminals: str) -> frozenset[str]:

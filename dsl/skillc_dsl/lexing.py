@@ -61,7 +61,8 @@ def _skip(state: LexerState, source: Source, tokens: list[Token], problems: list
     """Move past what is no token: a text that does not end with its line, or a run of foreign characters."""
     counter = state.line_ctr
     start, line, column = counter.char_pos, counter.line, counter.column
-    pattern = r'"[^\n]*' if source.text[start] == '"' else re.escape(source.text[start]) + "+"
+    quote = {'"': r'"[^\n]*', "'": r"'[^'\n]*'|'+"}.get(source.text[start])
+    pattern = quote or re.escape(source.text[start]) + "+"
     match = re.compile(pattern).match(source.text, start)
     stretch = match.group().rstrip() if match else source.text[start]
     span = Span(source.path, line, column, line, column + len(stretch))
@@ -69,6 +70,11 @@ def _skip(state: LexerState, source: Source, tokens: list[Token], problems: list
         end = (line, span.end_column, start + len(stretch))
         tokens.append(Token("STRING", f'{stretch}"', start, line, column, *end))
         problems.append(_unterminated(span))
+    elif stretch.startswith("'") and len(stretch) > 1:
+        tokens.append(
+            Token("STRING", f'"{stretch[1:-1]}"', start, line, column, line, span.end_column, start + len(stretch))
+        )
+        problems.append(_single_quotes(span, stretch))
     elif stretch[0] != REPLACEMENT:
         problems.append(_unknown_character(span, stretch))
     counter.feed(Token("STRING", stretch), test_newline=False)
@@ -79,6 +85,13 @@ def _unterminated(span: Span) -> Diagnostic:
     help_ = "text stands between two double quotes on one line"
     message = 'this text has no closing `"` on its line'
     return Diagnostic("unterminated-string", span, message, help_, fix=Fix(end, '"', "close the text"))
+
+
+def _single_quotes(span: Span, stretch: str) -> Diagnostic:
+    fix = Fix(span, f'"{stretch[1:-1]}"', "use double quotes")
+    return Diagnostic(
+        "unknown-character", span, "text stands in double quotes, not in `'`", 'like this: "text"', fix=fix
+    )
 
 
 def _unknown_character(span: Span, stretch: str) -> Diagnostic:

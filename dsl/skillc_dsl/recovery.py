@@ -9,7 +9,7 @@ from lark.exceptions import UnexpectedToken
 from lark.parsers.lalr_parser_state import ParserState
 
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.expectations import described, home, shown
+from skillc_dsl.expectations import advice, described, home, shown
 from skillc_dsl.grammar import DECLARATIONS, END, first_on_line, fits, fitting, machine
 from skillc_dsl.lexing import after, span_of
 from skillc_dsl.repairs import Fault, repair
@@ -74,7 +74,8 @@ class Recovery:
         if index and not expected & {"RBRACE", END} and first_on_line(self.tokens, index):
             last = self.tokens[index - 1]
             span, found = span_of(last, self.path), f"something is missing after {shown(last)}"
-        help_ = home(token) if "RBRACE" in expected else ""
+        left = self.tokens[index - 1] if index else None
+        help_ = advice(token, left) or (home(token) if "RBRACE" in expected else "")
         return Diagnostic("syntax", span, f"{found}: expected {described(expected)}", help_)
 
     def _resume(self, index: int) -> int:

@@ -132,7 +132,7 @@ def _missing(fault: Fault) -> Iterator[Repair]:
         return
     span = span_of(fault.tokens[fault.index - 1], fault.path) if new_line and fault.index else fault.span
     for terminal in _INSERTED:
-        if new_line and terminal == "LPAR":
+        if (new_line and terminal == "LPAR") or (terminal == "LBRACE" and not _has_unopened(fault)):
             continue
         if fault.mended_by(terminal, skip=0) and not (name_fits and terminal in _WORDS):
             text, gap = words()[terminal], fault.gap
@@ -142,6 +142,18 @@ def _missing(fault: Fault) -> Iterator[Repair]:
             problem = Diagnostic("syntax", span, f"`{text}` is missing after `{before}`", fix=fix)
             place = (None, gap.line, gap.column, gap.line, gap.column, None)
             yield Repair(problem, (Token(terminal, text, *place), fault.token))
+
+
+def _has_unopened(fault: Fault) -> bool:
+    """Whether the declaration at fault has more `}` than `{`, so that one more `{` makes it whole."""
+    open_ = 0
+    for index, token in enumerate(fault.tokens):
+        if token.type in DECLARATIONS and first_on_line(fault.tokens, index):
+            if index > fault.index:
+                break
+            open_ = 0
+        open_ += (token.type == "LBRACE") - (token.type == "RBRACE")
+    return open_ < 0
 
 
 def _superfluous(fault: Fault) -> Iterator[Repair]:
