@@ -47,6 +47,8 @@ def _all(run: Run, node: Step, writes: list[frozenset[Write]], ways: Ways, aroun
     for number, child in enumerate(node.children):
         others = _others(writes, number)
         before = ends.success
+        if not before:
+            ends.add_failures(run.explore(run, child, after(run.sorts, ways, others), around.beside(others)))
         ends.success = {}
         for state, way in before.items():
             entry = _not_yet(forgotten(run.sorts, state, others), others, known)

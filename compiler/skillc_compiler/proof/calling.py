@@ -48,8 +48,8 @@ def _look(
     for requirement in conditions:
         condition = binding.at_start(requirement.clause.meaning)
         known = truth(run.sorts, state, condition)
-        unclear = requirement.kind == "hold" or not free_variables(condition).isdisjoint(binding.open_)
-        run.tally(call, requirement, True if known is None and unclear else known, around.caught, way)
+        at_run_time = requirement.kind == "hold" or not free_variables(condition).isdisjoint(binding.open_)
+        run.tally(call, requirement, known, around.caught or (at_run_time and known is None), way)
 
 
 def _end(

@@ -65,7 +65,7 @@ class Prover:
     def __post_init__(self) -> None:
         self._axioms: Axioms = axioms_of(self.program.vocabulary)
         self.summaries = Summaries(self.program, self._axioms)
-        self._understood = Understood(self.program, self._axioms)
+        self.understood = Understood(self.program, self._axioms)
         self._busy: set[str] = set()
 
     def leaks(self, implementation: Implementation) -> frozenset[Write]:
@@ -140,7 +140,7 @@ class Prover:
         if run.crowded is not None:
             found.append(Undecided(run.crowded))
         clear = not isinstance(of, Implementation) or can_start(run.sorts, of)
-        return tuple(self._understood.sound(of, found, clear))
+        return tuple(self.understood.sound(of, found, clear))
 
 
 def unreachable(run: Run, node: Step, start: State) -> Iterator[Unreachable]:

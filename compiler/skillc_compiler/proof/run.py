@@ -67,16 +67,20 @@ class Watch(Protocol):
 
 @dataclass
 class Tally:
-    """How often a precondition was looked at, and how often it did not hold or was not known to, with the ways."""
+    """How often a precondition was looked at, and how often it did not hold or was not known to, with the ways.
+
+    `excused` are those times that it was not known and need not be: where failure is dealt with, or at run time.
+    """
 
     call: Call
     requirement: Requirement
-    caught: bool
     seen: int = 0
     false: int = 0
+    open_: int = 0
+    excused: int = 0
+    caught: bool = False
     false_way: Way = None
     open_way: Way = None
-    open_: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,25 +143,27 @@ class Run:
                 finding = BrokenHold(hold, way.span, known is False, way)
                 self.note((id(hold), way.span, known), finding, way)
 
-    def tally(self, call: Call, requirement: Requirement, known: bool | None, caught: bool, way: Way) -> None:
+    def tally(self, call: Call, requirement: Requirement, known: bool | None, excused: bool, way: Way) -> None:
         """Count what is known of a precondition where its skill starts."""
         key = (id(call), id(requirement))
-        count = self.tallies.setdefault(key, Tally(call, requirement, caught))
+        count = self.tallies.setdefault(key, Tally(call, requirement))
         count.seen += 1
         if known is False:
-            shorter = count.false == 0 or length(way) < length(count.false_way)
-            count.false_way = way if shorter else count.false_way
+            count.caught |= excused
+            count.false_way = way if not count.false or length(way) < length(count.false_way) else count.false_way
             count.false += 1
+        elif known is None and excused:
+            count.excused += 1
         elif known is None:
             count.open_way = way if not count.open_ or length(way) < length(count.open_way) else count.open_way
-            count.open_ = True
+            count.open_ += 1
 
     def unguaranteed(self) -> Iterable[Finding]:
         """Yield the preconditions that do not hold on some way or are not known to; where failure is caught, on all."""
         for count in self.tallies.values():
             if count.false == count.seen or (count.false and not count.caught):
                 yield Unguaranteed(count.call, count.requirement, True, count.false_way)
-            elif count.open_ and not count.caught and self.implementation is not None:
+            elif count.open_ and self.implementation is not None:
                 yield Unguaranteed(count.call, count.requirement, False, count.open_way)
 
 

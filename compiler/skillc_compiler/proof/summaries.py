@@ -12,7 +12,7 @@ from skillc_compiler.proof.binding import candidates, changes, class_of
 from skillc_compiler.proof.opening import name_sorts, opening, requirements_of
 from skillc_compiler.proof.sorts import Sorts, some
 from skillc_compiler.proof.truth import truth
-from skillc_compiler.proof.writing import Assigned, Ended, Related, Valued, Write, applied, write_of
+from skillc_compiler.proof.writing import Assigned, Ended, Related, Valued, Write, applied, either_way, write_of
 from skillc_compiler.types import Thing
 from skillc_dsl import syntax as s
 
@@ -128,8 +128,8 @@ class Summaries:
             whole = self.of_step(implementation.body, implementation)
             yield from hidden((write for write in whole if isinstance(write, Related | Valued)), visible)
             return
-        for _, effect in changes(requirements_of(implementation, "post")):
-            yield write_of(effect)
+        for post, effect in changes(requirements_of(implementation, "post")):
+            yield either_way(write_of(effect)) if post.sensed else write_of(effect)
 
     def _of_step(self, step: Step, implementation: Implementation | None) -> Iterator[Write]:
         if step.call is not None:
@@ -184,10 +184,10 @@ def _seen(write: Write, values: Mapping[str, Expression]) -> Write:
     match write:
         case Related(subject=subject, relation=relation, object=object_, value=value):
             return Related(_term(subject, values), relation, _term(object_, values), value)
-        case Valued(subject=subject, property=iri, value=value):
+        case Valued(subject=subject, property=iri, value=value, cleared=cleared):
             new = values.get(value.name) if isinstance(value, Variable) else value
             known = new if isinstance(new, Literal | Variable | Individual) and not _is_some(new) else None
-            return Valued(_term(subject, values), iri, known)
+            return Valued(_term(subject, values), iri, known, cleared)
         case Assigned() | Ended():
             return write
 

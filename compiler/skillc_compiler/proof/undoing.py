@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from skillc_compiler.program import Call, Step
 from skillc_compiler.proof.calling import called
 from skillc_compiler.proof.run import Around, Run
 from skillc_compiler.proof.state import State
 from skillc_compiler.proof.summaries import calls_in, hidden
 from skillc_compiler.proof.trail import Ends, Way, Ways, add
-from skillc_compiler.proof.writing import Related, Valued, Write, forgotten
+from skillc_compiler.proof.writing import Write, either_way, forgotten
 
 
 def scoped(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
@@ -40,15 +38,7 @@ def _writes(run: Run, node: Step, call: Call) -> tuple[frozenset[Write], frozens
     inside = (run.summaries.lasting(other) for child in node.children for other in calls_in(child))
     set_up = run.summaries.of_call(call).union(*inside)
     body = {write for child in node.children for write in run.writes(child)}
-    return hidden(map(_either_way, set_up), run.stable), frozenset(body)
-
-
-def _either_way(write: Write) -> Write:
-    match write:
-        case Related() | Valued():
-            return replace(write, value=None)
-        case _:
-            return write
+    return hidden(map(either_way, set_up), run.stable), frozenset(body)
 
 
 def _add_restored(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TypeAlias, assert_never
 
@@ -47,11 +47,15 @@ class Related:
 
 @dataclass(frozen=True, slots=True)
 class Valued:
-    """A property that may be written; `value` is the constant or name it gets, None where that is not known."""
+    """A property that may be written; `value` is the constant or name it gets, None where that is not known.
+
+    `cleared` tells that it may have no value afterwards.
+    """
 
     subject: Term
     property: str
     value: Literal | Variable | Individual | None
+    cleared: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +86,17 @@ def write_of(effect: Effect) -> Write:
             return Valued(subject, iri, value if isinstance(value, Literal | Variable | Individual) else None)
         case _:
             assert_never(effect)
+
+
+def either_way(write: Write) -> Write:
+    """Return the write of which the result is not known."""
+    match write:
+        case Related():
+            return replace(write, value=None)
+        case Valued():
+            return replace(write, value=None, cleared=True)
+        case _:
+            return write
 
 
 def condition_of(write: Related | Valued) -> Condition | None:
@@ -288,7 +303,7 @@ def _without_value(sorts: Sorts, state: State, write: Valued) -> State:
 def _agrees(sorts: Sorts, state: State, fact: Condition, true: bool, write: Valued) -> bool:
     """Whether what is known of a value is so after the write too."""
     if isinstance(fact, HasProperty):
-        return true
+        return true and not write.cleared
     if not isinstance(fact, Compare) or not isinstance(fact.left, PropertyOf) or write.value is None:
         return False
     if not isinstance(fact.left.of, Variable | Individual) or fact.left.property != write.property:

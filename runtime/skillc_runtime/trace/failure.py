@@ -9,7 +9,7 @@ import msgspec
 from skillc_compiler.library.vocabulary import Position
 
 FailureKind: TypeAlias = Literal[
-    "pre", "hold", "post", "inference", "lock", "timeout", "body", "plan", "error", "halted"
+    "pre", "hold", "verify", "post", "inference", "lock", "timeout", "body", "plan", "error", "halted"
 ]
 Stage: TypeAlias = Literal["argument", "inference", "pre", "hold", "lock", "start", "run"]
 
@@ -38,8 +38,8 @@ class Failure(msgspec.Struct, frozen=True, kw_only=True):
 
     @property
     def breaks_hold(self) -> bool:
-        """Whether a hold condition broke, here or in a cause: such a failure is never turned into success."""
-        return self.kind == "hold" or any(cause.breaks_hold for cause in self.causes)
+        """Whether a hold or `verify` line broke, here or in a cause: such a failure is never turned into success."""
+        return self.kind in ("hold", "verify") or any(cause.breaks_hold for cause in self.causes)
 
 
 class Rejected(msgspec.Struct, frozen=True, kw_only=True):

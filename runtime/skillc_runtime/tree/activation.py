@@ -17,6 +17,7 @@ from skillc_runtime.tree.enclosing import Enclosing, Frame
 from skillc_runtime.tree.node import Node
 from skillc_runtime.tree.primitive_node import PrimitiveNode
 from skillc_runtime.tree.restore import reverse_of
+from skillc_runtime.tree.verifying import violation, watched
 from skillc_runtime.world.changes import Change
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.effects import changes_of
@@ -53,6 +54,16 @@ class Activation:
                 return Failure(kind="hold", message=message, source=hold.source, skill=self.skill.name)
         self.checked = state
         return None
+
+    @property
+    def watchful(self) -> bool:
+        """Whether something must be looked at in each tick."""
+        return bool(self.implementation.hold) or bool(watched(self.implementation))
+
+    def violation(self) -> Failure | None:
+        """Return what of the implementation's `verify` lines is violated now."""
+        context = self._context
+        return violation(self.implementation, context.cell, context.library.vocabulary, context.state, self.frame)
 
     def conclude(self) -> Failure | None:
         """After the body succeeded: take a primitive's outputs, write its posts, check all; return what is wrong."""

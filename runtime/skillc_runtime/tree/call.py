@@ -55,18 +55,17 @@ class CallNode(Node):
     def tick(self) -> Status:
         activation = self.activation
         assert activation is not None, "tick before start"
-        if self.context.state is not activation.checked:
-            failure = self._broken_hold(activation)
-            if failure is not None:
-                activation.body.halt(failure.message)
-                return self._failed(activation, failure)
+        failure = self._broken(activation)
+        if failure is not None:
+            activation.body.halt(failure.message)
+            return self._failed(activation, failure)
         status = self._strand.pulse()
         return RUNNING if status is RUNNING else self.after(self._strand.climb(status))
 
     def lowest(self) -> Node:
-        """Pass ticks on to the body unless there are holds to watch."""
+        """Pass ticks on to the body unless there are holds or `verify` lines to watch."""
         activation = self.activation
-        return self if activation is None or activation.implementation.hold else activation.body.lowest()
+        return self if activation is None or activation.watchful else activation.body.lowest()
 
     def after(self, status: Status) -> Status:
         activation = self.activation
@@ -153,9 +152,11 @@ class CallNode(Node):
         self.rejected.append(self._refusal(activation.implementation, failure, ran=True))
         return self._try_next(self._left)
 
-    def _broken_hold(self, activation: Activation) -> Failure | None:
+    def _broken(self, activation: Activation) -> Failure | None:
+        """Look at the holds in a new state, at what is forbidden in every tick."""
         try:
-            return activation.broken_hold()
+            broken = activation.broken_hold() if self.context.state is not activation.checked else None
+            return broken or (activation.violation() if activation.implementation.verify else None)
         except Exception as error:  # noqa: BLE001  a node is the boundary: it reports, halts and fails
             return Failure(kind="error", message=told(error), source=self.source, skill=self.skill.name)
 

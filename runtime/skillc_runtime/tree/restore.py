@@ -46,8 +46,10 @@ def _relation_back(change: AddRelation, before: WorldState, now: WorldState) -> 
     if not now.holds(subject, relation, object_):
         return
     yield RemoveRelation(subject, relation, object_)
-    term = now.vocabulary.relations[relation]
-    if term.functional:
-        yield from (AddRelation(subject, relation, former) for former in sorted(before.objects(subject, relation)))
-    if term.inverse_functional:
-        yield from (AddRelation(former, relation, object_) for former in sorted(before.subjects(relation, object_)))
+    for implied, flipped in now.axioms.implied[relation]:
+        term = now.vocabulary.relations[implied]
+        start, end = (object_, subject) if flipped else (subject, object_)
+        if term.functional:
+            yield from (AddRelation(start, implied, former) for former in sorted(before.objects(start, implied)))
+        if term.inverse_functional:
+            yield from (AddRelation(former, implied, end) for former in sorted(before.subjects(implied, end)))

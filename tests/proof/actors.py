@@ -1,0 +1,77 @@
+"""A cell and primitives whose outcomes chance decides, for running what was proved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from random import Random
+
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.state import WorldState
+
+NS = "https://w3id.org/skillc/library/play#"
+ITEMS, SPOTS = tuple(f"{NS}item{n}" for n in range(3)), tuple(f"{NS}spot{n}" for n in range(2))
+
+
+@dataclass
+class Chance:
+    """A cell whose clock the test moves and whose primitives end as `random` says."""
+
+    world: WorldModel
+    random: Random
+    now: float = 0.0
+    notes: list[str] = field(default_factory=list)
+
+
+class Actor(Primitive):
+    """Runs some ticks, then succeeds or fails; its effects are written by the engine."""
+
+    def __init__(self, cell: Chance, **parameters: object) -> None:
+        super().__init__(cell)  # type: ignore[arg-type]
+        self.chance, self.parameters = cell, parameters
+        self.left = cell.random.randint(1, 3)
+
+    def start(self) -> None:
+        if self.chance.random.random() < 0.1:
+            raise SkillFailure("refuses")
+
+    def tick(self) -> Status:
+        self.left -= 1
+        if self.left > 0:
+            return Status.RUNNING
+        self.finish()
+        if self.chance.random.random() < 0.3:
+            raise SkillFailure("fails")
+        return Status.SUCCESS
+
+    def finish(self) -> None:
+        """Do what is to be done at the end."""
+
+
+class Sensor(Actor):
+    """Writes what it measured, whatever that is, also when it fails."""
+
+    def finish(self) -> None:
+        change = SetProperty(str(self.parameters["a"]), NS + "on", self.chance.random.random() < 0.6)
+        self.chance.world.commit([change], "measured")
+
+
+def items(state: WorldState) -> list[str]:
+    """A vocabulary function: some items."""
+    return sorted(state.instances(NS + "Item"))[:2]
+
+
+def world(vocabulary: Vocabulary, random: Random) -> WorldModel:
+    """Return a world of items and spots with some facts about them."""
+    changes: list[Change] = [AddIndividual(item, (NS + random.choice(("Item", "Heavy")),)) for item in ITEMS]
+    changes += [AddIndividual(spot, (NS + "Spot",)) for spot in SPOTS]
+    for item in ITEMS:
+        pairs = [("at", random.choice(SPOTS)), ("near", random.choice(ITEMS)), ("follows", random.choice(ITEMS))]
+        changes += [AddRelation(item, NS + name, other) for name, other in pairs if random.random() < 0.6]
+        if random.random() < 0.7:
+            changes.append(SetProperty(item, NS + "on", random.random() < 0.5))
+        if random.random() < 0.7:
+            changes.append(SetProperty(item, NS + "level", float(random.randint(1, 4))))
+    return WorldModel(WorldState.empty(vocabulary).changed(changes))
