@@ -7,6 +7,7 @@ from types import MappingProxyType
 
 from skillc_compiler.allowances import heeded
 from skillc_compiler.checks import check
+from skillc_compiler.collecting import no_collection
 from skillc_compiler.consequences import without_consequences
 from skillc_compiler.followers import without_followers
 from skillc_compiler.library.skills import SkillLibrary
@@ -40,7 +41,8 @@ def compile(
     The result holds everything in which no error was found; diagnostics are in the order of the files and lines, those
     of the shelf only where they are errors.
     """
-    return finish(understand(sources, vocabulary, shelf, name, scenes, parsed_by), sources)
+    with no_collection():
+        return finish(understand(sources, vocabulary, shelf, name, scenes, parsed_by), sources)
 
 
 def understand(
