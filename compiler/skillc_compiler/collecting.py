@@ -1,4 +1,4 @@
-"""Work without the collector of cyclic garbage: trees have no cycles, and looking for some costs a tenth of the time."""
+"""Work without the collector of cyclic garbage: trees have no cycles, and looking for them costs a tenth more time."""
 
 from __future__ import annotations
 
