@@ -34,6 +34,7 @@ from skillc_compiler.walk import within
 from skillc_dsl.source import Source
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.trace.events import Event, ImplementationChosen, NodeEnded, NodeStarted
+from skillc_runtime.trace.failure import Failure
 from skillc_runtime.tree.run import Run
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.state import WorldState
@@ -140,7 +141,7 @@ def played(library: SkillLibrary, claims: list[Claims], claim: Claims, random: R
         contradicted(one, seen.events, told)
     if engine.status in (Status.SUCCESS, Status.FAILURE):
         ways = claim.ends.success if engine.status is Status.SUCCESS else claim.ends.failed
-        if engine.status is Status.SUCCESS or (engine.failure is not None and engine.failure.kind not in ("post",)):
+        if not stopped(engine.failure, name):
             assert any(agrees(state, seen.last, bindings) for state in ways), (
                 engine.status,
                 engine.failure,
@@ -149,6 +150,11 @@ def played(library: SkillLibrary, claims: list[Claims], claim: Claims, random: R
             )
         keeps(claim, seen.events, engine.status is Status.SUCCESS, told)
     return True
+
+
+def stopped(failure: Failure | None, skill: str) -> bool:
+    """Whether a skill did not end by itself, but because of what is said of it."""
+    return failure is not None and failure.skill == skill and failure.kind in ("post", "hold", "verify")
 
 
 def contradicted(claim: Claims, events: list[Event], told: str) -> None:

@@ -105,7 +105,7 @@ class Summaries:
         return self._names[call.skill.name]
 
     def may_break(self, skill: Skill) -> bool:
-        """Whether some run of the skill may end because a hold broke."""
+        """Whether some run of the skill may end because a hold broke, or because a `verify` line forbids what is."""
         if skill.name not in self._holding:
             self._holding[skill.name] = False
             self._holding[skill.name] = self._may_break(skill)
@@ -114,12 +114,17 @@ class Summaries:
     def _may_break(self, skill: Skill) -> bool:
         known = self._program.implementations_of.get(skill.name, ())
         holds = any(each.kind == "hold" for one in known for each in (*skill.requirements, *one.requirements))
-        return holds or any(
-            self.may_break(call.skill)
-            for one in known
-            if isinstance(one.body, Step)
-            for call in calls_in(one.body)
-            if call.skill is not None
+        watched = any(line.pattern == "never" and line.first.skill is None for one in known for line in one.verify)
+        return (
+            holds
+            or watched
+            or any(
+                self.may_break(call.skill)
+                for one in known
+                if isinstance(one.body, Step)
+                for call in calls_in(one.body)
+                if call.skill is not None
+            )
         )
 
     def _of(self, implementation: Implementation) -> Iterator[Write]:

@@ -15,8 +15,7 @@ from skillc_runtime.trace.failure import Failure
 from skillc_runtime.tree.enclosing import Frame
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.state import WorldState
-
-ARM = "http://www.inf.ufrgs.br/phi-group/ontologies/RParts.owl#ArmDevice"
+from skillc_runtime.world.terms import ARM_DEVICE
 
 
 def watched(implementation: Implementation) -> tuple[Property, ...]:
@@ -63,6 +62,6 @@ def _arms(implementation: Implementation, vocabulary: Vocabulary, frame: Frame) 
         if (
             isinstance(parameter.type, ClassType)
             and isinstance(value, str)
-            and vocabulary.is_a(parameter.type.iri, ARM)
+            and vocabulary.is_a(parameter.type.iri, ARM_DEVICE)
         ):
             yield value

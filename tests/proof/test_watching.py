@@ -1,0 +1,89 @@
+"""What `verify never` forbids ends a skill while it runs, and `try` does not hide it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from skillc_compiler.library import tree
+from skillc_compiler.library.conditions import Compare, Literal, Variable
+from skillc_compiler.library.properties import Event, Is, Measures, Property
+from skillc_compiler.library.skills import Compound, Parameter, Skill, SkillLibrary
+from skillc_compiler.library.vocabulary import ClassTerm, ClassType, Vocabulary
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.tree.run import Run
+from skillc_runtime.world.changes import SetProperty
+from skillc_runtime.world.terms import ARM_DEVICE
+from tree.stage import DEVICE, DEVICES, FLAGS, ON, THE_FLAG, Library, Script, Stage, act, call, here, is_on, world
+
+THE_ARM = Parameter(name="arm", direction="in", type=ClassType(DEVICE), source=here())
+TOO_MUCH = Measures("force", ">", Literal(25.0))
+
+
+@dataclass
+class Arm:
+    """An arm that feels a force."""
+
+    wrench: np.ndarray
+
+
+@dataclass
+class Cell(Stage):
+    """A stage with one arm."""
+
+    force_n: float = 0.0
+
+    def arm(self, individual: str) -> Arm:
+        """Return the arm."""
+        return Arm(np.array([0.0, 0.0, -self.force_n, 99.0, 0.0, 0.0]))
+
+
+def library(event: Event) -> SkillLibrary:
+    """Return a library with a skill that acts while something must never be."""
+    built = Library()
+    built.add(Skill(name="Careful", parameters=(THE_FLAG, THE_ARM), source=here()), Compound(act("a")))
+    made = built.build()
+    line = Property(pattern="never", first=event, text="verify never that", source=here())
+    careful = made.implementations["Careful.way0"]
+    changed = type(careful)(**{f: getattr(careful, f) for f in careful.__struct_fields__} | {"verify": (line,)})
+    known = made.vocabulary
+    classes = {
+        **known.classes,
+        ARM_DEVICE: ClassTerm(iri=ARM_DEVICE),
+        DEVICE: ClassTerm(iri=DEVICE, parents=(ARM_DEVICE,)),
+    }
+    values = {field: getattr(made, field) for field in made.__struct_fields__}
+    vocabulary = Vocabulary(**{f: getattr(known, f) for f in known.__struct_fields__} | {"classes": classes})
+    implementations = {**made.implementations, "Careful.way0": changed}
+    return SkillLibrary(**values | {"implementations": implementations, "vocabulary": vocabulary})
+
+
+def started(event: Event, force_n: float = 0.0) -> tuple[Cell, Run]:
+    """Start the skill, in a `try`."""
+    cell = Cell(world(), {"a": [Script("success", 3)]}, force_n=force_n)
+    body = tree.Try(child=call("Careful", flag=FLAGS[0], arm=DEVICES[0]), source=here())
+    run = Run(body, library(event), cell)  # type: ignore[arg-type]
+    assert run.tick() is Status.RUNNING
+    return cell, run
+
+
+def test_a_forbidden_condition_ends_the_skill() -> None:
+    off = Is(Compare(is_on(Variable("flag")).left, "==", Literal(False)))  # type: ignore[union-attr]
+    cell, run = started(off)
+    assert run.tick() is Status.RUNNING
+    cell.world.commit([SetProperty(FLAGS[0], ON, False)])
+    assert run.tick() is Status.FAILURE
+    assert run.failure is not None and (run.failure.kind, run.failure.skill) == ("verify", "Careful")
+    assert cell.said("halt") == ["halt a"]
+
+
+@pytest.mark.parametrize(("force_n", "status"), [(24.0, Status.SUCCESS), (26.0, Status.FAILURE)])
+def test_the_force_is_measured_in_every_tick(force_n: float, status: Status) -> None:
+    cell, run = started(TOO_MUCH)
+    cell.force_n = force_n
+    run.tick()
+    assert run.tick() is status
+    if run.failure is not None:
+        assert run.failure.message == "`verify never that` is violated: stage:device0 feels 26.0 N"
