@@ -92,12 +92,12 @@ async def test_renaming_what_a_shorthand_means_spells_it_out(desk: Desk) -> None
 async def test_a_class_that_a_scene_uses_is_not_renamed_behind_its_back(desk: Desk) -> None:
     desk.library(motion=MOTION)
     prefixes = f"@prefix lab: <http://example.org/lab#> .\n@prefix own: <{LIBRARIES}{desk.folder.name}#> .\n"
-    (desk.folder / "cell.ttl").write_text(f"{prefixes}lab:Panel-1 a own:Panel .\n")
-    task = '\ntask go {\n    scene "cell.ttl"\n    goal  lab:Panel-1.isClean == true\n}\n'
-    text = f"prefix lab: <http://example.org/lab#>\n{PRESS}{task}"
-    document, position = desk.at("press.skill", marked(text, "Panel <", 1))
-    with pytest.raises(JsonRpcException, match="the scene of the task `go` has a `Panel`"):
-        await renamed(desk, document, position, "Board")
+    (desk.folder / "cell.ttl").write_text(f"{prefixes}lab:Recipe-1 a own:Recipe .\n")
+    task = 'task go {\n    scene "cell.ttl"\n    goal  lab:Recipe-1 is Recipe\n}\n'
+    text = f"prefix lab: <http://example.org/lab#>\nclass Recipe < Thing\n{task}"
+    document, position = desk.at("press.skill", marked(text, "Recipe <", 1))
+    with pytest.raises(JsonRpcException, match="the scene of the task `go` has a `Recipe`"):
+        await renamed(desk, document, position, "Formula")
 
 
 async def test_every_fix_of_a_problem_is_offered(desk: Desk) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -11,7 +11,8 @@ import msgspec
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program import Program
 from skillc_compiler.resolve.individuals import Individuals
-from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, did_you_mean
 from skillc_ontology import catalogue
 
 
@@ -34,14 +35,15 @@ class Scenes:
         terms = _own_terms(program.vocabulary, base)
         individuals: dict[str, Individuals] = {}
         problems: dict[Diagnostic, None] = {}
-        for task in program.tasks:
-            file = path_of(task.scene, (folder / task.span.path).parent) if task.scene else None
+        for task, written in _scenes_of(program):
+            file = path_of(written.value, (folder / written.span.path).parent)
             if file is None:
+                problems[_unknown(written)] = None
                 continue
             found, wrong = self._scene(file, program.vocabulary, terms)
             problems |= dict.fromkeys(wrong)
             if found:
-                individuals[task.name] = found
+                individuals[task] = found
         return Populated(individuals, tuple(problems))
 
     def _scene(self, file: Path, vocabulary: Vocabulary, terms: bytes) -> tuple[Individuals, tuple[Diagnostic, ...]]:
@@ -65,6 +67,19 @@ def path_of(scene: str, beside: Path) -> Path | None:
         return None
 
 
+def _scenes_of(program: Program) -> Iterator[tuple[str, s.Text]]:
+    """Yield each task with its scene as written, those of the shelf left out."""
+    for unit in program.files:
+        for declaration in unit.file.declarations:
+            if isinstance(declaration, s.TaskDeclaration) and declaration.scene and unit.library == program.name:
+                yield declaration.name.text, declaration.scene
+
+
+def _unknown(scene: s.Text) -> Diagnostic:
+    message = f'the scene "{scene.value}" is neither beside this file nor shipped'
+    return Diagnostic("unknown-scene", scene.span, message, did_you_mean(scene.value, catalogue.scenes()))
+
+
 def _scene(file: Path, vocabulary: Vocabulary) -> tuple[Individuals, tuple[Diagnostic, ...]]:
     """Read a scene. The world model is imported only here: libraries without tasks do not wait for it."""
     from skillc_runtime.commands._diagnostics import of_problems
@@ -77,8 +92,8 @@ def _scene(file: Path, vocabulary: Vocabulary) -> tuple[Individuals, tuple[Diagn
         return {}, tuple(of_problems(error.problems))
     own = (problem for problem in scene.problems if problem.place.path == str(file))
     shipped = catalogue.ROOT in file.parents
-    individuals = {iri: sorted(scene.state.types(iri)) for iri in scene.state.individuals}
-    return individuals, () if shipped else tuple(of_problems(own))
+    known = {iri: sorted(scene.state.types(iri)) for iri in scene.state.individuals} if scene.ok else {}
+    return known, () if shipped else tuple(of_problems(own))
 
 
 def _own_terms(vocabulary: Vocabulary, base: Vocabulary) -> bytes:

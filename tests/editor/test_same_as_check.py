@@ -1,0 +1,47 @@
+"""The editor tells what `skillc check` tells, at the same places, and nothing of the shipped libraries."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from skillc_runtime.commands import _checking, _files
+from skillc_runtime.commands._server.libraries import Libraries
+
+CASES = Path(__file__).parents[1] / "cases" / "errors"
+
+
+@pytest.mark.parametrize("name", ["data_flow.skill", "authoring.skill", "quantities.skill", "ontology.skill"])
+def test_a_file_has_the_same_problems(name: str, tmp_path: Path) -> None:
+    file = Path(shutil.copy(CASES / name, tmp_path))
+    checked = _checking.check(_files.find(tmp_path), None)
+    told = problems(file)
+    assert told
+    assert told == {(d.name, d.span.line, d.span.column, d.message, d.help) for d in checked}
+
+
+@pytest.mark.parametrize("name", ["std", "wiping"])
+def test_a_shipped_library_has_none(name: str) -> None:
+    assert problems(next((_files.SHIPPED / name).glob("*.skill"))) == set()
+
+
+def problems(file: Path) -> set[tuple[str, int, int, str, str]]:
+    """Return what the editor is told when it opens a file of a folder that it has open."""
+    libraries = Libraries((file.parent,))
+    libraries.write(file.as_uri(), file.read_text("utf-8"))
+    return {
+        (d.name, d.span.line, d.span.column, d.message, d.help) for d in libraries.view(file.as_uri()).analysis.problems
+    }
+
+
+def test_a_scene_that_there_is_not_is_told(tmp_path: Path) -> None:
+    file = tmp_path / "tasks.skill"
+    file.write_text('task go {\n    scene "ur5e_whitebord.ttl"\n    goal  wiping:Board-1 is Thing\n}\n')
+    libraries = Libraries((tmp_path,))
+    libraries.write(file.as_uri(), file.read_text("utf-8"))
+    view = libraries.view(file.as_uri())
+    (problem,) = libraries.problems_of_scenes(view.root)
+    assert (problem.name, problem.span.line, problem.span.column) == ("unknown-scene", 2, 11)
+    assert "ur5e_whiteboard.ttl" in problem.help
