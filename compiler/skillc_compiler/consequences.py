@@ -36,7 +36,7 @@ REASONED = frozenset(
         "unreachable-node",
     }
 )
-WHOLE = frozenset({"unachievable-goal", "no-implementation"})
+WHOLE = frozenset({"unachievable-goal", "no-implementation", "unreachable-skill"})
 
 
 def without_consequences(
@@ -90,10 +90,13 @@ def _of_second_skills(problems: Iterable[Diagnostic], files: Sequence[ReadFile])
 def _of_terms(problems: Sequence[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Explains]:
     """An unknown term explains that its goal seems out of reach; one in a post explains that for every goal.
 
-    Whatever is unknown explains what seems not to be used in the header of its file.
+    Whatever is unknown explains what seems not to be used in the header of its file, an unknown skill also what no task
+    seems to reach.
     """
     misspelt = {problem.span.path for problem in problems if problem.name in NAMES | HEADER}
     yield lambda d: d.name in UNUSED_IN_HEADER and d.span.path in misspelt
+    called = any(problem.name == "unknown-skill" for problem in problems)
+    yield lambda d: called and d.name == "unreachable-skill"
     wrong = [problem.span for problem in problems if problem.name in TERMS]
     posts = [
         member.span

@@ -28,7 +28,9 @@ IN_DECLARATION = frozenset(
         "recursion",
     }
 )
-UNUSED = frozenset({"unused-use", "unused-prefix", "unused-import", "unused-let", "unused-parameter"})
+UNUSED = frozenset(
+    {"unused-use", "unused-prefix", "unused-import", "unused-let", "unused-parameter", "unreachable-skill"}
+)
 UNKNOWN = frozenset(
     {
         "unknown-class",

@@ -6,18 +6,22 @@ from lark import Token
 
 from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
 from skillc_dsl.lexing import span_of
+from skillc_dsl.operators import comparison, foreign_length
 from skillc_dsl.source import Span
 from skillc_dsl.units import UNITS, near_units
 
 
 def mend(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, ...]]:
-    """Return the tokens with units that exist and labels that read as labels."""
+    """Return the tokens with units and operators that exist and labels that read as labels."""
     mended: list[Token] = []
     problems: list[Diagnostic] = []
     index = 0
     while index < len(tokens):
-        count = _unit_length(tokens, index)
-        if count:
+        count, foreign = _unit_length(tokens, index), foreign_length(tokens, index)
+        if foreign:
+            count = foreign
+            token, problem = comparison(tokens[index : index + count], path)
+        elif count:
             token, problem = _unit(tokens[index : index + count], path)
         elif _is_doubled_brace(tokens, index):
             count, token, problem = 2, tokens[index], _doubled(tokens[index + 1], path)

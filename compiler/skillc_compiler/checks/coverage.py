@@ -79,7 +79,9 @@ def _lowest(vocabulary: Vocabulary) -> list[str]:
 
 
 def _called(program: Program, call: Call, skill: Skill) -> Iterator[Diagnostic]:
-    candidates = [each for each in program.implementations_of[skill.name] if call.implementation in (None, each.name)]
+    candidates = [
+        each for each in program.implementations_of.get(skill.name, ()) if call.implementation in (None, each.name)
+    ]
     for argument in call.arguments:
         parameter = skill.parameter(argument.name.text)
         if parameter is None or not candidates or not fits(program.vocabulary, argument.value.type, parameter.type):
