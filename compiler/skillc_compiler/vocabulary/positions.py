@@ -63,7 +63,7 @@ def _subjects(text: str) -> Iterator[_Subject]:
             prefixes[statement[1]["name"].rstrip(":")] = statement[2]["iri"]
             statement = []
         elif len(statement) == 2 and depth == 0:
-            yield from _subject(*statement, prefixes)
+            yield from _subject(statement[0], statement[1], prefixes)
         if mark == "." and depth == 0:
             statement = []
 
