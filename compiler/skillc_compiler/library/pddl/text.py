@@ -30,6 +30,7 @@ from skillc_compiler.library.pddl.formulas import (
     Negation,
     Typed,
     Universal,
+    atoms,
     conjunction,
     conjuncts,
 )
@@ -93,7 +94,7 @@ def _template(name: str) -> Template:
         "precondition": lambda action: formula_text(_classical(action), 4),
         "start": lambda action: conjuncts(_classical(action)),
         "conjuncts": conjuncts,
-        "end": _end,
+        "durative": _durative,
         "types": _type_lines,
     }
     return environment.get_template(name)
@@ -148,12 +149,22 @@ def effect_text(change: Change) -> str:
     return f"(forall ({declared_text(change.variables)}) {effect})" if change.variables else effect
 
 
-def _end(change: Change) -> str:
-    """Return one effect at the end of a durative action."""
+def _durative(change: Change, action: Action) -> str:
+    """Return one effect of a durative action, at its end; but what it needs at its start and uses up is gone at once.
+
+    Otherwise two actions that overlap could use up the same thing.
+    """
+    if _used_up(change, action):
+        return f"(at start {_literal(change)})"
     effect = f"(at end {_literal(change)})"
     if change.condition != TRUE:
         effect = f"(when (at end {formula_text(change.condition)}) {effect})"
     return f"(forall ({declared_text(change.variables)}) {effect})" if change.variables else effect
+
+
+def _used_up(change: Change, action: Action) -> bool:
+    deleted = not change.positive and change.condition == TRUE and not change.variables
+    return deleted and change.atom in conjuncts(action.precondition) and change.atom not in atoms(action.hold)
 
 
 def _literal(change: Change) -> str:

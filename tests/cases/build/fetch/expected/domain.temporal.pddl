@@ -36,7 +36,7 @@
     :effect (and
       (at start (not (idle ?robot)))
       (at end (base-at ?robot ?to))
-      (at end (not (base-at ?robot ?from)))
+      (at start (not (base-at ?robot ?from)))
       (at end (idle ?robot))
     )
   )
@@ -71,8 +71,8 @@
     )
     :effect (and
       (at end (contain ?gripper ?item))
-      (at end (not (contain ?from ?item)))
-      (at end (not (is-open ?gripper)))
+      (at start (not (contain ?from ?item)))
+      (at start (not (is-open ?gripper)))
     )
   )
 )
