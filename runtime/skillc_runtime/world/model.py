@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from threading import RLock
-from typing import TypeAlias
 
 from skillc_runtime.world.changes import (
     AddIndividual,
@@ -15,32 +13,26 @@ from skillc_runtime.world.changes import (
     RemoveRelation,
     SetProperty,
 )
+from skillc_runtime.world.event import ChangeEvent, Listener
 from skillc_runtime.world.rules import broken, unknown
 from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.store.store import Nowhere, Store
+
+__all__ = ["ChangeEvent", "Listener", "WorldError", "WorldModel"]
 
 
 class WorldError(ValueError):
     """A write that was refused; the message names the axioms it breaks and the facts."""
 
 
-@dataclass(frozen=True, slots=True)
-class ChangeEvent:
-    """A write that was made: the changes, who made them, and the versions before and after."""
-
-    changes: tuple[Change, ...]
-    origin: str
-    before: WorldState
-    after: WorldState
-
-
-Listener: TypeAlias = Callable[[ChangeEvent], None]
-
-
 class WorldModel:
     """The current version of the world and whoever wants to hear of the next."""
 
-    def __init__(self, state: WorldState) -> None:
+    def __init__(self, state: WorldState, store: Store | None = None, sequence: int = 0) -> None:
+        """Begin with a version: the one that `store`, if there is one, holds after the transaction `sequence`."""
         self._state = state
+        self._store: Store = store or Nowhere()
+        self._sequence = sequence
         self._listeners: list[Listener] = []
         self._lock = RLock()
 
@@ -54,22 +46,48 @@ class WorldModel:
         return lambda: self._listeners.remove(listener)
 
     def commit(self, changes: Iterable[Change], origin: str = "") -> ChangeEvent:
-        """Make all the changes or, when the world would break an axiom, none: WorldError says which."""
+        """Make all the changes or, when the world would break an axiom, none: WorldError says which.
+
+        Where others wrote to the store in the meantime, the changes are made to what they left. StoreError when the
+        store cannot keep the changes, and then the world stays as it was.
+        """
         with self._lock:
             made = tuple(changes)
-            before = self._state
-            strange = [iri for change in made if (iri := unknown(before, change)) is not None]
-            if strange:
-                raise WorldError(f"there is no relation or property {before.vocabulary.short(strange[0])}")
-            after = before.changed(made)
-            problems = [breach.message for change in _lasting(made) for breach in broken(after, change)]
-            if problems:
-                raise WorldError("; ".join(dict.fromkeys(problems)))
-            self._state = after
-        event = ChangeEvent(made, origin, before, after)
+            event = self._checked(made, origin)
+            while not self._store.append(event, self._sequence):
+                self.follow()
+                event = self._checked(made, origin)
+            self._state = event.after
+            self._sequence += 1
+        self._tell(event)
+        return event
+
+    def follow(self) -> None:
+        """Take over what others wrote to the store, and tell whoever listens; StoreError when it cannot be read."""
+        events: list[ChangeEvent] = []
+        with self._lock:
+            for transaction in self._store.since(self._sequence):
+                before, self._sequence = self._state, transaction.sequence
+                self._state = before.changed(transaction.changes)
+                events.append(ChangeEvent(transaction.changes, transaction.origin, before, self._state))
+        for event in events:
+            self._tell(event)
+
+    def _checked(self, made: tuple[Change, ...], origin: str) -> ChangeEvent:
+        """Return what the changes would make of the current version; WorldError when that is refused."""
+        before = self._state
+        strange = [iri for change in made if (iri := unknown(before, change)) is not None]
+        if strange:
+            raise WorldError(f"there is no relation or property {before.vocabulary.short(strange[0])}")
+        after = before.changed(made)
+        problems = [breach.message for change in _lasting(made) for breach in broken(after, change)]
+        if problems:
+            raise WorldError("; ".join(dict.fromkeys(problems)))
+        return ChangeEvent(made, origin, before, after)
+
+    def _tell(self, event: ChangeEvent) -> None:
         for listener in tuple(self._listeners):
             listener(event)
-        return event
 
 
 def _lasting(changes: tuple[Change, ...]) -> list[Change]:

@@ -1,0 +1,1 @@
+"""Where a world outlives its process, and where several processes share it."""
