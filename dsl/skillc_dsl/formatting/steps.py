@@ -54,8 +54,12 @@ class Steps(Inline):
         if not isinstance(opening, Token) or not isinstance(closing, Token):
             raise TypeError(f"braces were expected, not {block!r}")
         bare = self.notes.behind(opening) == self.notes.above(closing) == d.NOTHING
-        plain = all(isinstance(step, Tree) and step.data in _SHORT for step in steps)
+        plain = all(isinstance(step, Tree) and step.data in _SHORT and self._is_bare(step) for step in steps)
         return bare and (not steps or (len(steps) == 1 and plain and opening.line == closing.line))
+
+    def _is_bare(self, step: Branch) -> bool:
+        """Whether a step has no comments."""
+        return not any(isinstance(leaf, d.Note | d.Remark) for leaf in d.leaves(self.of(step)))
 
     def _braces(self, block: Sequence[Branch], short: bool) -> d.Document:
         """Return a block: on the line of its braces if it is `short` and fits, otherwise a line for each step."""
