@@ -4,7 +4,7 @@ UV := .tools/bin/uv
 BIN := .venv/bin
 INSTALL := $(UV) pip install -q --python .venv --constraint constraints.txt
 
-.PHONY: help demo test check sim wheel bench accept lock clean
+.PHONY: help demo test check sim wheel bench editors accept lock clean
 
 help:            ## say what there is
 	@grep -hE '^[a-z]+: .*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/'
@@ -29,6 +29,9 @@ wheel: .venv/.dev ## build the wheel and use it in a clean environment
 
 bench: .venv/.dev ## benchmarks; each prints ratios
 	for file in benchmarks/[a-z]*.py; do echo "== $$file"; $(BIN)/python $$file || exit 1; done
+
+editors:         ## the extension for VS Code, as editors/vscode/dist/skillc.vsix (needs Node 20)
+	cd editors/vscode && npm ci --ignore-scripts && npm test && npm run package
 
 accept: .venv/.dev ## rewrite the expected artifacts of tests/cases/build
 	$(BIN)/python tests/accept.py
