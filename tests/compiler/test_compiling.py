@@ -35,7 +35,7 @@ def test_shipped_libraries_have_no_errors() -> None:
     wiping = compile(library("wiping"), vocabulary(), shelf(), "wiping")
     assert errors(standard) == [] and errors(wiping) == []
     assert set(standard.value.skills) <= set(wiping.value.skills)
-    assert sorted(wiping.value.tasks) == ["clean_table", "clean_whiteboard"]
+    assert {"clean_table", "clean_whiteboard"} <= wiping.value.tasks.keys()
     assert all(wiping.value.implementations_of(skill) for skill in wiping.value.skills)
 
 
@@ -146,9 +146,7 @@ def test_only_what_is_imported_is_visible() -> None:
 
 
 def test_warnings_are_told_of_the_library_itself_only() -> None:
-    imported = Source(
-        "std/rest.skill", HEADER + 'skill Rest { in arm: ArmDevice }\nimpl one of Rest { do wait 1 s }\n'
-    )
+    imported = Source("std/rest.skill", HEADER + "skill Rest { in arm: ArmDevice }\nimpl one of Rest { do wait 1 s }\n")
     own = Source("own.skill", 'use rparts\nimport "rest.skill"\nimpl two of Rest {\n    prefer 1\n    do wait 1 s\n}\n')
     outcome = compile([own], vocabulary(), {"rest.skill": imported}, "own")
     assert [(d.name, d.span.path) for d in outcome.diagnostics] == [("unused-use", "own.skill")]
