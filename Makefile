@@ -18,6 +18,7 @@ test: .venv/.dev ## the fast tests
 check: .venv/.dev ## style, types, import rules
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+	$(BIN)/skillc fmt --check skills_src
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 

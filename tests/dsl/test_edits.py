@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from skillc_dsl.diagnostics import Fix
-from skillc_dsl.edits import applied, apart
+from skillc_dsl.edits import apart, applied
 from skillc_dsl.source import Span
 
 TEXT = "one two\nthree\n"
