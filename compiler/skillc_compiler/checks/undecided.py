@@ -6,21 +6,19 @@ have in common is used, so that something may seem not to be guaranteed that is.
 Bad:
 
     use skillc
-    skill Show { in surface: Surface  post sensed surface.located == true  noplan }
-    impl waiting of Show { run python "skillc_runtime.primitives.stand_in:StandIn" }
     skill Tour {
         in a: Surface  in b: Surface  in c: Surface  in d: Surface
         in e: Surface  in f: Surface  in g: Surface  noplan
     }
     impl patient of Tour {
         do seq {
-            try { Show(surface: a) }
-            try { Show(surface: b) }
-            try { Show(surface: c) }
-            try { Show(surface: d) }
-            try { Show(surface: e) }
-            try { Show(surface: f) }
-            try { Show(surface: g) }
+            try { check(a.located == true) }
+            try { check(b.located == true) }
+            try { check(c.located == true) }
+            try { check(d.located == true) }
+            try { check(e.located == true) }
+            try { check(f.located == true) }
+            try { check(g.located == true) }
             wait 1 s
         }
     }
@@ -28,14 +26,14 @@ Bad:
 Good:
 
     use skillc
-    skill Show { in surface: Surface  post sensed surface.located == true  noplan }
-    impl waiting of Show { run python "skillc_runtime.primitives.stand_in:StandIn" }
-    skill Tour { in a: Surface  in b: Surface  in c: Surface  noplan }
+    skill Tour {
+        in a: Surface  in b: Surface  in c: Surface  noplan
+    }
     impl patient of Tour {
         do seq {
-            try { Show(surface: a) }
-            try { Show(surface: b) }
-            try { Show(surface: c) }
+            try { check(a.located == true) }
+            try { check(b.located == true) }
+            try { check(c.located == true) }
             wait 1 s
         }
     }

@@ -42,14 +42,15 @@ def _place(kind: str, number: int, around: Around, several: Around) -> Around:
 
 
 def _all(run: Run, node: Step, writes: list[frozenset[Write]], ways: Ways, around: Around) -> Ends:
+    """All must succeed: the ends are followed as if one ran after the other, each keeping what no other may write."""
     ends = Ends(success=dict(ways))
     known = frozenset.intersection(*(state.assigned for state in ways))
     for number, child in enumerate(node.children):
         others = _others(writes, number)
+        ends.add_failures(_while_others_run(run, node, number, after(run.sorts, ways, others), around.beside(others)))
         before = ends.success
-        if not before:
-            ends.add_failures(run.explore(run, child, after(run.sorts, ways, others), around.beside(others)))
         ends.success = {}
+        run.quiet += 1
         for state, way in before.items():
             entry = _not_yet(forgotten(run.sorts, state, others), others, known)
             siblings = _siblings(node, number)
@@ -58,10 +59,16 @@ def _all(run: Run, node: Step, writes: list[frozenset[Write]], ways: Ways, aroun
             for found, found_way in one.success.items():
                 add(ends.success, _with_facts_of(found, state), found_way)
             ends.add_failures(one)
+        run.quiet -= 1
         ends.success = few(ends.success)
     together = frozenset[Write]().union(*writes)
     ends.failure, ends.broken = (after(run.sorts, some, together) for some in (ends.failure, ends.broken))
     return ends
+
+
+def _while_others_run(run: Run, node: Step, number: int, ways: Ways, around: Around) -> Ends:
+    """Look at a child as it begins, when what the others will have reached is not there yet."""
+    return run.explore(run, node.children[number], mixed(run, ways, *_siblings(node, number)), around)
 
 
 def _with_facts_of(state: State, other: State) -> State:
@@ -140,7 +147,7 @@ def reactive_selector(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
     """`reactive sel`: children before a running one are tried again each tick."""
     writes = [run.writes(child) for child in node.children]
     together = frozenset[Write]().union(*writes)
-    ends = Ends()
+    ends, broken = Ends(), False
     entry: dict[State, Way] = {**after(run.sorts, ways, together), **ways}
     for number, child in enumerate(node.children):
         earlier = frozenset[Write]().union(*writes[:number])
@@ -148,7 +155,9 @@ def reactive_selector(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
         entry = few(mixed(run, entry, *node.children))
         one = run.explore(run, child, entry, (around if last else around.catching()).beside(earlier))
         merge(ends.success, one.success)
-        ends.failure, ends.broken = one.failure, one.broken
+        broken |= bool(one.broken)
+        ends.failure = one.failed
+        ends.broken = dict(one.failed) if broken else {}
         entry = {**after(run.sorts, one.failed, together), **one.failed}
     ends.success = after(run.sorts, ends.success, together)
     return ends

@@ -24,7 +24,8 @@ def explore(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
     """Return how a node can end from each of these states; nothing starts where there is none."""
     if not ways:
         return Ends()
-    run.reached.add(id(node))
+    if not run.quiet:
+        run.reached.add(id(node))
     if len(ways) > LIMIT and run.crowded is None:
         run.crowded = node.written.span
     ways = few(ways) if run.watch is None else run.watch.sees(run, few(ways))
@@ -73,14 +74,15 @@ def _block(run: Run, node: Step, written: s.Block, ways: Ways, around: Around) -
 
 
 def _selector(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
-    ends, broken = Ends(), Ends()
+    """One must succeed; when none does, a hold that broke in any of them has broken."""
+    ends, broken = Ends(), False
     for number, child in enumerate(node.children, 1):
         last = number == len(node.children)
         one = explore(run, child, ways, around if last else around.catching())
         merge(ends.success, one.success)
-        broken.broken = one.broken
+        broken |= bool(one.broken)
         ways = one.failed
-    ends.failure, ends.broken = dict(ways), broken.broken
+    ends.failure, ends.broken = dict(ways), dict(ways) if broken else {}
     return ends
 
 

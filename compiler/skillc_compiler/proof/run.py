@@ -94,7 +94,10 @@ class Effected:
 
 @dataclass
 class Run:
-    """`leaks` tells what an implementation changes without saying so; `outputs` are names that calls assign."""
+    """`leaks` tells what an implementation changes without saying so; `outputs` are names that calls assign.
+
+    While `quiet` is not 0, ends are worked out and nothing is noted.
+    """
 
     program: Program
     sorts: Sorts
@@ -110,6 +113,7 @@ class Run:
     tallies: dict[tuple[int, int], Tally] = field(default_factory=dict)
     effects: dict[object, Effected] = field(default_factory=dict)
     crowded: Span | None = None
+    quiet: int = 0
 
     def writes(self, step: Step) -> frozenset[Write]:
         """Return what a node may write; names that change their meaning within the body stand for anything fitting."""
@@ -118,6 +122,8 @@ class Run:
     def note(self, key: object, finding: Finding, way: Way) -> None:
         """Keep a finding, the one with the shortest way of several."""
         known = self.found.get(key)
+        if self.quiet:
+            return
         if known is None or length(way) < length(getattr(known, "way", None)):
             self.found[key] = finding
 
@@ -145,6 +151,8 @@ class Run:
 
     def tally(self, call: Call, requirement: Requirement, known: bool | None, excused: bool, way: Way) -> None:
         """Count what is known of a precondition where its skill starts."""
+        if self.quiet:
+            return
         key = (id(call), id(requirement))
         count = self.tallies.setdefault(key, Tally(call, requirement))
         count.seen += 1

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from skillc_compiler.library.conditions import Anything
 from skillc_compiler.program import Call, Step
 from skillc_compiler.proof.calling import called
 from skillc_compiler.proof.run import Around, Run
 from skillc_compiler.proof.state import State
 from skillc_compiler.proof.summaries import calls_in, hidden
 from skillc_compiler.proof.trail import Ends, Way, Ways, add
-from skillc_compiler.proof.writing import Write, either_way, forgotten
+from skillc_compiler.proof.writing import Related, Write, either_way, forgotten
 
 
 def scoped(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
@@ -38,7 +41,15 @@ def _writes(run: Run, node: Step, call: Call) -> tuple[frozenset[Write], frozens
     inside = (run.summaries.lasting(other) for child in node.children for other in calls_in(child))
     set_up = run.summaries.of_call(call).union(*inside)
     body = {write for child in node.children for write in run.writes(child)}
-    return hidden(map(either_way, set_up), run.stable), frozenset(body)
+    return hidden((back for write in set_up for back in _undone(write)), run.stable), frozenset(body)
+
+
+def _undone(write: Write) -> Iterator[Write]:
+    """Yield what taking a write back may write: also those that it had replaced come back."""
+    yield either_way(write)
+    if isinstance(write, Related):
+        yield Related(write.subject, write.relation, Anything(), None)
+        yield Related(Anything(), write.relation, write.object, None)
 
 
 def _add_restored(
