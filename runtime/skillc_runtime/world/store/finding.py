@@ -1,0 +1,31 @@
+"""Finding out where a SPARQL server takes queries and where updates: the standard leaves that to the server."""
+
+from __future__ import annotations
+
+from urllib.parse import urlsplit
+
+from skillc_runtime.world.store.http import TIMEOUT_S, Garbled, HttpEndpoint, Refused
+from skillc_runtime.world.store.store import StoreError
+
+FORMS = (("", ""), ("/query", "/update"), ("", "/statements"), ("/sparql", "/update"))
+"""What servers put behind their address for queries and for updates: Fuseki and Virtuoso, Oxigraph, RDF4J, others."""
+NOTHING_ASKED, NOTHING_DONE = "ASK {}", "INSERT DATA {}"
+ROWS = "application/sparql-results+json"
+
+
+def find_endpoint(address: str, timeout_s: float = TIMEOUT_S) -> HttpEndpoint:
+    """Return a server that answers queries and makes updates; StoreError when there is none at the address."""
+    if urlsplit(address).scheme not in ("http", "https") or not urlsplit(address).hostname:
+        raise StoreError(f"{address} is no address of a SPARQL server; it begins with http:// or https:// and a host")
+    refusals: list[StoreError] = []
+    for query, update in FORMS:
+        endpoint = HttpEndpoint(address.rstrip("/") + query, address.rstrip("/") + update, timeout_s)
+        try:
+            endpoint.query(NOTHING_ASKED, ROWS)
+            endpoint.update(NOTHING_DONE)
+        except (Refused, Garbled) as error:
+            refusals.append(error)
+        else:
+            return endpoint
+        endpoint.close()
+    raise StoreError(f"no SPARQL 1.1 server takes queries and updates at {address}: {refusals[-1]}")
