@@ -150,7 +150,8 @@ def _if(run: Run, node: Step, written: s.If, ways: Ways, around: Around) -> Ends
         for state, way in ways.items():
             known = learned(run.sorts, state, node.clauses[0].meaning, holds)
             if known is not None:
-                add(chosen, known, decided(state, known, way, node.clauses[0].span, written.text, holds))
+                trail = decided(state, known, way, node.clauses[0].span, written.text, holds)
+                add(chosen, disturbed(run, known, around), trail)
         one = in_order(run, branch, chosen, around)
         merge(ends.success, one.success)
         ends.add_failures(one)

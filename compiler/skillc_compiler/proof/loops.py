@@ -6,7 +6,7 @@ from typing import assert_never
 
 from skillc_compiler.program import Step
 from skillc_compiler.proof.learning import learned
-from skillc_compiler.proof.run import Around, Run, in_order
+from skillc_compiler.proof.run import Around, Run, disturbed, in_order
 from skillc_compiler.proof.state import State
 from skillc_compiler.proof.trail import Ends, Way, Ways, add, after, few, merge, step
 from skillc_dsl import syntax as s
@@ -64,7 +64,7 @@ def _while(run: Run, node: Step, limit: int, ways: Ways, around: Around) -> Ends
     """`while`: a round for as long as the condition holds; a failure when it still does after the last."""
     ends = Ends()
     for _ in range(min(limit, ROUNDS)):
-        going, out = _asked(run, node, ways)
+        going, out = _asked(run, node, ways, around)
         merge(ends.success, out)
         one = in_order(run, node.children, going, around)
         ends.add_failures(one)
@@ -76,7 +76,7 @@ def _while(run: Run, node: Step, limit: int, ways: Ways, around: Around) -> Ends
         ends.add_failures(_any_number(run, node, ways, around, later))
         merge(later, ways)
         ways = later
-    going, out = _asked(run, node, ways)
+    going, out = _asked(run, node, ways, around)
     merge(ends.success, out)
     for state, way in going.items():
         add(ends.failure, state, step(way, node.clauses[0].span, "the condition still holds after the last round"))
@@ -108,7 +108,7 @@ def _without(ways: Ways, name: str) -> dict[State, Way]:
     return found
 
 
-def _asked(run: Run, node: Step, ways: Ways) -> tuple[dict[State, Way], dict[State, Way]]:
+def _asked(run: Run, node: Step, ways: Ways, around: Around) -> tuple[dict[State, Way], dict[State, Way]]:
     """Return the states in which the condition holds and those in which it does not."""
     found: tuple[dict[State, Way], dict[State, Way]] = ({}, {})
     for state, way in ways.items():
@@ -116,7 +116,11 @@ def _asked(run: Run, node: Step, ways: Ways) -> tuple[dict[State, Way], dict[Sta
             known = learned(run.sorts, state, node.clauses[0].meaning, holds)
             if known is not None:
                 event = "the loop goes on" if holds else "the loop ends"
-                add(target, known, way if known is state else step(way, node.clauses[0].span, event))
+                add(
+                    target,
+                    disturbed(run, known, around),
+                    way if known is state else step(way, node.clauses[0].span, event),
+                )
     return found
 
 

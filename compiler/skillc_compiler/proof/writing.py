@@ -311,7 +311,7 @@ def _agrees(sorts: Sorts, state: State, fact: Condition, true: bool, write: Valu
     probe = Variable("?value")
     compared = Compare(probe, fact.operator, fact.right)
     value = State(facts={Compare(probe, "==", write.value): True})
-    return compared in value.facts or truth(sorts, value, compared) is true
+    return truth(sorts, value, compared) is true
 
 
 def _reads_value(sorts: Sorts, state: State, fact: Condition, write: Valued) -> bool:
