@@ -15,7 +15,9 @@ from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
 from skillc_runtime.assignment import Assignment, Perform, Reach
 from skillc_runtime.commands import _diagnostics, _files, _library, _scenes, _telling
+from skillc_runtime.commands._keeping import NOT_KEPT, Keeping
 from skillc_runtime.world.documents import SceneError
+from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
 from skillc_runtime.world.state import WorldState
 
@@ -26,9 +28,10 @@ class Mission:
 
     library: SkillLibrary
     assignment: Assignment
+    world: WorldModel
 
 
-def of_task(reference: str) -> Mission:
+def of_task(reference: str, keeping: Keeping = NOT_KEPT) -> Mission:
     """Find, compile and load the task `LIBRARY:NAME`, or the shipped task of that name."""
     files, name = _library.find_task(reference)
     library = compiled(files)
@@ -38,26 +41,33 @@ def of_task(reference: str) -> Mission:
     path = _scenes.path_of(task, files)
     if path is None:
         raise click.UsageError(f'the scene "{task.scene}" of `{name}` is neither beside its file nor shipped')
-    state = loaded(path, library)
+    if task.goal is None and task.body is None:
+        raise click.UsageError(f"the task `{name}` has neither a goal nor a body")
+    world = world_for(keeping, path, library)
     if task.goal is not None:
-        return Mission(library, Assignment(name, state, Reach(task.goal)))
-    if task.body is not None:
-        return Mission(library, Assignment(name, state, Perform(task.body)))
-    raise click.UsageError(f"the task `{name}` has neither a goal nor a body")
+        return Mission(library, Assignment(name, world.snapshot(), Reach(task.goal)), world)
+    assert task.body is not None
+    return Mission(library, Assignment(name, world.snapshot(), Perform(task.body)), world)
 
 
-def of_scene(scene: Path, goal: str | None, skill: str | None, library_path: Path | None) -> Mission:
-    """Take a goal, or a call of a skill, in a scene; the library is the shipped one unless a path is given."""
+def of_scene(
+    scene: Path | None, goal: str | None, skill: str | None, library_path: Path | None, keeping: Keeping = NOT_KEPT
+) -> Mission:
+    """Take a goal, or a call of a skill, in a scene or in what a store holds.
+
+    The library is the shipped one unless a path is given.
+    """
     library = compiled(_library.find(library_path or _library.SHIPPED / "wiping"))
-    state = loaded(_files.scene_path(scene), library)
+    world = world_for(keeping, _files.scene_path(scene) if scene else None, library)
+    state = world.snapshot()
     individuals = _scenes.classes_of(state, library)
     prefixes = state.vocabulary.prefixes
     if goal is not None:
         asked = parse_goal(goal, library.vocabulary, individuals, prefixes)
-        return Mission(library, Assignment(goal, state, Reach(_understood(asked, goal))))
+        return Mission(library, Assignment(goal, state, Reach(_understood(asked, goal))), world)
     assert skill is not None
     call = _understood(parse_call(skill, library, individuals, prefixes), skill)
-    return Mission(library, Assignment(call.skill, state, Perform(call)))
+    return Mission(library, Assignment(call.skill, state, Perform(call)), world)
 
 
 def compiled(files: _library.LibraryFiles) -> SkillLibrary:
@@ -78,6 +88,16 @@ def loaded(scene: Path, library: SkillLibrary) -> WorldState:
     except OSError as error:
         click.echo(f"error: the scene {scene} cannot be read: {error.strerror}", err=True)
     sys.exit(1)
+
+
+def world_for(keeping: Keeping, scene: Path | None, library: SkillLibrary) -> WorldModel:
+    """Return the world of a scene, or of the store that keeps it; exit with what is wrong with either."""
+    if keeping.place is None:
+        assert scene is not None
+        return WorldModel(loaded(scene, library))
+    from skillc_runtime.commands._stores import kept_world
+
+    return kept_world(keeping, scene, library.vocabulary, lambda path: loaded(path, library))
 
 
 def _understood(outcome: Outcome[Any], text: str) -> Any:

@@ -13,6 +13,7 @@ from types import FrameType
 import click
 
 from skillc_runtime.assignment import Prepared, prepare
+from skillc_runtime.commands._following import Follower
 from skillc_runtime.commands._live import Live
 from skillc_runtime.commands._mission import Mission
 from skillc_runtime.report.result import TaskResult
@@ -26,8 +27,8 @@ from skillc_runtime.task import Execution, execute
 from skillc_runtime.trace.events import Listener
 from skillc_runtime.trace.writer import TraceWriter
 from skillc_runtime.world.frames import FrameError
-from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.sheet import SheetError
+from skillc_runtime.world.store.store import StoreError
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,8 +51,8 @@ def run(mission: Mission, options: Options) -> TaskResult:
             return TaskResult(task=name, status="refused", seed=options.seed, failure=prepared.why)
         live.say("building the simulation")
         try:
-            cell = SimulatedCell(WorldModel(mission.assignment.state), options.seed)
-        except (SheetError, FrameError) as error:
+            cell = SimulatedCell(mission.world, options.seed)
+        except (SheetError, FrameError, StoreError) as error:
             failure = f"the scene cannot be simulated: {error}"
             return TaskResult(task=name, status="refused", seed=options.seed, failure=failure)
         return _run(prepared, mission, cell, options, live)
@@ -62,7 +63,10 @@ def _run(prepared: Prepared, mission: Mission, cell: SimulatedCell, options: Opt
     listeners: list[Listener] = [choices, live]
     film = Film(cell) if options.out is not None else None
 
+    follow = Follower(cell.world, lambda warning: click.echo(warning, err=True))
+
     def watch() -> None:
+        follow()
         live.pace(cell.now)
         if film is not None:
             film.sample()

@@ -12,6 +12,8 @@ from pathlib import Path
 
 import click
 
+from skillc_runtime.commands import _keeping
+
 SECONDS = click.FloatRange(min=0.1)
 
 
@@ -20,10 +22,18 @@ SECONDS = click.FloatRange(min=0.1)
 @click.option("--scene", type=click.Path(path_type=Path), help="The scene to plan in, instead of a task's.")
 @click.option("--goal", help="The goal, as in a .skill file or as PDDL.")
 @click.option("--library", type=click.Path(path_type=Path), help="The skills to plan with, if not the shipped ones.")
+@_keeping.options
 @click.option("--deadline", type=SECONDS, default=30.0, show_default=True, help="Seconds the planner may take.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
 def command(
-    task: str | None, scene: Path | None, goal: str | None, library: Path | None, deadline: float, as_json: bool
+    task: str | None,
+    scene: Path | None,
+    goal: str | None,
+    library: Path | None,
+    store: str | None,
+    reset: bool,
+    deadline: float,
+    as_json: bool,
 ) -> None:
     """Plan for TASK (`LIBRARY:NAME`, or a shipped task), or for a goal in a scene."""
     from skillc_runtime.assignment import Reach
@@ -34,9 +44,10 @@ def command(
 
     if task is not None and (scene or goal or library):
         raise click.UsageError("a TASK has its own scene, goal and library; leave the options out")
-    if task is None and (scene is None or goal is None):
-        raise click.UsageError("say either a TASK or --scene FILE with --goal TEXT")
-    mission = _mission.of_task(task) if task else _mission.of_scene(scene or Path(), goal, None, library)
+    if task is None and ((scene or store) is None or goal is None):
+        raise click.UsageError("say either a TASK or --scene FILE (or --store) with --goal TEXT")
+    keeping = _keeping.keeping(store, reset)
+    mission = _mission.of_task(task, keeping) if task else _mission.of_scene(scene, goal, None, library, keeping)
     assignment = mission.assignment
     if not isinstance(assignment.aim, Reach):
         raise click.UsageError(f"the task `{assignment.name}` says itself what to do; run it with `skillc run`")

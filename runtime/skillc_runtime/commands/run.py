@@ -12,6 +12,8 @@ from pathlib import Path
 
 import click
 
+from skillc_runtime.commands import _keeping
+
 FOLDER = click.Path(path_type=Path, file_okay=False)
 
 
@@ -26,6 +28,7 @@ FOLDER = click.Path(path_type=Path, file_okay=False)
     type=FOLDER,
     help="A folder for report.html, events.jsonl and the film.",
 )
+@_keeping.options
 @click.option("--seed", default=0, show_default=True, help="How reality differs from the world model.")
 @click.option("--real-time", is_flag=True, help="Let simulated time pass no faster than the clock.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
@@ -36,6 +39,8 @@ def command(
     skill: str | None,
     library: Path | None,
     out: Path | None,
+    store: str | None,
+    reset: bool,
     seed: int,
     real_time: bool,
     as_json: bool,
@@ -45,9 +50,10 @@ def command(
 
     if task is not None and (scene or goal or skill or library):
         raise click.UsageError("a TASK has its own scene, goal and library; leave the options out")
-    if task is None and (scene is None or (goal is None) == (skill is None)):
-        raise click.UsageError("say either a TASK or --scene FILE with --goal TEXT or --skill CALL")
-    mission = _mission.of_task(task) if task else _mission.of_scene(scene or Path(), goal, skill, library)
+    if task is None and ((scene or store) is None or (goal is None) == (skill is None)):
+        raise click.UsageError("say either a TASK or --scene FILE (or --store) with --goal TEXT or --skill CALL")
+    keeping = _keeping.keeping(store, reset)
+    mission = _mission.of_task(task, keeping) if task else _mission.of_scene(scene, goal, skill, library, keeping)
     result = _running.run(mission, _running.Options(out=out, seed=seed, real_time=real_time, quiet=as_json))
     if as_json:
         click.echo(_results.as_json(result))
