@@ -12,7 +12,7 @@ from skillc_runtime.attempt import Attempt, Setting, attempt
 from skillc_runtime.plans.progress import progress
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.trace.events import Listener, Replanned, TaskEnded, TaskStarted
+from skillc_runtime.trace.events import FORMAT, Listener, Replanned, TaskEnded, TaskStarted
 from skillc_runtime.trace.failure import Failure
 from skillc_runtime.trace.listeners import Listeners
 from skillc_runtime.world.conditions import evaluate
@@ -54,7 +54,7 @@ def execute(
     began = perf_counter()
     tell, name = Listeners(listeners), prepared.assignment.name
     setting = Setting(library, cell, listeners, watch, interrupted)
-    tell(TaskStarted(time=cell.now, task=name, library=library.name, hash=library.hash))
+    tell(TaskStarted(time=cell.now, format=FORMAT, task=name, library=library.name, hash=library.hash))
     attempts = [attempt(prepared, setting, 0)]
     while isinstance(following := _following(attempts, setting), Prepared):
         tell(Replanned(time=cell.now, reason=attempts[-1].why))

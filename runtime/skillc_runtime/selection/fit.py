@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Implementation, Parameter, Post, Requirement
@@ -23,11 +23,13 @@ from skillc_runtime.world.values import Value
 class Fitted:
     """The implementation can start: its bound parameters, and what a person may want to know about them.
 
-    An optional parameter that was not passed and has no default is absent.
+    An optional parameter that was not passed and has no default is absent. `others` are the individuals that
+    `infer any` passed over, by parameter.
     """
 
     implementation: Implementation
     bindings: dict[str, Value]
+    others: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
 
@@ -48,7 +50,7 @@ def fit(implementation: Implementation, arguments: Mapping[str, Value], state: W
     bind_defaults(implementation, state, bindings, arguments.keys())
     rejected = _out_of_bounds(implementation, arguments, state, bindings)
     rejected = rejected or first_broken(implementation, implementation.pre, "pre", bindings, state)
-    return rejected or Fitted(implementation, bindings, inferred.notes)
+    return rejected or Fitted(implementation, bindings, inferred.others, inferred.notes)
 
 
 def first_broken(

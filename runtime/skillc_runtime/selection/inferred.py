@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Implementation, Parameter, Requirement
@@ -18,9 +18,10 @@ from skillc_runtime.world.values import Value
 
 @dataclass(frozen=True, slots=True)
 class Inferred:
-    """Individuals by parameter name; `notes` say what `infer any` passed over."""
+    """Individuals by parameter name; `others` are those that `infer any` passed over, `notes` say so in words."""
 
     bindings: Binding
+    others: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
 
@@ -31,7 +32,7 @@ def infer_parameters(
     wanted = _wanted(implementation, bindings.keys())
     match infer(wanted, implementation.pre, bindings, state):
         case Found(bindings=found, others=others):
-            return Inferred(found, _passed_over(found, others, state.vocabulary))
+            return Inferred(found, _others(found, others), _passed_over(found, others, state.vocabulary))
         case NoneFound(requirement=requirement, reason=reason):
             return _none(implementation, wanted, requirement, reason)
         case Ambiguous(candidates=candidates):
@@ -96,6 +97,12 @@ def _agreed(answers: Sequence[Binding]) -> dict[str, Value]:
     """Return what all answers have in common."""
     first = answers[0]
     return {name: iri for name, iri in first.items() if all(answer[name] == iri for answer in answers)}
+
+
+def _others(found: Binding, others: Sequence[Binding]) -> dict[str, tuple[str, ...]]:
+    """Return what else each parameter might have been, without those that have no alternative."""
+    each = {name: tuple(dict.fromkeys(other[name] for other in others if other[name] != found[name])) for name in found}
+    return {name: alternatives for name, alternatives in each.items() if alternatives}
 
 
 def _passed_over(found: Binding, others: Sequence[Binding], vocabulary: Vocabulary) -> tuple[str, ...]:

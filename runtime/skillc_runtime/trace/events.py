@@ -9,6 +9,10 @@ import msgspec
 
 from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.trace.failure import Failure, Rejected
+from skillc_runtime.trace.reasons import Attempted, Determined
+
+FORMAT = 2
+"""Raised with every change of what the events mean; 2 says why parameters are what they are and what failures met."""
 
 
 class _Event(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -18,8 +22,9 @@ class _Event(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class TaskStarted(_Event, tag="task-started", frozen=True, kw_only=True):
-    """A task begins; `library` and `hash` name what it runs."""
+    """A task begins; `library` and `hash` name what it runs, `format` is that of the events that follow."""
 
+    format: int = 1
     task: str
     library: str = ""
     hash: str = ""
@@ -60,23 +65,28 @@ class NodeStarted(_Event, tag="node-started", frozen=True, kw_only=True):
 
 
 class NodeEnded(_Event, tag="node-ended", frozen=True, kw_only=True):
-    """A node succeeded, failed or was halted; `failure` says why."""
+    """A node succeeded, failed or was halted; `failure` says why, `attempted` what a call that failed had."""
 
     node: int
     name: str
     status: str
     failure: Failure | None = None
+    attempted: Attempted | None = None
     source: Position
 
 
 class ImplementationChosen(_Event, tag="implementation-chosen", frozen=True, kw_only=True):
-    """A call starts with this implementation; `bindings` are its parameters as text."""
+    """A call starts with this implementation; `bindings` are its parameters as text.
+
+    `determined` says of those that were not simply passed why they are what they are.
+    """
 
     node: int
     skill: str
     implementation: str
     bindings: dict[str, str]
     rejected: tuple[Rejected, ...] = ()
+    determined: tuple[Determined, ...] = ()
     source: Position
 
 

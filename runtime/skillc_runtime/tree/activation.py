@@ -34,9 +34,10 @@ class Activation:
     `checked` is the state in which the holds were last seen to hold: the same snapshot gives the same answer.
     """
 
-    __slots__ = ("_context", "_holder", "body", "checked", "frame", "implementation", "skill")
+    __slots__ = ("_context", "_holder", "body", "checked", "fitted", "frame", "implementation", "skill")
 
     def __init__(self, context: Context, skill: Skill, fitted: Fitted, holder: object, body: Node) -> None:
+        self.fitted = fitted
         self.implementation = fitted.implementation
         self.skill = skill
         self.frame: Frame = fitted.bindings

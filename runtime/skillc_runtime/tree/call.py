@@ -9,11 +9,10 @@ from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Variable
 from skillc_compiler.library.skills import Implementation
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.selection.describe import bindings_text
 from skillc_runtime.selection.fit import fit
 from skillc_runtime.selection.select import candidates, why_none
-from skillc_runtime.trace.events import ImplementationChosen
 from skillc_runtime.trace.failure import Failure, Rejected, as_failure
+from skillc_runtime.trace.reasons import Attempted
 from skillc_runtime.tree.activation import Activation, Build, activate
 from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.enclosing import Enclosing, Frame
@@ -21,6 +20,7 @@ from skillc_runtime.tree.errors import told
 from skillc_runtime.tree.node import RUNNING, SUCCESS, Node
 from skillc_runtime.tree.primitive_node import PrimitiveNode
 from skillc_runtime.tree.strand import Strand
+from skillc_runtime.tree.telling import attempted, chosen, facts_at_failure
 from skillc_runtime.world.expressions import value_of
 
 _STAGES = ("argument", "inference", "pre", "hold", "lock", "start", "run")
@@ -33,7 +33,18 @@ class CallNode(Node):
     """
 
     kind: ClassVar[str] = "call"
-    __slots__ = ("_arguments", "_build", "_enclosing", "_left", "_strand", "activation", "node", "rejected", "skill")
+    __slots__ = (
+        "_arguments",
+        "_build",
+        "_enclosing",
+        "_facts",
+        "_left",
+        "_strand",
+        "activation",
+        "node",
+        "rejected",
+        "skill",
+    )
 
     def __init__(self, context: Context, node: tree.Call, enclosing: Enclosing, build: Build) -> None:
         super().__init__(context, node.source, name=node.skill)
@@ -41,6 +52,8 @@ class CallNode(Node):
         self.skill = context.library.skills[node.skill]
         self.activation: Activation | None = None
         self.rejected: list[Rejected] = []
+        self._arguments: Frame = {}
+        self._facts: tuple[str, ...] | None = None
         self._enclosing = enclosing
         self._build = build
 
@@ -48,6 +61,7 @@ class CallNode(Node):
         self.rejected = []
         self.activation = None
         self.children = ()
+        self._arguments, self._facts = {}, None
         self._arguments = self._evaluated_arguments()
         self._left = iter(candidates(self.context.library, self.node.skill, self.node.implementation))
         return self._try_next(self._left)
@@ -57,6 +71,7 @@ class CallNode(Node):
         assert activation is not None, "tick before start"
         failure = self._broken(activation)
         if failure is not None:
+            self._look()
             activation.body.halt(failure.message)
             return self._failed(activation, failure)
         status = self._strand.pulse()
@@ -143,6 +158,7 @@ class CallNode(Node):
 
     def _failed(self, activation: Activation, failure: Failure) -> Status:
         """Give everything back, then try the next implementation where the skill allows it."""
+        self._look()
         if isinstance(activation.body, PrimitiveNode):
             activation.body.undo_now()
         activation.close()
@@ -150,6 +166,7 @@ class CallNode(Node):
             return self.fail(failure)
         self.context.refresh()
         self.rejected.append(self._refusal(activation.implementation, failure, ran=True))
+        self._facts = None
         return self._try_next(self._left)
 
     def _broken(self, activation: Activation) -> Failure | None:
@@ -196,18 +213,17 @@ class CallNode(Node):
             causes=failure.causes,
         )
 
+    def attempted(self) -> Attempted:
+        self._look()
+        return attempted(self.skill, self._arguments, self.rejected, self._facts or (), self.context)
+
+    def _look(self) -> None:
+        """Keep what the conditions read when something fails, before what is undone changes it; once a failure."""
+        if self.context.emit is not None and self._facts is None:
+            tried = candidates(self.context.library, self.node.skill, self.node.implementation)
+            self._facts = facts_at_failure(tried, self.activation, self._arguments, self.context.state)
+
     def _tell_choice(self, activation: Activation) -> None:
-        context, implementation = self.context, activation.implementation
-        if context.emit is None:
-            return
-        bindings = bindings_text(activation.frame, implementation.parameters, context.library.vocabulary)
-        chosen = ImplementationChosen(
-            time=context.time,
-            node=self.id,
-            skill=self.skill.name,
-            implementation=implementation.name,
-            bindings=bindings,
-            rejected=tuple(self.rejected),
-            source=implementation.source,
-        )
-        context.emit(chosen)
+        if self.context.emit is not None:
+            event = chosen(self.id, self.skill, activation, self._arguments, self.rejected, self.context)
+            self.context.emit(event)

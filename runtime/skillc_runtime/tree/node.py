@@ -8,6 +8,7 @@ from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.trace.events import NodeEnded, NodeStarted
 from skillc_runtime.trace.failure import Failure
+from skillc_runtime.trace.reasons import Attempted
 from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.errors import told
 
@@ -118,6 +119,10 @@ class Node:
         self.stop(message)
         return self.fail(Failure(kind="error", message=message, source=self.source))
 
+    def attempted(self) -> Attempted | None:
+        """Return what a call that failed has to tell about it; asked when somebody listens."""
+        return None
+
     def _settle(self, status: Status, failure: Failure | None) -> Status:
         context = self.context
         self.status, self.failure, self.ended = status, failure, context.time
@@ -128,6 +133,7 @@ class Node:
                 name=self.name,
                 status=status.value,
                 failure=failure,
+                attempted=self.attempted() if status is FAILURE else None,
                 source=self.source,
             )
             context.emit(ended)
