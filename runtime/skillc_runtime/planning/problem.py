@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import msgspec
 
 from skillc_compiler.library.conditions import Anything, Condition, Exists, Forall, Holds, Individual
 from skillc_compiler.library.pddl.domain import PlanningDomain
-from skillc_compiler.library.pddl.formulas import Formula, Typed
+from skillc_compiler.library.pddl.formulas import TRUE, Formula, Typed, renamed
 from skillc_compiler.library.pddl.goals import ground_goal, with_predicates_of
 from skillc_compiler.library.pddl.names import object_names
 from skillc_compiler.library.pddl.planning import planning_domain
@@ -20,8 +20,11 @@ from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_runtime.planning.excluding import excluding
 from skillc_runtime.planning.initial import Initial
+from skillc_runtime.planning.left_out import LeftOut
+from skillc_runtime.planning.narrowing import Breadth
 from skillc_runtime.planning.plan import Step
-from skillc_runtime.planning.variables import variables
+from skillc_runtime.planning.relevance import Helpful, helpful
+from skillc_runtime.planning.selecting import lowest_of, select
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.expressions import EvaluationError
 from skillc_runtime.world.state import WorldState
@@ -36,29 +39,46 @@ class Posed:
     """A problem with the library it speaks of (the scene's own classes included), and what could not be decided.
 
     `undecided` are static conditions and durations that have no value for some individuals, which are left out.
+    `left_out` lists what the scene and the library have beyond the problem, with reasons; `others` are those
+    individuals of it that might make a difference, with their types: where there are any, the problem is `narrowed`.
     """
 
     problem: Problem
     library: SkillLibrary
     undecided: tuple[str, ...]
+    left_out: tuple[LeftOut, ...] = ()
+    others: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def narrowed(self) -> bool:
+        """Whether a cheaper plan or any plan at all may need something that was left out."""
+        return bool(self.others)
 
 
-def pose_problem(library: SkillLibrary, state: WorldState, goal: Condition, without: Sequence[Step] = ()) -> Posed:
+def pose_problem(
+    library: SkillLibrary,
+    state: WorldState,
+    goal: Condition,
+    without: Sequence[Step] = (),
+    breadth: Breadth | None = None,
+) -> Posed:
     """Return the problem of reaching the goal from a version of the world, by other steps than those of `without`.
 
-    Individuals that no action and no goal can speak of are left out. GoalError when the goal names an unknown
-    individual or says what a planner cannot reason about.
+    Skills and individuals are left out that can make no difference; with a `breadth` also those that are far from what
+    the goal speaks of. GoalError when the goal names an unknown individual or says what a planner cannot reason about.
     """
     library = _in_the_words_of(state.vocabulary, library)
     named = _named(goal, state)
     domain = planning_domain(library, _combined(state))
-    types = {iri: domain.type_of(_lowest(state.types(iri), state.vocabulary)) for iri in sorted(state.individuals)}
-    types = _relevant(types, domain, named)
+    wanted = _ground(goal, library, domain, named, state)
+    domain = with_predicates_of(wanted, library, domain)
+    useful = Helpful(domain, ()) if wanted == TRUE else helpful(domain, wanted)
+    selection = select(useful.domain, state, named, breadth)
+    types = selection.kept
     names = object_names(types, state.vocabulary, domain.names.keys() | {each.name for each in domain.predicates})
-    objects = tuple(Typed(name, types[iri]) for name, iri in sorted(names.items()))
     by_iri = {iri: name for name, iri in names.items()}
-    ground = _ground(goal, library, domain, by_iri, state)
-    domain = excluding(without, with_predicates_of(ground, library, domain), by_iri, types)
+    objects = tuple(Typed(name, types[iri]) for name, iri in sorted(names.items()))
+    domain = excluding(without, useful.domain, by_iri, types)
     initial = Initial(domain, state, objects, names)
     problem = Problem(
         name="task",
@@ -67,9 +87,11 @@ def pose_problem(library: SkillLibrary, state: WorldState, goal: Condition, with
         names=names,
         init=tuple(initial.atoms()),
         costs=tuple(initial.costs()),
-        goal=ground,
+        goal=renamed(wanted, by_iri),
     )
-    return Posed(problem, library, tuple(initial.undecided))
+    unhelpful = LeftOut(useful.unhelpful, "nothing that the goal depends on is changed by them", harmless=True)
+    left_out = (*((unhelpful,) if useful.unhelpful else ()), *selection.left_out)
+    return Posed(problem, library, tuple(initial.undecided), left_out, selection.others)
 
 
 def _in_the_words_of(vocabulary: Vocabulary, library: SkillLibrary) -> SkillLibrary:
@@ -93,36 +115,25 @@ def _named(goal: Condition, state: WorldState) -> frozenset[str]:
     return named
 
 
-def _lowest(classes: frozenset[str], vocabulary: Vocabulary) -> frozenset[str]:
-    """Return the classes that are above none of the others."""
-    return frozenset(
-        cls for cls in classes if not any(other != cls and vocabulary.is_a(other, cls) for other in classes)
-    )
-
-
 def _combined(state: WorldState) -> frozenset[frozenset[str]]:
-    kinds = {state.types(each) for each in state.individuals}
-    lowest = {_lowest(each, state.vocabulary) for each in kinds}
+    kinds = {classes for _, classes in state.direct.items()}
+    lowest = {lowest_of(each, state.vocabulary) for each in kinds}
     return frozenset(each for each in lowest if len(each) > 1)
 
 
-def _relevant(types: dict[str, str], domain: PlanningDomain, named: frozenset[str]) -> dict[str, str]:
-    wanted = {each.type for each in variables(domain)}
-    fits = {each: any(domain.is_a(each, other) for other in wanted) for each in set(types.values())}
-    return {iri: each for iri, each in types.items() if fits[each] or iri in named}
-
-
 def _ground(
-    goal: Condition, library: SkillLibrary, domain: PlanningDomain, by_iri: dict[str, str], state: WorldState
+    goal: Condition, library: SkillLibrary, domain: PlanningDomain, named: frozenset[str], state: WorldState
 ) -> Formula:
+    """Return the goal as a formula in which objects are called by their IRIs."""
+
     def members(cls: str) -> list[str]:
-        return sorted(state.instances(cls) & by_iri.keys())
+        return sorted(state.instances(cls) & named)
 
     def holds(condition: Condition) -> bool:
         return evaluate(condition, state, {})
 
     try:
-        return ground_goal(goal, library, domain, by_iri, members, holds)
+        return ground_goal(goal, library, domain, {iri: iri for iri in named}, members, holds)
     except Untranslatable as reason:
         raise GoalError(f"the goal {reason}") from reason
     except EvaluationError as error:

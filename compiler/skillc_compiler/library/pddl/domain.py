@@ -187,4 +187,7 @@ class PlanningDomain:
 
     def of_type(self, objects: Iterable[Typed], type_name: str) -> tuple[str, ...]:
         """Return the names of those objects that are of the type, in their order."""
-        return tuple(each.name for each in objects if self.is_a(each.type, type_name))
+        fitting = {each.name for each in self.types if self.is_a(each.name, type_name)}
+        if type_name == ROOT:
+            fitting.add(ROOT)
+        return tuple(each.name for each in objects if each.type in fitting)

@@ -5,7 +5,7 @@ A term is a PDDL name: a variable with its leading `?`, or the name of an object
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TypeAlias, assert_never
 
@@ -108,6 +108,29 @@ def disjunction(parts: Iterable[Formula]) -> Formula:
     if TRUE in flat:
         return TRUE
     return next(iter(flat)) if len(flat) == 1 else Disjunction(tuple(flat))
+
+
+def renamed(formula: Formula, names: Mapping[str, str]) -> Formula:
+    """Return the formula with other names for terms."""
+    match formula:
+        case Atom(predicate=predicate, terms=terms):
+            return Atom(predicate, tuple(names.get(term, term) for term in terms))
+        case Equal(left=left, right=right):
+            return Equal(names.get(left, left), names.get(right, right))
+        case Negation(body=Atom(predicate=predicate, terms=terms)):
+            return Negation(Atom(predicate, tuple(names.get(term, term) for term in terms)))
+        case Negation(body=Equal(left=left, right=right)):
+            return Negation(Equal(names.get(left, left), names.get(right, right)))
+        case Conjunction(parts=parts):
+            return Conjunction(tuple(renamed(part, names) for part in parts))
+        case Disjunction(parts=parts):
+            return Disjunction(tuple(renamed(part, names) for part in parts))
+        case Existential(variable=variable, body=body):
+            return Existential(variable, renamed(body, names))
+        case Universal(variable=variable, body=body):
+            return Universal(variable, renamed(body, names))
+        case _:
+            assert_never(formula)
 
 
 def conjuncts(formula: Formula) -> tuple[Formula, ...]:

@@ -22,6 +22,10 @@ _WORDS_OF_PDDL = """
 """
 _WORDS_OF_OURS = "goal-reached idle reach-goal thing"
 KEYWORDS = frozenset((_WORDS_OF_PDDL + _WORDS_OF_OURS).split())
+_KEBAB = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
+_WORD_ENDS = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
+_FOREIGN = re.compile(r"[^a-z0-9_./:#\s-]")
+_GAPS = re.compile(r"[^a-z0-9]+")
 
 
 def pddl_names(library: SkillLibrary) -> dict[str, str]:
@@ -36,7 +40,10 @@ def pddl_names(library: SkillLibrary) -> dict[str, str]:
 
 def object_names(iris: Iterable[str], vocabulary: Vocabulary, taken: Collection[str]) -> dict[str, str]:
     """Return object name -> IRI for the individuals of a scene, none of the names being in `taken`."""
-    return _inverse(allocate({iri: _of_iri(iri, vocabulary) for iri in iris}, taken))
+    plain = {iri: kebab(local_name(iri)) for iri in iris}
+    times = Counter((*plain.values(), *taken, *KEYWORDS))
+    wanted = {iri: (name,) if times[name] == 1 else _of_iri(iri, vocabulary) for iri, name in plain.items()}
+    return _inverse(allocate(wanted, taken))
 
 
 def finite_values(term: PropertyTerm) -> tuple[bool | str, ...]:
@@ -51,9 +58,11 @@ def value_key(iri: str, value: bool | str) -> str:
 
 def kebab(text: str) -> str:
     """Return the text in PDDL's letters: `ArmDevice` becomes arm-device, `Ur5e-1` ur5e-1, a foreign letter its code."""
-    spaced = re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "-", text).lower()
-    plain = re.sub(r"[^a-z0-9_./:#\s-]", lambda match: f"-u{ord(match.group()):x}-", spaced)
-    name = re.sub(r"[^a-z0-9]+", "-", plain).strip("-")
+    if _KEBAB.fullmatch(text):
+        return text
+    spaced = _WORD_ENDS.sub("-", text).lower()
+    plain = _FOREIGN.sub(lambda match: f"-u{ord(match.group()):x}-", spaced)
+    name = _GAPS.sub("-", plain).strip("-")
     return name if name[:1].isalpha() else f"x-{name}".strip("-")
 
 
