@@ -12,7 +12,8 @@ from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.trace import events
 from skillc_runtime.trace.events import Event, ImplementationChosen, NodeEnded, NodeStarted, Note, WorldChanged
 from skillc_runtime.trace.outcome import Outcome
-from skillc_runtime.trace.writer import TraceWriter, read_trace
+from skillc_runtime.trace.reader import TraceReader
+from skillc_runtime.trace.writer import TraceWriter
 from skillc_runtime.tree.run import Run
 from skillc_runtime.world.changes import SetProperty
 from tree.stage import FLAGS, ON, Library, Script, Stage, act, call, sel, seq, world
@@ -87,7 +88,7 @@ def test_the_file_holds_what_was_told(tmp_path: Path) -> None:
             (told.append, writer),
         )
         run.tick()
-    assert list(read_trace(tmp_path / "events.jsonl")) == told and told
+    assert list(TraceReader(tmp_path / "events.jsonl")) == told and told
     assert writer.problem is None
 
 
@@ -98,7 +99,7 @@ def test_every_kind_of_event_survives_the_file(tmp_path: Path) -> None:
     with TraceWriter(tmp_path / "events.jsonl") as writer:
         for event in samples:
             writer(event)
-    assert list(read_trace(tmp_path / "events.jsonl")) == samples
+    assert list(TraceReader(tmp_path / "events.jsonl")) == samples
 
 
 def sample(cls: type) -> Event:
@@ -119,7 +120,7 @@ def test_a_last_line_cut_short_is_left_out(tmp_path: Path) -> None:
         writer(Note(time=1.0, message="one"))
         writer(Note(time=2.0, message="two"))
     path.write_bytes(path.read_bytes()[:-5])
-    assert list(read_trace(path)) == [Note(time=1.0, message="one")]
+    assert list(TraceReader(path)) == [Note(time=1.0, message="one")]
 
 
 def test_a_full_disk_does_not_stop_the_run() -> None:

@@ -1,16 +1,13 @@
-"""Events as JSON Lines in a file: one line an event, on disk as it happens, and back."""
+"""Events as JSON Lines in a file: one line an event, on disk as it happens."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from types import TracebackType
 
 import msgspec
 
 from skillc_runtime.trace.events import Event
-
-_DECODER = msgspec.json.Decoder(Event)
 
 
 class TraceWriter:
@@ -53,11 +50,3 @@ class TraceWriter:
     def _give_up(self, error: OSError) -> None:
         if self.problem is None:
             self.problem = f"{self.path} is incomplete: {error.strerror or error}"
-
-
-def read_trace(path: Path) -> Iterator[Event]:
-    """Yield the events of a file; a last line cut short by a crash is left out, any other bad line raises."""
-    with path.open("rb") as file:
-        for line in file:
-            if line.endswith(b"\n"):
-                yield _DECODER.decode(line)

@@ -52,7 +52,6 @@ def facts_at_failure(
 ) -> tuple[str, ...]:
     """Return the facts that the conditions of a call read: of the implementation that runs, else of all tried."""
     implementations = tried if running is None else (running.implementation,)
-    requirements = [each for one in implementations for each in (*one.pre, *one.hold)]
-    posts = running.implementation.post if running is not None else ()
-    conditions = [each.condition for each in (*requirements, *posts)]
+    conditions = [each.condition for one in implementations for each in (*one.pre, *one.hold)]
+    conditions += [post.condition for post in (running.implementation.post if running is not None else ())]
     return facts_of(conditions, state, arguments if running is None else running.frame)

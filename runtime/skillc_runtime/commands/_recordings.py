@@ -1,0 +1,48 @@
+"""From the folder of a run to its story, or to an explanation and exit code 1."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import NoReturn
+
+import click
+
+from skillc_runtime.trace.history import story_of
+from skillc_runtime.trace.reader import TraceError, TraceReader
+from skillc_runtime.trace.story import Story
+
+NAME = "events.jsonl"
+
+
+def told(run: Path) -> Story:
+    """Read what happened in a run, given by its folder or its file of events; exit when that is not possible."""
+    path = run / NAME if run.is_dir() else run
+    if not path.exists():
+        _refuse(_missing(run))
+    reader = TraceReader(path)
+    try:
+        story = story_of(reader)
+    except TraceError as error:
+        _refuse(str(error))
+    except OSError as error:
+        _refuse(f"{path} cannot be read: {error.strerror or error}")
+    if story is None:
+        _refuse(f"{path} has nothing of a task: the run ended before it began")
+    if reader.cut_short:
+        click.echo(f"note: the last line of {path} is cut short; what is told ends at {story.last:.1f} s", err=True)
+    return story
+
+
+def _missing(run: Path) -> str:
+    if not run.is_dir():
+        return f"there is no {run}; `skillc run TASK --out DIR` records a run in DIR"
+    others = sorted(str(each.parent) for each in run.glob(f"*/{NAME}"))
+    if others:
+        return f"{run} has no {NAME}; there are recordings in {', '.join(others)}"
+    return f"{run} has no {NAME}: `skillc run TASK --out DIR` writes it, unless the task is refused before it starts"
+
+
+def _refuse(message: str) -> NoReturn:
+    click.echo(f"error: {message}", err=True)
+    sys.exit(1)
