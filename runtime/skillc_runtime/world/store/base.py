@@ -28,7 +28,7 @@ def create(folder: Path, triples: Iterable[ox.Triple], sequence: int, beginning:
         store.flush()
         del store
         half.rename(folder)
-    except OSError as error:
+    except (OSError, RuntimeError) as error:
         raise StoreError(f"the facts cannot be written to {folder}: {error}") from error
 
 
@@ -41,7 +41,7 @@ def read(folder: Path) -> Kept:
         sequence, beginning = _told(store, SEQUENCE), _told(store, BEGINNING)
         quads = store.quads_for_pattern(None, None, None, ox.DefaultGraph())
         return Kept(int(sequence), beginning, tuple(quad.triple for quad in quads))
-    except (OSError, ValueError) as error:
+    except (OSError, RuntimeError, ValueError) as error:
         raise _damaged(folder, error) from error
 
 
@@ -49,7 +49,7 @@ def sequence(folder: Path) -> int:
     """Return the number of the last transaction in a folder; StoreError when it is damaged."""
     try:
         return int(_told(ox.Store.read_only(str(folder)), SEQUENCE))
-    except (OSError, ValueError) as error:
+    except (OSError, RuntimeError, ValueError) as error:
         raise _damaged(folder, error) from error
 
 
@@ -64,7 +64,7 @@ def advance(folder: Path, removed: Iterable[ox.Triple], added: Iterable[ox.Tripl
         store = ox.Store(str(folder))
         store.update(update)
         store.flush()
-    except OSError as error:
+    except (OSError, RuntimeError) as error:
         raise StoreError(f"the facts cannot be written to {folder}: {_first_line(error)}") from error
 
 

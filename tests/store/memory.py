@@ -1,0 +1,38 @@
+"""The plainest store: a list that several world models share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from skillc_runtime.world.event import ChangeEvent
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.store.facts import all_facts
+from skillc_runtime.world.store.store import Kept, StoreError, Transaction
+
+
+class MemoryStore:
+    """Keeps transactions in a list; `interfere` is called before each write, as if others were faster."""
+
+    def __init__(self) -> None:
+        self.written: list[Transaction] = []
+        self.state: WorldState | None = None
+        self.interfere: Callable[[], None] = lambda: None
+        self.broken = False
+
+    def read(self) -> Kept:
+        triples = () if self.state is None else tuple(all_facts(self.state))
+        return Kept(len(self.written), self.written[0].origin if self.written else "", triples)
+
+    def append(self, event: ChangeEvent, after: int) -> bool:
+        interfere, self.interfere = self.interfere, lambda: None
+        interfere()
+        if self.broken:
+            raise StoreError("the store is gone")
+        if after != len(self.written):
+            return False
+        self.written.append(Transaction(after + 1, event.origin, event.changes))
+        self.state = event.after
+        return True
+
+    def since(self, sequence: int) -> tuple[Transaction, ...]:
+        return tuple(self.written[sequence:])

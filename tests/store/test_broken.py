@@ -1,0 +1,203 @@
+"""Folders that are no stores, damaged stores, full and read-only disks: a clear word, and nothing lost."""
+
+import os
+import resource
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pyoxigraph as ox
+import pytest
+
+from skillc_runtime.world.store import base
+from skillc_runtime.world.store.disk import FACTS, FORMAT, JOURNAL, MARK, DiskStore
+from skillc_runtime.world.store.opening import open_store
+from skillc_runtime.world.store.store import StoreError
+from store.worlds import facts_of, model_of
+from world.lab import assign, iri
+
+
+def written(place: Path, writes: int = 3) -> Path:
+    """Return the folder of a store with some writes in its journal, as a process that died leaves it."""
+    original = place.with_name("original")
+    store = DiskStore(original)
+    model = model_of(store)
+    for number in range(writes):
+        model.commit([assign("box", "weight", float(number))])
+    shutil.copytree(original, place)
+    store.close()
+    return place
+
+
+def weight(place: Path) -> object:
+    return model_of(DiskStore(place)).snapshot().value(iri("box"), iri("weight"))
+
+
+def test_a_folder_of_other_things_is_no_store(tmp_path: Path) -> None:
+    (tmp_path / "thesis.tex").touch()
+    with pytest.raises(StoreError, match=r"is no store: it holds thesis.tex; name a new or an empty folder"):
+        DiskStore(tmp_path)
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["thesis.tex"]
+
+
+def test_a_file_is_no_store(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with pytest.raises(StoreError, match=r"is a file; a store is a folder"):
+        DiskStore(tmp_path / "file")
+    with pytest.raises(StoreError, match=r"cannot be opened"):
+        DiskStore(tmp_path / "file" / "below")
+
+
+def test_a_store_of_another_version_is_named(tmp_path: Path) -> None:
+    place = written(tmp_path / "store")
+    (place / MARK).write_text("skillc store, format 9\n", encoding="utf-8")
+    with pytest.raises(StoreError, match=r"format 9.*this skillc reads.*format 1"):
+        DiskStore(place)
+    assert FORMAT.startswith("skillc store")
+
+
+def test_the_line_that_a_writer_died_in_does_not_count(tmp_path: Path) -> None:
+    journal = (written(tmp_path / "whole") / JOURNAL).read_bytes()
+    shutil.rmtree(tmp_path / "original")
+    ends = [at + 1 for at, byte in enumerate(journal) if byte == ord("\n")]
+    assert len(ends) == 3 and ends[-1] == len(journal)
+    cuts = {0, 1, *(end + near for end in ends for near in (-1, 0, 9)), ends[1] + 200}
+    for length in sorted(cuts):
+        place = tmp_path / f"cut-{length}"
+        shutil.copytree(tmp_path / "whole", place)
+        (place / JOURNAL).write_bytes(journal[:length])
+        complete = sum(end <= length for end in ends)
+        assert weight(place) == (float(complete - 1) if complete else 3.0)
+
+
+def test_after_a_broken_line_writing_goes_on(tmp_path: Path) -> None:
+    place = written(tmp_path / "store")
+    holder = DiskStore(tmp_path / "original")
+    os.truncate(place / JOURNAL, (place / JOURNAL).stat().st_size - 5)
+    store = DiskStore(place)
+    model = model_of(store)
+    model.commit([assign("box", "weight", 9.0)])
+    assert weight(place) == 9.0
+    holder.close()
+
+
+@pytest.mark.parametrize("line", [0, 1, 2])
+def test_a_damaged_line_is_told_with_what_is_whole(tmp_path: Path, line: int) -> None:
+    place = written(tmp_path / "store")
+    lines = (place / JOURNAL).read_bytes().splitlines(keepends=True)
+    damaged = lines[line].replace(b"box", b"bix", 1)
+    assert damaged != lines[line]
+    (place / JOURNAL).write_bytes(b"".join([*lines[:line], damaged, *lines[line + 1 :]]))
+    offset = sum(map(len, lines[:line]))
+    words = f"is damaged from byte {offset} on, after transaction {line + 1}; .* shorten the file to {offset} bytes"
+    with pytest.raises(StoreError, match=words):
+        model_of(DiskStore(place))
+    os.truncate(place / JOURNAL, offset)
+    assert weight(place) == (float(line - 1) if line else 3.0)
+
+
+def test_damaged_facts_are_told_and_can_be_filled_anew(tmp_path: Path) -> None:
+    place = written(tmp_path / "store")
+    for file in (place / FACTS).glob("MANIFEST*"):
+        file.write_bytes(b"nonsense" * 100)
+    with pytest.raises(StoreError, match=r"facts are damaged.*fill the store anew with --reset") as caught:
+        model_of(DiskStore(place))
+    assert "\n" not in str(caught.value)
+    assert model_of(DiskStore(place, reset=True)).snapshot().value(iri("box"), iri("weight")) == 3.0
+
+
+def test_facts_that_say_nothing_of_themselves_are_damaged(tmp_path: Path) -> None:
+    ox.Store(str(tmp_path / "facts")).flush()
+    with pytest.raises(StoreError, match=r"sequence> is missing"):
+        base.read(tmp_path / "facts")
+
+
+def test_a_store_in_use_is_not_reset(tmp_path: Path) -> None:
+    user = DiskStore(tmp_path / "store")
+    model = model_of(user)
+    with pytest.raises(StoreError, match=r"cannot be reset while .* uses it"):
+        DiskStore(tmp_path / "store", reset=True)
+    model.commit([assign("box", "weight", 7.0)])
+    user.close()
+    assert weight(tmp_path / "store") == 7.0
+
+
+FULL = f"""
+import resource, sys
+sys.path.insert(0, {str(Path(__file__).parents[1])!r})
+from pathlib import Path
+from store.worlds import model_of
+from store.test_broken import DiskStore, StoreError, assign
+model = model_of(DiskStore(Path(sys.argv[1])))
+for number in range(50):
+    model.commit([assign("box", "weight", float(number))])
+size = (Path(sys.argv[1]) / "journal").stat().st_size
+resource.setrlimit(resource.RLIMIT_FSIZE, (size + 2000, resource.RLIM_INFINITY))
+before, made = model.snapshot(), 0
+try:
+    while True:
+        before = model.commit([assign("box", "weight", 100.0 + made)]).after
+        made += 1
+except StoreError as error:
+    assert model.snapshot() is before
+    print(made, error)
+resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+model.commit([assign("box", "weight", 1000.0)])
+"""
+
+
+def test_a_full_disk_refuses_the_write_and_loses_none(tmp_path: Path) -> None:
+    assert resource.RLIM_INFINITY, "the limit on file sizes stands for the size of the disk"
+    run = subprocess.run([sys.executable, "-c", FULL, str(tmp_path / "store")], capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    made, _, message = run.stdout.partition(" ")
+    assert int(made) > 0 and "nothing can be written to" in message and "File too large" in message
+    kept = model_of(DiskStore(tmp_path / "store"))
+    assert kept.snapshot().value(iri("box"), iri("weight")) == 1000.0
+    assert DiskStore(tmp_path / "store").read().sequence == 1 + 50 + int(made) + 1
+
+
+READ_ONLY = f"""
+import os, sys
+sys.path.insert(0, {str(Path(__file__).parents[1])!r})
+from pathlib import Path
+from store.worlds import facts_of, model_of
+from store.test_broken import DiskStore, StoreError, assign
+if os.geteuid() == 0:
+    os.setuid(65534)
+model = model_of(DiskStore(Path(sys.argv[1])))
+print(len(facts_of(model.snapshot())))
+try:
+    model.commit([assign("box", "weight", 5.0)])
+except StoreError as error:
+    print(error)
+try:
+    DiskStore(Path(sys.argv[1]) / "new")
+except StoreError as error:
+    print(error)
+"""
+
+
+def test_a_store_that_may_only_be_read_is_read(tmp_path: Path) -> None:
+    place = written(tmp_path / "store")
+    expected = len(facts_of(model_of(DiskStore(place)).snapshot()))
+    for folder in (tmp_path, *tmp_path.parents):
+        if folder.owner() == Path.home().owner() and folder.name.startswith(("pytest", "test", "store")):
+            folder.chmod(0o755)
+    for file in place.rglob("*"):
+        file.chmod(0o555 if file.is_dir() else 0o444)
+    place.chmod(0o555)
+    run = subprocess.run([sys.executable, "-c", READ_ONLY, str(place)], capture_output=True, text=True)
+    place.chmod(0o755)
+    assert run.returncode == 0, run.stderr
+    count, refused, closed = run.stdout.splitlines()
+    assert int(count) == expected
+    assert refused.endswith("journal is read-only here, so nothing can be written to the store")
+    assert closed.endswith("cannot be opened: Permission denied")
+
+
+@pytest.mark.parametrize("address", ["ftp://host/x", "http://", "http:///path", "urn://x"])
+def test_an_address_of_no_server_is_told(address: str) -> None:
+    with pytest.raises(StoreError, match=r"is no address of a SPARQL server"):
+        open_store(address)
