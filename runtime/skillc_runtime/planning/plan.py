@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Literal, Protocol, TypeAlias
 
 from skillc_compiler.library.pddl.problem import Problem
+from skillc_runtime.planning.left_out import LeftOut
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,11 +27,17 @@ class Plan:
 
 @dataclass(frozen=True, slots=True)
 class Solved:
-    """A plan; `proven` when no plan is shorter. `planner` is who found it."""
+    """A plan; `proven` when no plan is shorter. `planner` is who found it.
+
+    It was found without what is `left_out` of the scene; a shorter one that is `optimal for the filtered problem` would
+    have to need that. Any plan takes `at_least_s`, where that is known and less than proven.
+    """
 
     plan: Plan
-    optimal: Literal["proven", "best found"]
+    optimal: Literal["proven", "optimal for the filtered problem", "best found"]
     planner: str
+    left_out: tuple[LeftOut, ...] = ()
+    at_least_s: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

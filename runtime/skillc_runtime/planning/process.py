@@ -1,24 +1,48 @@
-"""Runs a foreign program that may crash, hang or eat all memory, and leaves nothing of it behind."""
+"""Runs foreign programs that may crash, hang, eat all memory or fill the disk, and leaves nothing of them behind."""
 
 from __future__ import annotations
 
 import contextlib
 import os
-import resource
 import signal
 import subprocess
-from collections.abc import Sequence
+import sys
+import time
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from types import TracebackType
 from typing import TypeAlias
 
-MEMORY_BYTES = 6 * 2**30
-TAIL = 2000
+from skillc_runtime.planning import guard
+
+LOOK_S = 0.005
+"""How often is looked whether a program has ended."""
+
+SWEEP_S = 1.0
+"""How long a guard gets to end what the program started, before it is killed with the program."""
+
+TAIL_BYTES = 2**16
+"""So much of what a program says is read; it may say more than memory holds."""
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """The most address space that each process may have and the most that it may write into one file, in bytes."""
+
+    memory_bytes: int
+    file_bytes: int
+
+
+def machine_limits() -> Limits:
+    """Return the limits that leave half of this machine's memory to others."""
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    return Limits(memory_bytes=min(6 * 2**30, memory // 2), file_bytes=2**30)
 
 
 @dataclass(frozen=True, slots=True)
 class Ended:
-    """The program ended; `code` is negative for a signal, `output` is all it said on both streams."""
+    """The program ended; `code` is negative for a signal, `output` is the end of what it said on both streams."""
 
     code: int
     output: str
@@ -26,12 +50,14 @@ class Ended:
     @property
     def last_line(self) -> str:
         """The last thing it said."""
-        return next((line.strip() for line in reversed(self.output[-TAIL:].splitlines()) if line.strip()), "nothing")
+        return next((line.strip() for line in reversed(self.output.splitlines()) if line.strip()), "nothing")
 
 
 @dataclass(frozen=True, slots=True)
 class OutOfTime:
-    """The program was stopped because its time was up."""
+    """The program was stopped because its time was up; `output` is the end of what it had said."""
+
+    output: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,33 +70,82 @@ class NotStarted:
 Run: TypeAlias = Ended | OutOfTime | NotStarted
 
 
-def run(command: Sequence[str], folder: Path, seconds: float, stdin: Path | None = None) -> Run:
-    """Run a program in a folder, in a session of its own; whatever it started is killed when it ends or time is up."""
-    said = folder / "said.txt"
-    with said.open("wb") as output, (stdin or Path(os.devnull)).open("rb") as source:
-        try:
-            process = subprocess.Popen(
-                command, cwd=folder, stdin=source, stdout=output, stderr=subprocess.STDOUT, start_new_session=True
+class Running:
+    """A program that runs under a guard, which ends it and all it started when this process dies.
+
+    Used in a `with` statement, after which nothing of the program runs any more.
+    """
+
+    def __init__(
+        self,
+        command: Sequence[str],
+        folder: Path,
+        said: str,
+        limits: Limits,
+        stdin: Path | None = None,
+        environment: Mapping[str, str] | None = None,
+    ) -> None:
+        """Start a program in a folder; it talks into the file `said` there. OSError when the folder is not usable."""
+        self._said, self._cut_short = folder / said, False
+        guarded = (sys.executable, "-I", "-S", guard.__file__, str(os.getpid()))
+        limited = (str(limits.memory_bytes), str(limits.file_bytes))
+        with self._said.open("wb") as output, (stdin or Path(os.devnull)).open("rb") as source:
+            self._process = subprocess.Popen(
+                (*guarded, *limited, *command),
+                cwd=folder,
+                stdin=source,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+                env=None if environment is None else {**os.environ, **environment},
             )
-        except OSError as error:
-            return NotStarted(f"{command[0]}: {error.strerror}")
-        try:
-            _limit_memory(process.pid)
-            process.wait(max(seconds, 0.0))
-        except subprocess.TimeoutExpired:
-            return OutOfTime()
-        finally:
-            _kill_group(process)
-    return Ended(process.returncode, said.read_bytes().decode("utf-8", "replace"))
+
+    def __enter__(self) -> Running:
+        return self
+
+    def __exit__(self, *_: type[BaseException] | BaseException | TracebackType | None) -> None:
+        self.stop()
+
+    def stop(self) -> None:
+        """End the program and all it started."""
+        if self._process.poll() is None:
+            self._cut_short = True
+            self._process.terminate()
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._process.wait(SWEEP_S)
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self._process.pid, signal.SIGKILL)
+        self._process.wait()
+
+    @property
+    def ended(self) -> bool:
+        """Whether the program has ended by itself, or was stopped."""
+        return self._process.poll() is not None
+
+    def outcome(self) -> Run:
+        """Return how the program ended; OutOfTime where it still runs or was stopped."""
+        code = self._process.poll()
+        output = _tail(self._said)
+        if code is None or self._cut_short:
+            return OutOfTime(output)
+        ended = Ended(code, output)
+        return NotStarted(ended.last_line) if code == guard.NOT_STARTED else ended
 
 
-def _limit_memory(pid: int) -> None:
-    if hasattr(resource, "prlimit"):
-        with contextlib.suppress(ProcessLookupError, PermissionError):
-            resource.prlimit(pid, resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
+def run(command: Sequence[str], folder: Path, seconds: float, stdin: Path | None = None) -> Run:
+    """Run a program in a folder; whatever it started is killed when it ends or its time is up."""
+    with Running(command, folder, "said.txt", machine_limits(), stdin) as running:
+        wait((running,), time.monotonic() + seconds)
+        return running.outcome()
 
 
-def _kill_group(process: subprocess.Popen[bytes]) -> None:
-    with contextlib.suppress(ProcessLookupError):
-        os.killpg(process.pid, signal.SIGKILL)
-    process.wait()
+def wait(programs: Sequence[Running], end: float) -> None:
+    """Wait until a program has ended, or until the monotonic clock says `end`."""
+    while not any(each.ended for each in programs) and time.monotonic() < end:
+        time.sleep(LOOK_S)
+
+
+def _tail(file: Path) -> str:
+    with file.open("rb") as said:
+        said.seek(max(0, file.stat().st_size - TAIL_BYTES))
+        return said.read().decode("utf-8", "replace")
