@@ -61,7 +61,13 @@ MISTAKES = [
     ("OrientationW 1.0", "OrientationW 1e200", "no-rotation", "lab:Iiwa-1", "1.0"),
     ("SizeX 0.30", "SizeX -0.30", "not-positive", "lab:Pedestal.skiros:SizeX = -0.3", ""),
     ("SizeZ 0.05", "SizeZ 0", "not-positive", "greater than 0", ""),
-    ("skillc:hasSheet skillc:iiwa14-sheet ;", "", "missing-property", "lab:Iiwa-1 has no skillc:hasSheet", "skillc:hasSheet"),
+    (
+        "skillc:hasSheet skillc:iiwa14-sheet ;",
+        "",
+        "missing-property",
+        "lab:Iiwa-1 has no skillc:hasSheet",
+        "skillc:hasSheet",
+    ),
     ("PositionZ 0.715", 'PositionZ "NaN"^^<http://www.w3.org/2001/XMLSchema#double>', "wrong-data-type", "NaN", ""),
 ]
 

@@ -101,7 +101,13 @@ BAD = [
         "it belongs to t:Product; lab:T is a t:Location",
         "",
     ),
-    ("lab:B a t:Board ; t:hasGripper lab:G . lab:G a t:Gripper .", (1, 19), "relation-domain", "(t:Arm, t:Gripper)", ""),
+    (
+        "lab:B a t:Board ; t:hasGripper lab:G . lab:G a t:Gripper .",
+        (1, 19),
+        "relation-domain",
+        "(t:Arm, t:Gripper)",
+        "",
+    ),
     ("lab:X a t:Location, t:Robot .", (1, 21), "disjoint-classes", "both a t:Location and a t:Robot", ""),
     (
         "lab:E a t:Eraser . lab:S a t:Location ; t:contain lab:E . lab:T a t:Location ; t:contain lab:E .",

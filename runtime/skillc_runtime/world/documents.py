@@ -44,12 +44,16 @@ class Document:
     def read(path: Path) -> Document:
         """Read a file; SceneError when it cannot be read or is not UTF-8."""
         try:
-            return Document(str(path), path.read_bytes().decode("utf-8-sig"))
+            data = path.read_bytes()
+            text = data.decode("utf-8-sig")
         except OSError as error:
             problem = _unreadable(path, Place(str(path), 1, 1, 1, 2), error.strerror or str(error))
             raise SceneError([problem]) from error
         except UnicodeDecodeError as error:
-            raise SceneError([_not_utf8(path, error)]) from error
+            raise SceneError([_not_utf8(path, data, error.start)]) from error
+        if "\0" in text[:2]:
+            raise SceneError([_not_utf8(path, data, 0)])
+        return Document(str(path), text)
 
 
 def parse(document: Document, prefixes: Mapping[str, str] | None = None) -> Parsed:
@@ -78,15 +82,14 @@ def _parsed(document: Document, prefixes: tuple[tuple[str, str], ...]) -> Parsed
     return parse_turtle(document.path, document.text, BASE, dict(prefixes))
 
 
-def _not_utf8(path: Path, error: UnicodeDecodeError) -> Problem:
-    """Return the problem at the first byte that is not UTF-8."""
-    data: bytes = error.object
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff") or b"\0" in data[:4]:
+def _not_utf8(path: Path, data: bytes, start: int) -> Problem:
+    """Return the problem of a file at its first byte that is not UTF-8."""
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff") or b"\0" in data[:2]:
         return _unreadable(path, Place(str(path), 1, 1, 1, 2), "it is UTF-16 or UTF-32, not UTF-8")
-    before = data[: error.start].decode("utf-8-sig")
+    start += 3 * data.startswith(b"\xef\xbb\xbf")
+    before = data[:start].decode("utf-8-sig", "replace")
     line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
-    place = Place(str(path), line, column, line, column + 1)
-    return _unreadable(path, place, "it is not UTF-8 text")
+    return _unreadable(path, Place(str(path), line, column, line, column + 1), "it is not UTF-8 text")
 
 
 def _unreadable(path: Path, place: Place, reason: str) -> Problem:

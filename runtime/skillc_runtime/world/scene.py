@@ -20,7 +20,7 @@ from skillc_runtime.world.flaws import flaws
 from skillc_runtime.world.individuals import facts, iri_of, with_own_classes
 from skillc_runtime.world.names import suggest
 from skillc_runtime.world.reading import Reader
-from skillc_runtime.world.standard import TERMS, is_misspelt
+from skillc_runtime.world.standard import is_misspelt, standard_terms
 from skillc_runtime.world.state import WorldState
 
 
@@ -106,11 +106,11 @@ def _misused(said: Iterable[Statement], vocabulary: Vocabulary) -> Iterator[Prob
     for each in said:
         cls = iri_of(each.object) if each.predicate == RDF_TYPE else ""
         if is_misspelt(each.predicate):
-            near = suggest(each.predicate, each.predicate_place, vocabulary, TERMS)
+            near = suggest(each.predicate, each.predicate_place, vocabulary, standard_terms(each.predicate))
             message = f"there is no property {vocabulary.short(each.predicate)}"
             yield Problem(each.predicate_place, "unknown-property", message, near.help, edit=near.edit)
         elif is_misspelt(cls):
-            near = suggest(cls, each.object_place, vocabulary, TERMS)
+            near = suggest(cls, each.object_place, vocabulary, standard_terms(cls))
             message = f"there is no class {vocabulary.short(cls)}"
             yield Problem(each.object_place, "unknown-class", message, near.help, edit=near.edit)
         elif isinstance(each.subject, ox.BlankNode) and cls in vocabulary.classes:

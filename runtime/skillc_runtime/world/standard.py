@@ -32,6 +32,12 @@ TERMS = frozenset(base + name for base, names in _NAMES.items() for name in name
 """`owl:class` is how SkiROS2's scenes write `owl:Class`."""
 
 
+def standard_terms(iri: str) -> frozenset[str]:
+    """Return the terms of the vocabulary that an IRI belongs to."""
+    base = next(base for base in _NAMES if iri.startswith(base))
+    return frozenset(term for term in TERMS if term.startswith(base))
+
+
 def is_misspelt(iri: str) -> bool:
     """Whether an IRI belongs to one of these vocabularies, which has no such term."""
     return iri.startswith(tuple(_NAMES)) and iri not in TERMS and not iri.startswith(f"{RDF}_")

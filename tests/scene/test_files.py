@@ -1,0 +1,58 @@
+"""Files that are odd, or no scenes: each gets a clear answer."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from skillc_compiler.turtle.problems import Problem
+from skillc_ontology import catalogue
+from skillc_runtime.commands import _library
+from skillc_runtime.world.documents import SceneError
+from skillc_runtime.world.scene import load_scene
+
+TEXT = catalogue.scene("iiwa_table").read_bytes()
+
+
+def problems(path: Path, content: bytes) -> tuple[Problem, ...]:
+    path.write_bytes(content)
+    try:
+        load_scene(path, _library.vocabulary())
+    except SceneError as error:
+        return error.problems
+    return ()
+
+
+@pytest.mark.parametrize("content", [b"\xef\xbb\xbf" + TEXT, TEXT.replace(b"\n", b"\r\n"), TEXT + b"# end"])
+def test_marks_of_editors_do_not_matter(tmp_path: Path, content: bytes) -> None:
+    assert problems(tmp_path / "scene.ttl", content) == ()
+
+
+WRONG = [
+    (b"", "empty-scene", 1),
+    (b"\n# nothing\n", "empty-scene", 1),
+    (TEXT.replace(b'"rough table"', b'"rough t\xe4ble"'), "unreadable-scene", 73),
+    (TEXT.decode().encode("utf-16"), "unreadable-scene", 1),
+    (TEXT.decode().encode("utf-16-le"), "unreadable-scene", 1),
+    (b'<?xml version="1.0"?><rdf:RDF/>', "not-turtle", 1),
+    (b"lab:x a lab:y .", "unknown-prefix", 1),
+    (b"\x00\x01\x02", "unreadable-scene", 1),
+]
+
+
+@pytest.mark.parametrize(("content", "name", "line"), WRONG)
+def test_what_is_no_scene_is_told_once(tmp_path: Path, content: bytes, name: str, line: int) -> None:
+    found = [problem for problem in problems(tmp_path / "scene.ttl", content) if problem.name != "unknown-class"]
+    assert [(problem.name, problem.line) for problem in found] == [(name, line)]
+
+
+def test_columns_count_characters_behind_a_mark_and_before_a_carriage_return(tmp_path: Path) -> None:
+    text = "\ufeff@prefix : <http://e/> .\r\n:x a :ä, 'é' .\r\n"
+    found = problems(tmp_path / "scene.ttl", text.encode())
+    assert [(p.name, p.line, p.column) for p in found] == [("unknown-class", 2, 6), ("unknown-class", 2, 10)]
+
+
+def test_a_folder_is_no_scene(tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match="cannot read"):
+        load_scene(tmp_path, _library.vocabulary())

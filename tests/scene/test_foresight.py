@@ -1,0 +1,97 @@
+"""What `skillc check` foresees of tasks in their scenes, with the places in both files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_ontology import catalogue
+from skillc_runtime.commands import _checking, _files
+
+HEAD = """use skiros, skillc, wiping
+import "wiping/wipe.skill"
+import "gripper.skill"
+import "motion.skill"
+prefix lab: <http://example.org/lab#>
+
+skill Look {
+    in    surface: Surface
+    infer what:    Furniture
+    infer place:   Workstation
+    pre   place contain surface
+    pre   place contain what
+    noplan
+}
+impl look of Look { do wait 1 s }
+
+skill Seek {
+    in    surface: Surface
+    infer what:    Furniture
+    pre   surface hasA what
+    noplan
+}
+impl seek of Seek { do wait 1 s }
+
+"""
+FORESEEN = {"no-implementation-fits", "no-answer", "several-answers", "cannot-start", "unreachable-goal"}
+SUCKER = """
+@prefix owl: <http://www.w3.org/2002/07/owl#> .
+@prefix rparts: <http://www.inf.ufrgs.br/phi-group/ontologies/RParts.owl#> .
+lab:Sucker a owl:Class ; rdfs:subClassOf rparts:GripperEffector .
+lab:Sucker-1 a lab:Sucker .
+"""
+LINE = HEAD.count("\n") + 3
+
+
+def checked(folder: Path, member: str, more: str = "") -> list[Diagnostic]:
+    """Check a library with one task, whose goal or body is on the line LINE, in a shipped scene with more in it."""
+    scene = catalogue.scene("iiwa_table").read_text("utf-8")
+    (folder / "s.ttl").write_text(scene + more, "utf-8")
+    (folder / "t.skill").write_text(f'{HEAD}task t {{\n    scene "s.ttl"\n    {member}\n}}\n', "utf-8")
+    found = _checking.check(_files.find(folder), None)
+    assert not [each for each in found if each.severity == "error" and each.name not in FORESEEN]
+    return [each for each in found if each.name in FORESEEN]
+
+
+def test_a_gripper_that_nobody_can_move_is_told_where_it_is_used(tmp_path: Path) -> None:
+    (told,) = checked(tmp_path, "do ActuateGripper(gripper: lab:Sucker-1, opening: 10 mm)", SUCKER)
+    assert (told.name, told.severity, told.span.line) == ("no-implementation-fits", "error", LINE)
+    assert "lab:Sucker-1 is a lab:Sucker" in told.message
+    assert any(label.span.path.endswith("s.ttl") for label in told.labels)
+
+
+def test_a_gripper_that_nobody_uses_is_told_in_the_scene(tmp_path: Path) -> None:
+    (told,) = checked(tmp_path, "do TakePosture(arm: lab:Iiwa-1)", SUCKER)
+    assert (told.name, told.severity) == ("no-implementation-fits", "warning")
+    assert told.span.path.endswith("s.ttl") and "lab:Sucker-1" in told.message and "WsgGripper" in told.help
+
+
+def test_an_inferred_parameter_without_answer_is_told(tmp_path: Path) -> None:
+    (told,) = checked(tmp_path, "do Seek(surface: lab:Table-1)")
+    assert (told.name, told.severity, told.span.line) == ("no-answer", "error", LINE)
+    assert "`surface hasA what`" in told.message
+
+
+def test_an_inferred_parameter_with_several_answers_is_told_with_each_of_them(tmp_path: Path) -> None:
+    (told,) = checked(tmp_path, "do Look(surface: lab:Table-1)")
+    assert (told.name, told.severity, told.span.line) == ("several-answers", "warning", LINE)
+    assert "`what` may be lab:Pedestal, lab:SideTable" in told.message
+    assert len([label for label in told.labels if label.span.path.endswith("s.ttl")]) == 2
+
+
+def test_a_goal_out_of_reach_is_told_with_what_is_missing(tmp_path: Path) -> None:
+    (told,) = [d for d in checked(tmp_path, "goal lab:Table-1.isClean == true") if d.severity == "error"]
+    assert (told.name, told.span.line) == ("unreachable-goal", LINE - 2)
+    assert "Wipe" in told.message
+
+
+def test_what_begins_with_a_call_that_cannot_start_yet_is_a_warning(tmp_path: Path) -> None:
+    (told,) = checked(tmp_path, "do Wipe(surface: lab:Table-1)")
+    assert (told.name, told.severity, told.span.line) == ("no-answer", "warning", LINE)
+
+
+@pytest.mark.parametrize("name", ["wiping", "std"])
+def test_nothing_is_foreseen_of_shipped_libraries(name: str) -> None:
+    assert _checking.check(_files.find(_files.SHIPPED / name), None) == ()
