@@ -57,5 +57,5 @@ clean:           ## remove the environment and all output
 	@touch $@
 
 .venv/.dev: .venv/.runtime
-	$(INSTALL) -e '.[planner,video,editor,dev]'
+	$(INSTALL) -e '.[planner,temporal,video,editor,dev]'
 	@touch $@
