@@ -9,14 +9,11 @@ import msgspec
 
 from skillc_runtime.trace.failure import Failure, Rejected
 from skillc_runtime.trace.question import Answer
-from skillc_runtime.trace.reasons import Determined
+from skillc_runtime.trace.reasons import Determined, Untried
 from skillc_runtime.trace.story import Attempt, Call, Fact, Link, Story
 
-HOW = {
-    "passed": "passed by the caller",
-    "default": "the default",
-    "inferred": "found in the world",
-}
+HOW = {"passed": "passed by the caller", "default": "the default", "inferred": "found in the world"}
+PLANNED = "bound by the planner"
 
 
 def as_json(what: Story | Answer) -> str:
@@ -57,7 +54,15 @@ def _attempt(attempt: Attempt) -> Iterator[str]:
         proved = {"proven": ", proved optimal"}.get(attempt.optimal, "")
         count = f"{len(attempt.steps)} step{'' if len(attempt.steps) == 1 else 's'}"
         yield f"plan of {count} by {attempt.planner}{proved}, {attempt.cost:g} s expected"
-    yield from (_line(step) for step in attempt.steps)
+    for step in attempt.steps:
+        yield _line(step)
+        yield f"       {_arguments(step)}"
+
+
+def _arguments(call: Call) -> str:
+    """Return what is not a default, on one line."""
+    defaults = {each.parameter for each in call.determined if each.how == "default"}
+    return ", ".join(f"{name}: {value}" for name, value in call.bindings.items() if name not in defaults)
 
 
 def _line(call: Call, depth: int = 0) -> str:
@@ -99,11 +104,24 @@ def _never(call: Call) -> Iterator[str]:
 
 def _choice(call: Call) -> Iterator[str]:
     if call.implementation:
-        why = "the first that fits" if call.rejected else "nothing ranked before it was rejected"
-        yield f"chosen: {call.implementation} ({call.implementation_source}), {why}"
+        yield f"chosen: {call.implementation} ({call.implementation_source}), {_ground(call)}"
     if call.rejected:
         yield "rejected:"
         yield from _indented(together.from_iterable(map(_refusal, call.rejected)))
+
+    if call.untried:
+        yield "not tried, since they rank after it (less specific, less preferred, or declared later):"
+        yield from (f"  {each.implementation} ({each.source}): {_would(each)}" for each in call.untried)
+
+
+def _ground(call: Call) -> str:
+    if call.fixed:
+        return "which the call names"
+    return "the first in rank that fits" if call.rejected or call.untried else "the only one"
+
+
+def _would(untried: Untried) -> str:
+    return f"would not fit, {untried.reason}" if untried.reason else "would fit too"
 
 
 def _refusal(rejected: Rejected) -> Iterator[str]:
@@ -114,8 +132,8 @@ def _refusal(rejected: Rejected) -> Iterator[str]:
 
 def _bound(call: Call, name: str) -> Iterator[str]:
     reason = next((each for each in call.determined if each.parameter == name), None)
-    how = HOW[reason.how] if reason is not None else ("" if call.started is None else "passed by the caller")
-    yield f"{name} = {call.bindings[name]}{f'  ({how})' if how else ''}"
+    how = reason.how if reason is not None else "passed"
+    yield f"{name} = {call.bindings[name]}  ({PLANNED if call.planned and how == 'passed' else HOW[how]})"
     if reason is not None:
         yield from _indented(_because(reason))
 
@@ -134,7 +152,7 @@ def _failed(call: Call) -> Iterator[str]:
         return
     yield f"{'halted' if call.status == 'halted' else 'failed'}: {call.failure.message} ({call.failure.source})"
     yield from _indented(_causes(call.failure.causes))
-    yield from _indented(_chain(call.chain[1:]))
+    yield from _indented(_chain(call.chain[1:], call.failure.message))
     if call.facts:
         yield "facts at that moment:"
         yield from _indented(map(_fact, call.facts))
@@ -146,9 +164,10 @@ def _causes(causes: Sequence[Failure]) -> Iterator[str]:
         yield from _indented(_causes(cause.causes))
 
 
-def _chain(links: Sequence[Link]) -> Iterator[str]:
+def _chain(links: Sequence[Link], known: str = "") -> Iterator[str]:
+    """Lead to the innermost one, whose reason is said unless it is known."""
     for depth, link in enumerate(links):
-        innermost = f": {link.message}" if link is links[-1] else ""
+        innermost = f": {link.message}" if link is links[-1] and link.message != known else ""
         yield f"{'  ' * depth}in {link.kind} {link.name} ({link.source}){innermost}"
 
 

@@ -9,7 +9,7 @@ import msgspec
 
 from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.trace.failure import Failure, Rejected
-from skillc_runtime.trace.reasons import Attempted, Determined
+from skillc_runtime.trace.reasons import Attempted, Determined, Untried
 
 FORMAT = 2
 """Raised with every change of what the events mean; 2 says why parameters are what they are and what failures met."""
@@ -78,7 +78,8 @@ class NodeEnded(_Event, tag="node-ended", frozen=True, kw_only=True):
 class ImplementationChosen(_Event, tag="implementation-chosen", frozen=True, kw_only=True):
     """A call starts with this implementation; `bindings` are its parameters as text.
 
-    `determined` says of those that were not simply passed why they are what they are.
+    `determined` says of those that were not simply passed why they are what they are; `untried` are the implementations
+    that rank after this one. `fixed` tells that the call itself names the implementation.
     """
 
     node: int
@@ -87,6 +88,8 @@ class ImplementationChosen(_Event, tag="implementation-chosen", frozen=True, kw_
     bindings: dict[str, str]
     rejected: tuple[Rejected, ...] = ()
     determined: tuple[Determined, ...] = ()
+    untried: tuple[Untried, ...] = ()
+    fixed: bool = False
     source: Position
 
 

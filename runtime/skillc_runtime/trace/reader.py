@@ -42,7 +42,7 @@ class TraceReader:
 
     def _event(self, line: bytes, number: int) -> Event:
         try:
-            event = _DECODER.decode(line)
+            event: Event = _DECODER.decode(line)
         except (msgspec.DecodeError, UnicodeDecodeError) as error:
             raise TraceError(f"{self.path}:{number}: this is no event of skillc: {error}") from error
         if isinstance(event, TaskStarted) and event.format > FORMAT:

@@ -31,6 +31,14 @@ class Determined(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     others: tuple[str, ...] = ()
 
 
+class Untried(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """An implementation that ranks after the one chosen; `reason` says why it would not have fitted, if so."""
+
+    implementation: str
+    source: Position
+    reason: str = ""
+
+
 class Attempted(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """What a call that failed had: its arguments as text, the implementations that did not do, the facts.
 

@@ -14,7 +14,10 @@ EARLIER = 5
 
 @dataclass(slots=True, eq=False)
 class Record:
-    """A node at its last start, with those of its children that matter: calls, and what failed."""
+    """A node at its last start, with those of its children that matter: calls, and what failed.
+
+    `survived` tells that what was around it did not fail because of it.
+    """
 
     start: NodeStarted
     parent: Record | None
@@ -24,6 +27,7 @@ class Record:
     children: list[Record] = field(default_factory=list)
     starts: int = 1
     earlier: list[Earlier] = field(default_factory=list)
+    survived: bool = False
 
     @property
     def is_call(self) -> bool:
@@ -72,10 +76,14 @@ class Records:
         self._siblings(record).append(record)
 
     def choose(self, event: ImplementationChosen) -> None:
-        """A call starts with an implementation; what an earlier one did is among the rejected."""
+        """A call starts with an implementation; of an earlier one that failed only the reason is kept, by the event."""
         record = self._known.get(event.node)
-        if record is not None:
-            record.choice = event
+        if record is None:
+            return
+        record.choice = event
+        for child in record.children:
+            self._forget(child, frozenset())
+        record.children.clear()
 
     def end(self, event: NodeEnded, facts: tuple[Fact, ...]) -> None:
         """A node ends; of one that is no call and did not fail only the calls below are kept."""
@@ -97,7 +105,7 @@ class Records:
         siblings[place : place + 1] = kept
         self._forget(record, frozenset(each.start.node for each in kept))
         for child in kept:
-            child.parent = record.parent
+            child.parent, child.survived = record.parent, True
 
     def _forget(self, record: Record, kept: frozenset[int]) -> None:
         self._known.pop(record.start.node, None)

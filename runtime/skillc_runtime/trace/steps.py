@@ -30,12 +30,13 @@ def steps(body: Body, before: int) -> tuple[Call, ...]:
             skipped.remove(step.source)
         found.append(call or _planned(step, "skipped" if passed_over else "not started"))
     numbered = enumerate([*found, *calls], start=before + 1)
-    return _side_by_side(tuple(_step(each, str(number)) for number, each in numbered))
+    as_calls = tuple(_step(each, str(number)) for number, each in numbered)
+    return _side_by_side(tuple(structs.replace(each, planned=body.plan is not None) for each in as_calls))
 
 
 def chain(nodes: Sequence[Record]) -> tuple[Link, ...]:
     """Return who failed together, outermost first: the calls and the innermost node, of several the last to fail."""
-    failed = [node for node in nodes if node.status == "failure"]
+    failed = [node for node in nodes if node.status == "failure" and not node.survived]
     if not failed:
         return ()
     last = max(failed, key=lambda node: node.end.time if node.end is not None else 0.0)
@@ -101,6 +102,8 @@ def _call(call: Record, number: str) -> Call:
         ended=end.time if end is not None else None,
         bindings=_bindings(call),
         determined=choice.determined if choice is not None else (),
+        fixed=choice.fixed if choice is not None else False,
+        untried=choice.untried if choice is not None else (),
         rejected=rejected,
         failure=end.failure if end is not None else None,
         chain=chain([call]),

@@ -8,7 +8,7 @@ import msgspec
 
 from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.trace.failure import Failure, Rejected
-from skillc_runtime.trace.reasons import Determined
+from skillc_runtime.trace.reasons import Determined, Untried
 
 
 class _Part(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -46,7 +46,8 @@ class Call(_Part, frozen=True, kw_only=True):
     `number` is that of the step, followed for a call inside it by its place there, as `2.1`. `status` is one of
     success, failure, halted, running, skipped (what it is for held already), not started. `source` is the place of the
     call, of a planned step that of the skill; `implementation_source` that of the implementation chosen last. `beside`
-    are the steps that ran at the same time, `starts` counts the starts, `chain` leads from this call to what failed.
+    are the steps that ran at the same time. `planned` tells that a planner bound its arguments, `fixed` that the call
+    names its implementation. `starts` counts the starts, `chain` leads from this call to what failed.
     """
 
     number: str
@@ -59,6 +60,9 @@ class Call(_Part, frozen=True, kw_only=True):
     ended: float | None = None
     bindings: dict[str, str] = {}
     determined: tuple[Determined, ...] = ()
+    planned: bool = False
+    fixed: bool = False
+    untried: tuple[Untried, ...] = ()
     rejected: tuple[Rejected, ...] = ()
     failure: Failure | None = None
     chain: tuple[Link, ...] = ()

@@ -225,5 +225,5 @@ class CallNode(Node):
 
     def _tell_choice(self, activation: Activation) -> None:
         if self.context.emit is not None:
-            event = chosen(self.id, self.skill, activation, self._arguments, self.rejected, self.context)
+            event = chosen(self.id, self.node, activation, self._arguments, self.rejected, self.context)
             self.context.emit(event)

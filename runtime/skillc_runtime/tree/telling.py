@@ -5,13 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from skillc_compiler.library.skills import Implementation, Skill
+from skillc_compiler.library.tree import Call
 from skillc_runtime.selection.describe import bindings_text
 from skillc_runtime.selection.determined import determined
+from skillc_runtime.selection.fit import fit
+from skillc_runtime.selection.select import candidates
 from skillc_runtime.trace.events import ImplementationChosen
 from skillc_runtime.trace.failure import Rejected
-from skillc_runtime.trace.reasons import Attempted
+from skillc_runtime.trace.reasons import Attempted, Untried
 from skillc_runtime.tree.activation import Activation
 from skillc_runtime.tree.context import Context
+from skillc_runtime.world.expressions import EvaluationError
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.support import facts_of
 from skillc_runtime.world.values import Value
@@ -19,7 +23,7 @@ from skillc_runtime.world.values import Value
 
 def chosen(
     node: int,
-    skill: Skill,
+    call: Call,
     activation: Activation,
     arguments: Mapping[str, Value],
     rejected: Sequence[Rejected],
@@ -27,16 +31,29 @@ def chosen(
 ) -> ImplementationChosen:
     """Return the event that a call starts with an implementation."""
     implementation = activation.implementation
+    ranked = candidates(context.library, call.skill, call.implementation)
+    after = ranked[ranked.index(implementation) + 1 :]
     return ImplementationChosen(
         time=context.time,
         node=node,
-        skill=skill.name,
+        skill=call.skill,
         implementation=implementation.name,
         bindings=bindings_text(activation.frame, implementation.parameters, context.library.vocabulary),
         rejected=tuple(rejected),
         determined=determined(activation.fitted, arguments.keys(), context.state),
+        untried=tuple(_untried(each, arguments, context.state) for each in after),
+        fixed=call.implementation is not None,
         source=implementation.source,
     )
+
+
+def _untried(implementation: Implementation, arguments: Mapping[str, Value], state: WorldState) -> Untried:
+    try:
+        fitted = fit(implementation, arguments, state)
+        reason = fitted.reason if isinstance(fitted, Rejected) else ""
+    except EvaluationError as error:
+        reason = str(error)
+    return Untried(implementation=implementation.name, source=implementation.source, reason=reason)
 
 
 def attempted(

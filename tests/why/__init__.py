@@ -1,0 +1,1 @@
+"""What `skillc why` says of recorded runs."""

@@ -1,0 +1,59 @@
+"""Stories of runs on the stage and in the depot, and their folders."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from skillc_compiler.library import tree
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.trace.events import FORMAT, Event, TaskEnded, TaskStarted
+from skillc_runtime.trace.history import story_of
+from skillc_runtime.trace.story import Call, Story
+from skillc_runtime.trace.writer import TraceWriter
+from skillc_runtime.tree.run import Run
+from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.state import WorldState
+from tree.stage import PERIOD_S, Stage
+
+BEGIN = TaskStarted(time=0.0, format=FORMAT, task="play", library="stage")
+
+
+def events_of(body: tree.Node, library: SkillLibrary, cell: Stage, ticks: int = 40) -> list[Event]:
+    """Run a body and return what a recording of it says."""
+    told: list[Event] = [BEGIN]
+    run = Run(body, library, cell, (told.append,))
+    for _ in range(ticks):
+        if run.tick() is not Status.RUNNING:
+            break
+        cell.now += PERIOD_S
+    run.halt("enough")
+    told.append(TaskEnded(time=cell.now, task="play", status=run.status.value, failure=run.failure))
+    return told
+
+
+def in_world(body: tree.Node, library: SkillLibrary, state: WorldState) -> Story:
+    """Return the story of a body in a world."""
+    return known(story_of(events_of(body, library, Stage(WorldModel(state)))))
+
+
+def known(story: Story | None) -> Story:
+    """Return a story that there is."""
+    assert story is not None
+    return story
+
+
+def written(folder: Path, events: Sequence[Event]) -> Path:
+    """Write a recording."""
+    folder.mkdir(exist_ok=True)
+    with TraceWriter(folder / "events.jsonl") as writer:
+        for event in events:
+            writer(event)
+    assert writer.problem is None
+    return folder
+
+
+def steps_of(story: Story) -> list[Call]:
+    """Return the steps of all attempts."""
+    return [step for attempt in story.attempts for step in attempt.steps]

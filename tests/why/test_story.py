@@ -1,0 +1,190 @@
+"""The story of a run says of each call what the tree says in the end, however it went, in bounded memory."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+
+import msgspec
+from hypothesis import HealthCheck, event, given, settings
+
+from skillc_compiler.library import tree
+from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.trace.events import (
+    Event,
+    ImplementationChosen,
+    NodeEnded,
+    NodeStarted,
+    PlanMade,
+    PlanStep,
+    Replanned,
+    TaskEnded,
+)
+from skillc_runtime.trace.failure import Failure
+from skillc_runtime.trace.history import story_of
+from skillc_runtime.trace.outcome import Outcome
+from skillc_runtime.trace.record import Body, Records
+from skillc_runtime.trace.story import Call, Story
+from skillc_runtime.tree.run import Run
+from skillc_runtime.world.changes import SetProperty
+from tree.stage import FLAGS, ON, PERIOD_S, Library, Script, Stage, act, check, here, par, seq, world
+from tree.strategies import Play, plays
+from why.stories import BEGIN, events_of, known, steps_of
+
+EXAMPLES = int(os.environ.get("SKILLC_STORIES", "150"))
+"""How many random runs are told; thousands on occasion."""
+
+
+@given(plays())
+@settings(
+    max_examples=EXAMPLES, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large]
+)
+def test_the_story_says_of_each_call_what_the_tree_says(play: Play) -> None:
+    told: list[Event] = [BEGIN]
+    stage = Stage(world(), play.scripts)
+    engine = Run(play.body, play.library, stage, (told.append,))
+    for number in range(12):
+        stage.now = number * PERIOD_S
+        stage.world.commit([SetProperty(flag, ON, on) for tick, flag, on in play.switches if tick == number])
+        if number == play.halt_at:
+            engine.halt("the test says so")
+        if engine.tick() is not Status.RUNNING:
+            break
+        assert shape(known(story_of(told))) == shape_of(engine.outcome)
+    story = known(story_of(told))
+    assert shape(story) == shape_of(engine.outcome)
+    told_of = [link.message for link in story.chain]
+    assert bool(told_of) == (engine.status is Status.FAILURE)
+    event(f"{len(told) // 50 * 50} events, {engine.status.value}")
+
+
+Shape = list[tuple[str, str, float | None, float | None, "Shape"]]
+
+
+def shape(story: Story) -> Shape:
+    def of(calls: tuple[Call, ...]) -> Shape:
+        return sorted((each.skill, each.status, each.started, each.ended, of(each.calls)) for each in calls)
+
+    return of(tuple(steps_of(story)))
+
+
+def shape_of(outcome: Outcome) -> Shape:
+    return sorted(
+        (each.name.partition("[")[0], each.status, each.started, each.ended, shape_of_all(each.children))
+        for each in calls_in(outcome)
+    )
+
+
+def shape_of_all(outcomes: tuple[Outcome, ...]) -> Shape:
+    return sorted(row for each in outcomes for row in shape_of(each))
+
+
+def calls_in(outcome: Outcome) -> Iterator[Outcome]:
+    if outcome.kind == "call":
+        if outcome.status != "idle":
+            yield outcome
+        return
+    for child in outcome.children:
+        yield from calls_in(child)
+
+
+def test_a_long_run_of_a_small_tree_needs_little_memory() -> None:
+    rounds = tree.Repeat(count=400, child=seq(act("a"), check(FLAGS[0]), act("b")), source=here())
+    told = events_of(rounds, Library().build(), Stage(world()), ticks=2000)
+    records, starts, most = Records(Body()), 0, 0
+    for each in told:
+        if isinstance(each, NodeStarted):
+            records.start(each)
+            starts += 1
+        elif isinstance(each, NodeEnded):
+            records.end(each, ())
+        most = max(most, len(records._known))
+    assert starts > 2000
+    assert most == 5, "the loop, the sequence, two calls and what runs in one of them"
+
+
+def test_how_earlier_starts_ended_is_kept() -> None:
+    cell = Stage(world(), {"a": [Script("fail"), Script("fail"), Script()]})
+    retry = tree.Retry(count=5, child=seq(act("a"), act("b")), source=here())
+    first, second = steps_of(known(story_of(events_of(retry, Library().build(), cell))))
+    assert (first.skill, first.status, first.starts) == ("Act", "success", 3)
+    assert [(each.status, each.message) for each in first.earlier] == [("failure", "a failed")] * 2
+    assert (second.starts, second.earlier) == (1, ())
+
+
+def test_steps_side_by_side_know_of_each_other() -> None:
+    cell = Stage(world(), {"a": [Script(ticks=3)], "b": [Script(ticks=5)]})
+    story = known(story_of(events_of(seq(par("all", act("a"), act("b")), act("c")), Library().build(), cell)))
+    assert [(step.number, step.beside) for step in steps_of(story)] == [("1", ("2",)), ("2", ("1",)), ("3", ())]
+
+
+LINE = Position("depot.skill", 5, 1)
+GO = PlanStep(skill="Go", arguments={"to": "http://example.org/lab#b"}, source=LINE)
+STAY = PlanStep(skill="Go", arguments={"to": "http://example.org/lab#a"}, source=LINE)
+
+
+def planned(*events: Event) -> Story:
+    """Return the story of a plan to go to b and to a."""
+    plan = PlanMade(time=0.0, planner="test", optimal="", cost=1.0, steps=(GO, STAY))
+    return known(story_of([BEGIN, plan, *events]))
+
+
+def node(number: int, parent: int, kind: str) -> NodeStarted:
+    return NodeStarted(time=0.0, node=number, parent=parent, kind=kind, name="Go", source=LINE)
+
+
+def ended(number: int, status: str = "success") -> NodeEnded:
+    return NodeEnded(time=1.0, node=number, name="Go", status=status, source=LINE)
+
+
+def chose(number: int, to: str) -> ImplementationChosen:
+    return ImplementationChosen(
+        time=0.0, node=number, skill="Go", implementation="wheels", bindings={"to": to}, source=LINE
+    )
+
+
+def test_planned_steps_find_their_calls_by_their_arguments() -> None:
+    story = planned(node(1, 0, "call"), chose(1, "lab:a"), ended(1), node(2, 0, "call"), chose(2, "lab:b"), ended(2))
+    assert [step.bindings for step in steps_of(story)] == [{"to": "lab:b"}, {"to": "lab:a"}]
+
+
+def test_a_step_whose_purpose_holds_is_skipped_and_one_that_was_not_reached_never_started() -> None:
+    story = planned(node(1, 0, "if"), ended(1))
+    assert [(step.status, step.bindings) for step in steps_of(story)] == [
+        ("skipped", {"to": "b"}),
+        ("not started", {"to": "a"}),
+    ]
+
+
+def test_plans_that_number_their_nodes_anew_are_told_apart() -> None:
+    plan = PlanMade(time=2.0, planner="test", optimal="", cost=1.0, steps=(GO,))
+    first = (node(1, 0, "call"), chose(1, "lab:b"), ended(1, "failure"))
+    again = (node(1, 0, "call"), chose(1, "lab:b"), ended(1))
+    story = planned(*first, Replanned(time=2.0, reason="stuck"), plan, *again)
+    assert [(step.number, step.status) for step in steps_of(story)] == [
+        ("1", "failure"),
+        ("2", "not started"),
+        ("3", "success"),
+    ]
+    assert [attempt.replaces for attempt in story.attempts] == ["", "stuck"]
+
+
+def test_a_recording_that_stops_has_no_status_and_says_what_ran() -> None:
+    story = planned(node(1, 0, "call"), chose(1, "lab:b"))
+    assert story.status == "" and steps_of(story)[0].status == "running"
+
+
+def test_the_end_of_a_task_is_that_of_its_story() -> None:
+    failure = Failure(kind="plan", message="no way")
+    story = planned(TaskEnded(time=3.0, task="play", status="failure", failure=failure))
+    assert (story.status, story.failure, story.last) == ("failure", failure, 3.0)
+
+
+def test_without_a_task_there_is_no_story() -> None:
+    assert story_of([]) is None
+
+
+def test_a_story_survives_json() -> None:
+    story = planned(node(1, 0, "call"), chose(1, "lab:b"), ended(1))
+    assert msgspec.json.decode(msgspec.json.encode(story), type=Story) == story
