@@ -101,9 +101,11 @@ def test_damaged_facts_are_told_and_can_be_filled_anew(tmp_path: Path) -> None:
     place = written(tmp_path / "store")
     for file in (place / FACTS).glob("MANIFEST*"):
         file.write_bytes(b"nonsense" * 100)
+    store = DiskStore(place)
     with pytest.raises(StoreError, match=r"facts are damaged.*fill the store anew with --reset") as caught:
-        model_of(DiskStore(place))
+        model_of(store)
     assert "\n" not in str(caught.value)
+    store.close()
     assert model_of(DiskStore(place, reset=True)).snapshot().value(iri("box"), iri("weight")) == 3.0
 
 

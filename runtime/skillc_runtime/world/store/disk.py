@@ -39,12 +39,11 @@ class DiskStore:
             self._users, self._journal = Users(folder / LOCK), Journal(folder / JOURNAL)
         except OSError as error:
             raise StoreError(f"the store {folder} cannot be opened: {error.strerror}") from error
-        alone = self._users.alone()
-        if reset:
-            self._reset(alone)
-        elif alone:
-            self._tidy_up()
-        self._users.join()
+        try:
+            self._enter(reset)
+        except StoreError:
+            self._leave()
+            raise
 
     def __str__(self) -> str:
         return str(self._folder)
@@ -53,8 +52,7 @@ class DiskStore:
         """Leave the store, tidied up if nobody else uses it."""
         if self._users.alone():
             self._tidy_up()
-        self._journal.close()
-        self._users.leave()
+        self._leave()
 
     def read(self) -> Kept:
         """Return the facts as they are now."""
@@ -83,6 +81,18 @@ class DiskStore:
         """Return the transactions after the one of that number, in order."""
         entries = self._journal.since(sequence)
         return tuple(Transaction(each.sequence, each.origin, changes_of(each.changes)) for each in entries)
+
+    def _enter(self, reset: bool) -> None:
+        alone = self._users.alone()
+        if reset:
+            self._reset(alone)
+        elif alone:
+            self._tidy_up()
+        self._users.join()
+
+    def _leave(self) -> None:
+        self._journal.close()
+        self._users.leave()
 
     def _fill(self, origin: str, triples: Iterable[ox.Triple]) -> bool:
         with self._journal.locked():

@@ -19,7 +19,7 @@ def find_endpoint(address: str, timeout_s: float = TIMEOUT_S) -> HttpEndpoint:
         raise StoreError(f"{address} is no address of a SPARQL server; it begins with http:// or https:// and a host")
     refusals: list[StoreError] = []
     for query, update in FORMS:
-        endpoint = HttpEndpoint(address.rstrip("/") + query, address.rstrip("/") + update, timeout_s)
+        endpoint = HttpEndpoint(address, query, update, timeout_s)
         try:
             endpoint.query(NOTHING_ASKED, ROWS)
             endpoint.update(NOTHING_DONE)

@@ -60,12 +60,15 @@ class HttpEndpoint:
     `user:password@` before the host is sent as basic authentication.
     """
 
-    def __init__(self, query_url: str, update_url: str, timeout_s: float = TIMEOUT_S) -> None:
-        self._query, self._update, self._timeout_s = urlsplit(query_url), urlsplit(update_url), timeout_s
+    def __init__(self, address: str, query: str, update: str, timeout_s: float = TIMEOUT_S) -> None:
+        """Use the server at an address; `query` and `update` are what follows it for each, TIMEOUT_S for one answer."""
+        base = address.rstrip("/")
+        self._address, self._timeout_s = urlsplit(address), timeout_s
+        self._query, self._update = urlsplit(base + query), urlsplit(base + update)
         self._connection: http.client.HTTPConnection | None = None
 
     def __str__(self) -> str:
-        return _shown(self._query)
+        return _shown(self._address)
 
     def query(self, text: str, accept: str) -> bytes:
         """Return an answer in the media type `accept`; Unreachable, Refused."""

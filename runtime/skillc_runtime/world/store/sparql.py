@@ -47,7 +47,7 @@ class SparqlStore:
 
     def __init__(self, endpoint: Endpoint, reset: bool = False, patience_s: float = PATIENCE_S) -> None:
         """Use a server and, with `reset`, forget what it holds of a world; StoreError when it cannot be used."""
-        self._endpoint, self._patience_s, self._empty = endpoint, patience_s, False
+        self._endpoint, self._patience_s, self._empty, self._behind = endpoint, patience_s, False, False
         self._patiently(lambda: endpoint.update(texts.FOUND))
         if reset:
             self._patiently(lambda: endpoint.update(texts.FORGET))
@@ -72,10 +72,19 @@ class SparqlStore:
         about |= {} if self._empty else {texts.CHANGES: as_text(event.changes)}
         update = texts.write(change, after, about, event.origin if self._empty else None)
         self._empty = False
-        return self._patiently(lambda: self._sent(update, after, mark))
+        made = self._patiently(lambda: self._sent(update, after, mark))
+        self._behind = not made
+        return made
 
     def since(self, sequence: int) -> tuple[Transaction, ...]:
-        """Return the transactions after the one of that number, in order; asks once."""
+        """Return the transactions after the one of that number, in order.
+
+        Asks once, so that nobody who only looks is held up, but patiently for a write that has to follow others.
+        """
+        behind, self._behind = self._behind, False
+        return self._patiently(lambda: self._logged(sequence)) if behind else self._logged(sequence)
+
+    def _logged(self, sequence: int) -> tuple[Transaction, ...]:
         rows = sorted(self._rows(texts.logged(sequence)), key=lambda row: int(row["n"]))
         if any(int(row["n"]) != n or "changes" not in row for n, row in enumerate(rows, sequence + 1)):
             raise StoreError(f"{self} was filled anew by somebody else; start again to go on with what it holds now")

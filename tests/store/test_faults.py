@@ -1,0 +1,143 @@
+"""A network that loses, delays and garbles: clear words, nothing lost, nothing twice, and on as soon as it works."""
+
+import threading
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from random import Random
+
+import pytest
+
+from skillc_runtime.world.event import ChangeEvent
+from skillc_runtime.world.store.finding import find_endpoint
+from skillc_runtime.world.store.http import HttpEndpoint, Refused, Unreachable
+from skillc_runtime.world.store.opening import open_store
+from skillc_runtime.world.store.sparql import SparqlStore
+from skillc_runtime.world.store.store import StoreError
+from store.proxy import FAULTS, Fault, Proxy, proxy_to
+from store.servers import oxigraph
+from store.worlds import commits, facts_of, model_of
+from world.lab import assign, iri
+
+TIMEOUT_S = 0.3
+WORDS: dict[Fault, str] = {
+    "lost request": "the connection broke",
+    "lost answer": "the connection broke",
+    "reset": "the connection broke",
+    "half an answer": "the connection broke|that is no HTTP",
+    "error 500": "answers 500 Internal Server Error: the disk is full",
+    "error 503": "answers 503 Service Unavailable: the disk is full",
+    "garbage": "answers a query with something that is no answer",
+    "page": "answers with text/html where application/sparql-results",
+    "slow": "no answer within 0.3 s",
+}
+
+
+@pytest.fixture
+def server() -> Iterator[str]:
+    with oxigraph() as address:
+        yield address
+
+
+@pytest.fixture
+def proxy(server: str) -> Iterator[Proxy]:
+    with proxy_to(server) as between:
+        yield between
+
+
+def store_at(address: str, patience_s: float = 5.0) -> SparqlStore:
+    return SparqlStore(HttpEndpoint(address, "/query", "/update", TIMEOUT_S), patience_s=patience_s)
+
+
+@pytest.mark.parametrize("times", [1, 2])
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_passing_fault_is_not_noticed(server: str, proxy: Proxy, fault: Fault, times: int) -> None:
+    model, other = model_of(store_at(proxy.address)), model_of(store_at(server))
+    proxy.fail(fault, times)
+    model.commit([assign("box", "weight", 8.0)], "weighing")
+    heard: list[ChangeEvent] = []
+    other.listen(heard.append)
+    other.follow()
+    assert [event.origin for event in heard] == ["weighing"]
+    assert proxy.next_fault() is None, "all faults happened"
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_lasting_fault_is_told_and_over_when_it_is_over(server: str, proxy: Proxy, fault: Fault) -> None:
+    model, other = model_of(store_at(proxy.address, patience_s=0.2)), model_of(store_at(server))
+    before, heard = model.snapshot(), list[str]()
+    other.listen(lambda event: heard.append(event.origin))
+    proxy.fail(fault, 1000)
+    with pytest.raises(Unreachable, match=WORDS[fault]):
+        model.commit([assign("box", "weight", 8.0)], "first")
+    assert model.snapshot() is before
+    proxy.fail(fault, 0)
+    model.commit([assign("arm", "state", "Fault")], "second")
+    other.follow()
+    assert heard in (["first", "second"], ["second"]) and ("first" in heard or fault not in ("lost answer", "slow"))
+    assert facts_of(model.snapshot()) == facts_of(other.snapshot())
+    assert (model.snapshot().value(iri("box"), iri("weight")) == 8.0) == ("first" in heard)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_among_random_faults_nothing_is_lost_or_done_twice(server: str, proxy: Proxy, seed: int) -> None:
+    chance, lock = Random(seed), threading.Lock()
+    models = [model_of(store_at(proxy.address, patience_s=60.0)) for _ in range(2)]
+    told: list[list[str]] = [[], []]
+
+    def fault() -> Fault | None:
+        with lock:
+            return chance.choice([each for each in FAULTS if each != "slow"]) if chance.random() < 0.25 else None
+
+    def write(number: int) -> None:
+        for event in commits(models[number], Random(10 * seed + number), 8):
+            told[number].append(f"{event.origin} {hash(event.changes)}")
+
+    proxy.next_fault = fault
+    with ThreadPoolExecutor() as threads:
+        list(threads.map(write, range(2)))
+    proxy.next_fault = lambda: None
+    for model in models:
+        model.follow()
+    written = [f"{each.origin} {hash(each.changes)}" for each in store_at(server).since(1)]
+    assert len(written) == 16 and sorted(written) == sorted(told[0] + told[1])
+    assert [each for each in written if each in set(told[0])] == told[0]
+    assert facts_of(models[0].snapshot()) == facts_of(models[1].snapshot())
+    assert facts_of(model_of(store_at(server)).snapshot()) == facts_of(models[0].snapshot())
+
+
+def test_a_server_that_is_not_there_is_told() -> None:
+    with oxigraph() as address:
+        pass
+    with pytest.raises(StoreError, match=r"127\.0\.0\.1:\d+/? does not answer: nobody listens there"):
+        open_store(address)
+
+
+def test_a_host_that_does_not_exist_is_told() -> None:
+    with pytest.raises(StoreError, match=r"http://nowhere\.invalid does not answer: "):
+        open_store("http://nowhere.invalid")
+
+
+def test_a_server_of_something_else_is_told(server: str, proxy: Proxy) -> None:
+    with pytest.raises(StoreError, match=r"no SPARQL 1\.1 server takes queries and updates at .*/wrong: .*404"):
+        open_store(f"{server}/wrong")
+    proxy.fail("page", 100)
+    with pytest.raises(StoreError, match=r"no SPARQL 1\.1 server .* answers with text/html"):
+        open_store(proxy.address)
+
+
+def test_an_update_that_is_refused_is_not_tried_again(server: str, proxy: Proxy) -> None:
+    endpoint = find_endpoint(proxy.address)
+    before = proxy.requests
+    with pytest.raises(Refused, match="answers 400 Bad Request"):
+        endpoint.update("INSERT nonsense")
+    assert proxy.requests == before + 1
+
+
+def test_a_password_is_sent_and_never_shown(proxy: Proxy) -> None:
+    address = proxy.address.replace("http://", "http://ann:se%3Acret@")
+    endpoint = find_endpoint(address)
+    assert proxy.authorization == "Basic YW5uOnNlOmNyZXQ=" and str(endpoint) == proxy.address
+    proxy.fail("error 500", 1)
+    with pytest.raises(Unreachable) as caught:
+        endpoint.query("ASK {}", "text/csv")
+    assert "cret" not in str(caught.value)

@@ -1,0 +1,94 @@
+"""Stores on SPARQL servers that are really there: kept, shared, filled anew."""
+
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from random import Random
+
+import pytest
+
+from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.store.http import HttpEndpoint
+from skillc_runtime.world.store.opening import open_store
+from skillc_runtime.world.store.store import StoreError
+from store.servers import SERVERS
+from store.worlds import commits, facts_of, model_of
+from world.lab import SCENE, assign, iri
+
+THREADS, WRITES = 3, 8
+
+
+@pytest.fixture(params=sorted(SERVERS), scope="module")
+def server(request: pytest.FixtureRequest) -> Iterator[str]:
+    with SERVERS[request.param]() as address:
+        yield address
+
+
+@pytest.fixture
+def empty(server: str) -> str:
+    open_store(server, reset=True).close()
+    return server
+
+
+def test_what_is_written_is_there_for_the_next_process(empty: str) -> None:
+    first = open_store(empty)
+    model = model_of(first)
+    assert facts_of(model.snapshot()) == facts_of(SCENE)
+    *_, last = commits(model, Random(4), 15)
+    first.close()
+    second = open_store(empty)
+    again, kept = model_of(second), second.read()
+    assert facts_of(again.snapshot()) == facts_of(last.after)
+    assert kept.beginning == "scene lab.ttl 0123456789ab"
+    second.close()
+
+
+def test_those_who_write_at_once_agree_on_one_order(empty: str) -> None:
+    models = [model_of(open_store(empty)) for _ in range(THREADS)]
+    heard: list[list[str]] = [[] for _ in models]
+    for model, origins in zip(models, heard, strict=True):
+        model.listen(lambda event, origins=origins: origins.append(event.origin))  # type: ignore[misc]
+    with ThreadPoolExecutor() as threads:
+        list(threads.map(_write, models, range(THREADS)))
+    for model in models:
+        model.follow()
+    assert heard[0] == heard[1] == heard[2] and len(heard[0]) == THREADS * WRITES
+    assert len({facts_of(model.snapshot()) for model in models}) == 1
+    assert facts_of(model_of(open_store(empty)).snapshot()) == facts_of(models[0].snapshot())
+
+
+def _write(model: WorldModel, number: int) -> None:
+    for count in range(WRITES):
+        model.commit([assign("box", "weight", float(10 * number + count))], f"{number}: {count}")
+
+
+def test_whoever_knows_a_world_that_was_replaced_is_told(empty: str) -> None:
+    old = model_of(open_store(empty))
+    old.commit([assign("box", "weight", 8.0)])
+    new = model_of(open_store(empty, reset=True))
+    assert new.snapshot().value(iri("box"), iri("weight")) == 3.0
+    before = old.snapshot()
+    with pytest.raises(StoreError, match=r"was filled anew by somebody else; start again"):
+        old.follow()
+    with pytest.raises(StoreError, match=r"was filled anew by somebody else; start again"):
+        old.commit([assign("box", "weight", 9.0)])
+    assert old.snapshot() is before
+    new.commit([assign("box", "weight", 4.0)])
+
+
+def test_facts_of_others_on_the_server_stay(empty: str) -> None:
+    store = open_store(empty)
+    endpoint = store._endpoint  # type: ignore[attr-defined]
+    assert isinstance(endpoint, HttpEndpoint)
+    endpoint.update('INSERT DATA { GRAPH <http://others/graph> { <http://others/a> <http://others/b> "c" } }')
+    *_, last = commits(model_of(store), Random(5), 3)
+    open_store(empty, reset=True)
+    rows = endpoint.query("SELECT ?s { GRAPH <http://others/graph> { ?s ?p ?o } }", "application/sparql-results+json")
+    assert b"http://others/a" in rows and last.after is not SCENE
+
+
+def test_a_store_that_somebody_removed_is_told(empty: str) -> None:
+    store = open_store(empty)
+    model = model_of(store)
+    store._endpoint.update("DELETE { GRAPH ?g { ?s ?p ?o } } WHERE { GRAPH ?g { ?s ?p ?o } }")  # type: ignore[attr-defined]
+    with pytest.raises(StoreError, match="holds no world any more"):
+        model.commit([assign("box", "weight", 8.0)])
