@@ -64,7 +64,7 @@ def without_followers(
     broken = tuple(_broken(syntax, files))
     near_broken = (*broken, *_speaking_of(syntax, files))
     orphans = [d for d in syntax if not any(_inside(d.span, known.span) for known in _declarations(files))]
-    orphaned = {problem.span.path for problem in orphans}
+    orphaned = {problem.span.path for problem in orphans if problem.name == "syntax"}
     for problem in found:
         places = (problem.span, *(label.span for label in problem.labels))
         explained = (
