@@ -13,6 +13,7 @@ from skillc_compiler.turtle.parser import parse as parse_turtle
 from skillc_compiler.turtle.problems import Place, Problem
 from skillc_compiler.turtle.statements import Parsed, Statement
 from skillc_compiler.turtle.terms import RDF, XSD
+from skillc_runtime.world.room import QUICKLY, NoRoom, make_sure
 
 BASE = "file:///scene"
 WELL_KNOWN = (
@@ -42,13 +43,15 @@ class Document:
 
     @staticmethod
     def read(path: Path) -> Document:
-        """Read a file; SceneError when it cannot be read or is not UTF-8."""
+        """Read a file; SceneError when it cannot be read, is not UTF-8, or is too large for the memory there is."""
         try:
+            make_sure(QUICKLY * path.stat().st_size)
             data = path.read_bytes()
             text = data.decode("utf-8-sig")
         except OSError as error:
-            problem = _unreadable(path, Place(str(path), 1, 1, 1, 2), error.strerror or str(error))
-            raise SceneError([problem]) from error
+            raise SceneError([unreadable(str(path), error.strerror or str(error))]) from error
+        except NoRoom as error:
+            raise SceneError([unreadable(str(path), str(error))]) from error
         except UnicodeDecodeError as error:
             raise SceneError([_not_utf8(path, data, error.start)]) from error
         if "\0" in text[:2]:
@@ -77,6 +80,12 @@ def resolved(statement: Statement, aliases: Mapping[str, str]) -> Statement:
     return changed
 
 
+def unreadable(path: str, reason: str, line: int = 1, column: int = 1) -> Problem:
+    """Return the problem of a file that there is no reading."""
+    place = Place(path, line, column, line, column + 1)
+    return Problem(place, "unreadable-scene", f"cannot read {path}: {reason}", "save it as UTF-8" * ("UTF" in reason))
+
+
 @lru_cache(maxsize=REMEMBERED)
 def _parsed(document: Document, prefixes: tuple[tuple[str, str], ...]) -> Parsed:
     return parse_turtle(document.path, document.text, BASE, dict(prefixes))
@@ -85,12 +94,8 @@ def _parsed(document: Document, prefixes: tuple[tuple[str, str], ...]) -> Parsed
 def _not_utf8(path: Path, data: bytes, start: int) -> Problem:
     """Return the problem of a file at its first byte that is not UTF-8."""
     if data[:2] in (b"\xff\xfe", b"\xfe\xff") or b"\0" in data[:2]:
-        return _unreadable(path, Place(str(path), 1, 1, 1, 2), "it is UTF-16 or UTF-32, not UTF-8")
+        return unreadable(str(path), "it is UTF-16 or UTF-32, not UTF-8")
     start += 3 * data.startswith(b"\xef\xbb\xbf")
     before = data[:start].decode("utf-8-sig", "replace")
     line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
-    return _unreadable(path, Place(str(path), line, column, line, column + 1), "it is not UTF-8 text")
-
-
-def _unreadable(path: Path, place: Place, reason: str) -> Problem:
-    return Problem(place, "unreadable-scene", f"cannot read {path}: {reason}", "save it as UTF-8" * ("UTF" in reason))
+    return unreadable(str(path), "it is not UTF-8 text", line, column)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence, Set
 
 import msgspec
 import pyoxigraph as ox
@@ -25,28 +25,35 @@ ANNOTATIONS = (
 )
 """What is said in these vocabularies is for people and other tools."""
 CLASS_DECLARATIONS = (f"{OWL}Class", f"{OWL}class")  # SkiROS2's scenes write the second
+SUBCLASS = f"{RDFS}subClassOf"
 NAMED_INDIVIDUAL, ANNOTATION = f"{OWL}NamedIndividual", f"{OWL}AnnotationProperty"
 
 
 def with_own_classes(vocabulary: Vocabulary, said: Sequence[Statement]) -> Vocabulary:
     """Return the vocabulary with the classes that the documents declare beside it."""
     declared = {s for kind in CLASS_DECLARATIONS for s in _typed(said, kind)}
+    parents = ((iri_of(each.subject), iri_of(each.object)) for each in said if each.predicate == SUBCLASS)
+    return with_classes(vocabulary, declared, parents)
+
+
+def with_classes(vocabulary: Vocabulary, declared: Set[str], subclass: Iterable[tuple[str, str]]) -> Vocabulary:
+    """Return the vocabulary with classes that it lacks; pairs say which class is below which."""
     missing = sorted(declared - vocabulary.classes.keys() - vocabulary.aliases.keys())
     if not missing:
         return vocabulary
     parents: dict[str, list[str]] = defaultdict(list)
-    for each in said:
-        if each.predicate == f"{RDFS}subClassOf" and isinstance(each.object, ox.NamedNode):
-            parents[iri_of(each.subject)].append(each.object.value)
+    for cls, parent in subclass:
+        if parent:
+            parents[cls].append(parent)
     own = {iri: ClassTerm(iri=iri, parents=tuple(parents[iri])) for iri in missing}
     return msgspec.structs.replace(vocabulary, classes={**vocabulary.classes, **own})
 
 
 def facts(said: Sequence[Statement], vocabulary: Vocabulary) -> tuple[Statement, ...]:
     """Return what is said of individuals: not of terms, not of templates, no annotations."""
-    terms = {*vocabulary.classes, *vocabulary.relations, *vocabulary.properties, *vocabulary.aliases}
+    terms = terms_of(vocabulary)
     for each in said:
-        if each.predicate == RDF_TYPE and _is_term_kind(iri_of(each.object)):
+        if each.predicate == RDF_TYPE and is_term_kind(iri_of(each.object)):
             terms.add(iri_of(each.subject))
     notes = set(_typed(said, ANNOTATION)) - vocabulary.properties.keys() | {TEMPLATE, HAS_TEMPLATE}
     return tuple(
@@ -55,9 +62,24 @@ def facts(said: Sequence[Statement], vocabulary: Vocabulary) -> tuple[Statement,
         if isinstance(each.subject, ox.NamedNode)
         and each.subject.value not in terms
         and each.predicate not in notes
-        and (each.predicate == RDF_TYPE or not each.predicate.startswith((*ABOUT_TERMS, *ANNOTATIONS)))
+        and not is_remark(each.predicate)
         and iri_of(each.object) != NAMED_INDIVIDUAL
     )
+
+
+def terms_of(vocabulary: Vocabulary) -> set[str]:
+    """Return all that a vocabulary has names for; statements about these are no facts."""
+    return {*vocabulary.classes, *vocabulary.relations, *vocabulary.properties, *vocabulary.aliases}
+
+
+def is_term_kind(cls: str) -> bool:
+    """Whether what is of this class is a term, or a template, and no individual."""
+    return cls == TEMPLATE or (cls.startswith((OWL, RDFS, RDF)) and cls not in (THING, NAMED_INDIVIDUAL))
+
+
+def is_remark(predicate: str) -> bool:
+    """Whether what is said with a predicate is for people and other tools."""
+    return predicate != RDF_TYPE and predicate.startswith((*ABOUT_TERMS, *ANNOTATIONS))
 
 
 def iri_of(node: Node) -> str:
@@ -67,7 +89,3 @@ def iri_of(node: Node) -> str:
 
 def _typed(said: Sequence[Statement], kind: str) -> list[str]:
     return [iri_of(each.subject) for each in said if each.predicate == RDF_TYPE and iri_of(each.object) == kind]
-
-
-def _is_term_kind(cls: str) -> bool:
-    return cls == TEMPLATE or (cls.startswith((OWL, RDFS, RDF)) and cls not in (THING, NAMED_INDIVIDUAL))

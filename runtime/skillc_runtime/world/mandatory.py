@@ -13,19 +13,24 @@ from skillc_runtime.world.state import WorldState
 def incomplete(state: WorldState) -> Iterator[Flaw]:
     """Yield the individuals that lack what their classes require, each once with all that it lacks."""
     short = state.vocabulary.short
-    for individual in sorted(state.individuals):
-        lost = {
-            predicate: cls
-            for cls in sorted(state.classes.get(individual))
-            for predicate in (state.vocabulary.classes[cls].required if cls in state.vocabulary.classes else ())
-            if not _has(state, individual, predicate)
-        }
+    for individual, required in _required(state):
+        lost = {predicate: cls for predicate, cls in required if not _has(state, individual, predicate)}
         if lost:
             of = ", ".join(sorted({short(cls) for cls in lost.values()}))
             names = ", ".join(map(short, sorted(lost)))
             message = f"{short(individual)} has no {names}, as every {of} must"
             cure = " ".join(f"`{short(name)} {_form(state, name)} ;`" for name in sorted(lost))
             yield Flaw(individual, None, "missing-property", message, f"write {cure}")
+
+
+def _required(state: WorldState) -> list[tuple[str, tuple[tuple[str, str], ...]]]:
+    """Return the individuals that must state something, by IRI, each with what and the class that requires it."""
+    known = state.vocabulary.classes
+    by_classes: dict[frozenset[str], tuple[tuple[str, str], ...]] = {}
+    for classes in {classes for _, classes in state.classes.items()}:
+        ours = (known[cls] for cls in sorted(classes) if cls in known)
+        by_classes[classes] = tuple((predicate, term.iri) for term in ours for predicate in term.required)
+    return sorted((one, by_classes[classes]) for one, classes in state.classes.items() if by_classes[classes])
 
 
 def _has(state: WorldState, individual: str, predicate: str) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches
 
 from skillc_runtime.world.flaw import Flaw, stored
@@ -27,12 +27,16 @@ PLACED = (ARM_DEVICE, FURNITURE, MOBILE_ROBOT, SURFACE, TOOL)
 
 def misplaced(state: WorldState) -> Iterator[Flaw]:
     """Yield what keeps things from being somewhere; rules about terms that the vocabulary lacks find nothing."""
-    for rule in (_unknown_frames, _circles, _partial_poses, _nowhere):
-        yield from rule(state)
+    owners = _owners(state)
+    parents = _parents(state, owners)
+    yield from _unknown_frames(state, owners)
+    yield from _circles(state, parents)
+    yield from _partial_poses(state)
+    yield from _nowhere(state, parents)
 
 
-def _unknown_frames(state: WorldState) -> Iterator[Flaw]:
-    owners, short = _owners(state), state.vocabulary.short
+def _unknown_frames(state: WorldState, owners: Mapping[str, Sequence[str]]) -> Iterator[Flaw]:
+    short = state.vocabulary.short
     for individual, base in stored(state, BASE_FRAME_ID):
         found = owners.get(str(base), [])
         if base == WORLD_FRAME or len(found) == 1:
@@ -44,8 +48,8 @@ def _unknown_frames(state: WorldState) -> Iterator[Flaw]:
         yield Flaw(individual, BASE_FRAME_ID, "unknown-frame", message, "give each its own" if found else cure)
 
 
-def _circles(state: WorldState) -> Iterator[Flaw]:
-    parents, reported = _parents(state), set[str]()
+def _circles(state: WorldState, parents: Mapping[str, str]) -> Iterator[Flaw]:
+    reported = set[str]()
     for individual, _ in stored(state, BASE_FRAME_ID):
         path, at = [individual], parents.get(individual)
         while at is not None and at not in path:
@@ -70,11 +74,11 @@ def _partial_poses(state: WorldState) -> Iterator[Flaw]:
             yield Flaw(individual, BASE_FRAME_ID, "partial-pose", message, cure)
 
 
-def _nowhere(state: WorldState) -> Iterator[Flaw]:
+def _nowhere(state: WorldState, parents: Mapping[str, str]) -> Iterator[Flaw]:
     """What takes up space has a frame that it is placed in, or is at a place that has one."""
     if BASE_FRAME_ID not in state.stored or AT not in state.facts:
         return
-    short, parents = state.vocabulary.short, _parents(state)
+    short = state.vocabulary.short
     based = {individual for individual, _ in stored(state, BASE_FRAME_ID)}
     needed = {thing for cls in PLACED for thing in state.instances(cls)}
     needed |= {parent for thing in needed if (parent := parents.get(thing)) is not None}
@@ -84,9 +88,8 @@ def _nowhere(state: WorldState) -> Iterator[Flaw]:
         yield Flaw(thing, None, "no-place", message, cure)
 
 
-def _parents(state: WorldState) -> dict[str, str]:
+def _parents(state: WorldState, owners: Mapping[str, Sequence[str]]) -> dict[str, str]:
     """Return in whose frame each thing is where the scene says so: by its base frame, else by the place it is at."""
-    owners = _owners(state)
     places = sorted(state.pairs(AT), reverse=True) if AT in state.facts else []
     based = {individual: owners.get(str(base), []) for individual, base in stored(state, BASE_FRAME_ID)}
     framed = {individual: found[0] for individual, found in based.items() if len(found) == 1}

@@ -15,11 +15,13 @@ from skillc_compiler.turtle.statements import Parsed, Statement
 from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_ontology.catalogue import vocabulary_files
 from skillc_runtime.world.breaches import breaches
-from skillc_runtime.world.documents import Document, SceneError, parse, resolved
+from skillc_runtime.world.documents import Document, SceneError, parse, resolved, unreadable
 from skillc_runtime.world.flaws import flaws
 from skillc_runtime.world.individuals import facts, iri_of, with_own_classes
 from skillc_runtime.world.names import suggest
+from skillc_runtime.world.quick import quick_world
 from skillc_runtime.world.reading import Reader
+from skillc_runtime.world.room import CAREFULLY, NoRoom, make_sure
 from skillc_runtime.world.standard import is_misspelt, standard_terms
 from skillc_runtime.world.state import WorldState
 
@@ -44,23 +46,18 @@ class Scene:
 
 def load_scene(path: Path, vocabulary: Vocabulary) -> WorldState:
     """Return the world of a scene file and of the packaged data sheets; SceneError with all that is wrong."""
-    return _sound(read_scene(path, vocabulary))
+    own = Document.read(path)
+    return _quickly(own, [own, *_sheets()], vocabulary) or _sound(_read(own, vocabulary))
 
 
-def world_of(documents: Iterable[Document], vocabulary: Vocabulary) -> WorldState:
+def world_of(documents: Sequence[Document], vocabulary: Vocabulary) -> WorldState:
     """Return the world of Turtle documents; SceneError with all that is wrong."""
     return _sound(scene_of(documents, vocabulary))
 
 
 def read_scene(path: Path, vocabulary: Vocabulary) -> Scene:
     """Read a scene file beside the packaged data sheets; SceneError when there is no text to read."""
-    own = Document.read(path)
-    scene = scene_of([own, *(Document(name, text) for name, text in vocabulary_files())], vocabulary)
-    if scene.problems or any(each.lines.path == own.path for each in scene.said):
-        return scene
-    place = Place(own.path, 1, 1, 1, 1)
-    nothing = Problem(place, "empty-scene", "there is nothing in this scene", "name a thing: `:x a CLASS .`")
-    return Scene(scene.state, (nothing,), scene.said, scene.doubtful)
+    return _read(Document.read(path), vocabulary)
 
 
 def scene_of(documents: Iterable[Document], vocabulary: Vocabulary) -> Scene:
@@ -77,6 +74,31 @@ def scene_of(documents: Iterable[Document], vocabulary: Vocabulary) -> Scene:
     syntax = [problem for document in parsed for problem in document.problems]
     terms = list(_misused(said, vocabulary))
     return _understood(facts(said, vocabulary), vocabulary, [*syntax, *terms], _doubtful(parsed))
+
+
+def _quickly(own: Document, documents: Sequence[Document], vocabulary: Vocabulary) -> WorldState | None:
+    try:
+        return quick_world(documents, vocabulary)
+    except NoRoom as error:
+        raise SceneError([unreadable(own.path, str(error))]) from error
+
+
+def _read(own: Document, vocabulary: Vocabulary) -> Scene:
+    try:
+        make_sure(CAREFULLY * len(own.text))
+    except NoRoom as error:
+        reason = f"something may be wrong with it, and to find what takes a smaller file: {error}"
+        raise SceneError([unreadable(own.path, reason)]) from error
+    scene = scene_of([own, *_sheets()], vocabulary)
+    if scene.problems or any(each.lines.path == own.path for each in scene.said):
+        return scene
+    place = Place(own.path, 1, 1, 1, 1)
+    nothing = Problem(place, "empty-scene", "there is nothing in this scene", "name a thing: `:x a CLASS .`")
+    return Scene(scene.state, (nothing,), scene.said, scene.doubtful)
+
+
+def _sheets() -> list[Document]:
+    return [Document(name, text) for name, text in vocabulary_files()]
 
 
 def _understood(

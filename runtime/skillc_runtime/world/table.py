@@ -31,9 +31,16 @@ class Table(Generic[K, V]):
             return recent[key]
         return self._base.get(key, self._empty)
 
+    def __bool__(self) -> bool:
+        """Whether there may be an entry."""
+        return bool(self._base or self._recent)
+
     def items(self) -> Iterator[tuple[K, V]]:
         """Yield the entries, in no particular order."""
         recent, empty = self._recent, self._empty
+        if not recent:
+            yield from self._base.items()
+            return
         yield from (entry for entry in self._base.items() if entry[0] not in recent)
         yield from (entry for entry in recent.items() if entry[1] is not empty)
 
