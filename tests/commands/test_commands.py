@@ -132,7 +132,7 @@ task two {
     )
     found = json.loads(run("check", library, "--format", "json").stdout)
     errors = [(each["line"], each["help"]) for each in found if each["severity"] == "error"]
-    assert [line for line, _ in errors] == [5, 7]
+    assert [line for line, _ in errors] == [5, 8]
     assert "lab:Table-1" in errors[0][1]
     assert "iiwa_table.ttl" in errors[1][1]
 

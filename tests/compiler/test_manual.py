@@ -10,7 +10,7 @@ import pytest
 from shipped import shelf, vocabulary
 
 from skillc_compiler.goals import parse_goal
-from skillc_compiler.manual import Page, pages
+from skillc_compiler.manual import Page, foresight, of_module, pages
 from skillc_compiler.pipeline import compile
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.encoding import decode
@@ -18,12 +18,15 @@ from skillc_dsl.formatting import not_formatted
 from skillc_dsl.parser import parse
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
+from skillc_runtime.commands import _checking, _files
+from skillc_runtime.world.documents import SceneError
 from skillc_runtime.world.scene import read_scene
 
 ROOT = Path(__file__).parent.parent.parent
-GIVERS = {"Diagnostic", "report", "report_unknown", "Problem", "Breach", "Flaw"}
+GIVERS = {"Diagnostic", "report", "report_unknown", "Problem", "Breach", "Flaw", "_problem_name"}
+PLACES = ("dsl", "compiler", "runtime/skillc_runtime/world", "runtime/skillc_runtime/commands")
 OF_VOCABULARIES = {"broken-turtle", "unknown-datatype"}
-WITHOUT_TEXT = {"unreadable-scene"}
+OF_SCENES = {page.name for page in of_module(foresight)}
 NAME = re.compile(r"[a-z]+(-[a-z]+)*")
 LAB = "http://example.org/lab#"
 SCENE = {
@@ -44,6 +47,8 @@ shop:Ware a owl:Class ; owl:deprecated true ; <http://purl.org/dc/terms/isReplac
 
 def problems(page: Page, text: str) -> list[str]:
     """Return the names of the diagnostics of an example."""
+    if page.name in OF_SCENES:
+        return in_library(text)
     if page.good.startswith("@prefix"):
         return in_turtle(page.name, text)
     if page.name == "not-formatted":
@@ -68,8 +73,18 @@ def in_turtle(name: str, text: str) -> list[str]:
         return [d.name for d in load([Source("example.ttl", text)]).diagnostics]
     with TemporaryDirectory() as folder:
         scene = Path(folder, "example.ttl")
-        scene.write_text(text, "utf-8")
-        return [problem.name for problem in read_scene(scene, vocabulary()).problems]
+        scene.write_text(text, "latin-1" if "saved as Latin-1" in text else "utf-8")
+        try:
+            return [problem.name for problem in read_scene(scene, vocabulary()).problems]
+        except SceneError as error:
+            return [problem.name for problem in error.problems]
+
+
+def in_library(text: str) -> list[str]:
+    """Return the names of the problems that `skillc check` finds in a library of one file."""
+    with TemporaryDirectory() as folder:
+        Path(folder, "example.skill").write_text(text, "utf-8")
+        return [d.name for d in _checking.check(_files.find(Path(folder)), None)]
 
 
 @pytest.mark.parametrize("page", pages().values(), ids=lambda page: page.name)
@@ -86,10 +101,9 @@ def test_pages_are_short_and_complete(page: Page) -> None:
 
 
 def test_every_diagnostic_has_a_page() -> None:
-    folders = ("dsl", "compiler", "runtime/skillc_runtime/world")
-    given = {name for folder in folders for file in (ROOT / folder).rglob("*.py") for name in named(file)}
+    given = {name for folder in PLACES for file in (ROOT / folder).rglob("*.py") for name in named(file)}
     assert len(given) > 100
-    assert given - pages().keys() == WITHOUT_TEXT
+    assert given - pages().keys() == set()
 
 
 def named(file: Path) -> Iterator[str]:
@@ -101,6 +115,9 @@ def named(file: Path) -> Iterator[str]:
                 if function in GIVERS:
                     given = (text for argument in (first, *rest[:1]) for text in texts(argument))
                     yield from (text for text in given if NAME.fullmatch(text))
+            case ast.FunctionDef(name="_problem_name"):
+                returned = [each.value for each in ast.walk(node) if isinstance(each, ast.Return) and each.value]
+                yield from (name for value in returned for name in texts(value) if NAME.fullmatch(name))
             case ast.Assign(targets=[ast.Name(id="NAMES")], value=ast.Tuple(elts=elements)) if "checks" in file.parts:
                 yield from (name for element in elements for name in texts(element))
 

@@ -46,10 +46,11 @@ def pages() -> Mapping[str, Page]:
 
 def _in(package: ModuleType) -> Iterator[Page]:
     for name in sorted(module.name for module in iter_modules(package.__path__)):
-        yield from _of(import_module(f"{package.__name__}.{name}"))
+        yield from of_module(import_module(f"{package.__name__}.{name}"))
 
 
-def _of(module: ModuleType) -> list[Page]:
+def of_module(module: ModuleType) -> list[Page]:
+    """Return the pages in the docstring of a module."""
     text = f"{getdoc(module) or ''}\n"
     heads = list(_SECTION.finditer(text))
     if not heads:

@@ -17,6 +17,27 @@ Good:
 
     lab:A a skillc:Workstation .
 
+## unreadable-scene: a scene is no text in UTF-8, or cannot be opened
+
+Save it as UTF-8 in the editor's settings, or with `iconv -f LATIN1 -t UTF-8`.
+
+Bad:
+
+    # this one is saved as Latin-1
+    @prefix lab: <http://example.org/lab#> .
+    @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
+    @prefix skillc: <https://w3id.org/skillc/core#> .
+
+    lab:A a skillc:Workstation ; rdfs:label "Küche" .
+
+Good:
+
+    @prefix lab: <http://example.org/lab#> .
+    @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
+    @prefix skillc: <https://w3id.org/skillc/core#> .
+
+    lab:A a skillc:Workstation ; rdfs:label "Küche" .
+
 ## empty-scene: a scene says of no individual what it is
 
 Bad:

@@ -2,29 +2,47 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_compiler.program import Program
+from skillc_dsl.diagnostics import Diagnostic
 from skillc_runtime.commands import _library, _telling
 from skillc_runtime.commands._files import LibraryFiles
+
+if TYPE_CHECKING:
+    from skillc_runtime.commands._scenes import Populated
 
 
 def check(library: LibraryFiles, scene: Path | None) -> tuple[Diagnostic, ...]:
     """Return what is wrong with a library, the scenes of its tasks, and `scene`; paths are shown as from here."""
-    outcome = _library.compile_library(library)
-    if scene is None and not any(task.scene for task in outcome.value.tasks.values()):
+    scenes = _Scenes(library, scene)
+    outcome = _library.compile_library(library, scenes.individuals)
+    if scenes.populated is None:
         return _telling.in_order(outcome.diagnostics)
-    return _telling.in_order(_with_scenes(library, outcome, scene))
+    from skillc_runtime.commands import _foresight
+
+    foreseen = _foresight.foreseen(outcome, scenes.populated, library.shown)
+    return _telling.in_order((*outcome.diagnostics, *scenes.populated.problems, *foreseen))
 
 
-def _with_scenes(library: LibraryFiles, outcome: Outcome[SkillLibrary], scene: Path | None) -> tuple[Diagnostic, ...]:
-    """Check what the library says of its scenes too; the world model, which that takes, is heavy to import."""
-    from skillc_runtime.commands import _diagnostics, _scenes
+class _Scenes:
+    """The scenes of a library's tasks and another one, once they were asked for and where there are any.
 
-    named, _ = _scenes.individuals_of(outcome.value, library)
-    if named.value:
-        outcome = _library.compile_library(library, named.value)
-    of_scene = _diagnostics.of_scene(scene, outcome.value.vocabulary) if scene else ()
-    foreseen = _scenes.foreseen(outcome, library, scene)
-    return (*outcome.diagnostics, *named.diagnostics, *of_scene, *foreseen)
+    The world model, which that takes, is heavy to import.
+    """
+
+    def __init__(self, library: LibraryFiles, scene: Path | None) -> None:
+        self._library = library
+        self._others = () if scene is None else (scene,)
+        self.populated: Populated | None = None
+
+    def individuals(self, program: Program) -> Mapping[str, Mapping[str, Sequence[str]]]:
+        """Read the scenes and return the individuals that each task may name, with their classes."""
+        if not self._others and not any(task.scene for task in program.tasks):
+            return {}
+        from skillc_runtime.commands import _scenes
+
+        self.populated = _scenes.populated(program, _scenes.Desk.of(self._library), self._others)
+        return self.populated.individuals

@@ -6,15 +6,15 @@ Places are shown as from here, and those of the individuals that a message names
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 from skillc_compiler.library.skills import SkillLibrary, Task
 from skillc_compiler.library.vocabulary import Position
 from skillc_compiler.turtle.terms import RDF_TYPE
-from skillc_dsl.diagnostics import Diagnostic, Label, Severity
+from skillc_dsl.diagnostics import Diagnostic, Label, Outcome, Severity
 from skillc_dsl.source import Span
 from skillc_runtime.commands import _diagnostics
-from skillc_runtime.commands._files import LibraryFiles
+from skillc_runtime.commands._scenes import Populated
 from skillc_runtime.planning.reachable import why_unreachable
 from skillc_runtime.selection.first import first_refusals
 from skillc_runtime.selection.preflight import Refusal, preflight
@@ -24,11 +24,42 @@ from skillc_runtime.world.scene import Scene
 
 LABELLED = 6
 """How many individuals are shown beside a message at most."""
+LONGEST_TASK = 10
+"""How many lines below its name a task's goal stands at most."""
 
 
-def of_task(task: Task, library: SkillLibrary, files: LibraryFiles, scene: Scene) -> Iterator[Diagnostic]:
+def foreseen(compiled: Outcome[SkillLibrary], populated: Populated, shown: Callable[[str], str]) -> list[Diagnostic]:
+    """Return what keeps tasks from being done in their scenes, and whom in the scenes no implementation fits.
+
+    `shown` tells how diagnostics show the paths of the library. Of libraries and scenes with mistakes nothing is
+    foreseen, and nothing that was told while compiling.
+    """
+    if not compiled.ok:
+        return []
+    library = compiled.value
+    errors: list[Diagnostic] = []
+    for name, path in populated.of_tasks.items():
+        if path in populated.sound and name in library.tasks:
+            found = _of_task(library.tasks[name], library, shown, populated.sound[path])
+            errors += (each for each in found if not _told(each, compiled.diagnostics))
+    labelled = {(label.span.path, label.span.line) for each in errors for label in each.labels}
+    unfit_ = (_of_individuals(library, scene, str(path)) for path, scene in populated.sound.items())
+    others = [each for found in unfit_ for each in found]
+    return [*errors, *(each for each in others if (each.span.path, each.span.line) not in labelled)]
+
+
+def _told(foreseen: Diagnostic, compiled: Sequence[Diagnostic]) -> bool:
+    """Whether compiling has said already, some lines below the task's first, that no skill does what a goal asks."""
+    goals = [each.span for each in compiled if each.name == "unachievable-goal"]
+    first = foreseen.span
+    return foreseen.name == "unreachable-goal" and any(
+        goal.path == first.path and 0 <= goal.line - first.line <= LONGEST_TASK for goal in goals
+    )
+
+
+def _of_task(task: Task, library: SkillLibrary, shown: Callable[[str], str], scene: Scene) -> Iterator[Diagnostic]:
     """Yield what keeps a task from being done in its scene."""
-    told = _Told(files, scene, task)
+    told = _Teller(shown, scene, task)
     if task.goal is not None:
         why = why_unreachable(library, scene.state, task.goal)
         if why is not None:
@@ -40,7 +71,7 @@ def of_task(task: Task, library: SkillLibrary, files: LibraryFiles, scene: Scene
             yield from (told.cannot_start(each) for each in first_refusals(task.body, library, scene.state))
 
 
-def of_individuals(library: SkillLibrary, scene: Scene, path: str) -> Iterator[Diagnostic]:
+def _of_individuals(library: SkillLibrary, scene: Scene, path: str) -> Iterator[Diagnostic]:
     """Yield the individuals of the scene file at `path` that no implementation of some skill fits."""
     own = {iri_of(each.subject): each for each in reversed(scene.said) if each.predicate == RDF_TYPE}
     here = {iri: each for iri, each in own.items() if each.lines.path == path}
@@ -50,22 +81,22 @@ def of_individuals(library: SkillLibrary, scene: Scene, path: str) -> Iterator[D
         yield Diagnostic("no-implementation-fits", span, _unfit(each, scene), _accepted(each, scene), "warning")
 
 
-class _Told:
+class _Teller:
     """Makes diagnostics about one task."""
 
-    def __init__(self, files: LibraryFiles, scene: Scene, task: Task) -> None:
-        self._files, self._scene, self._task = files, scene, task
+    def __init__(self, shown: Callable[[str], str], scene: Scene, task: Task) -> None:
+        self._shown, self._scene, self._task = shown, scene, task
 
     def refusal(self, refusal: Refusal) -> Diagnostic:
         """Tell of a call that can never start in the scene."""
         around = f", in {' > '.join(refusal.within)}" if refusal.within else ""
-        name = _kind(refusal, "no-implementation-fits")
+        name = _problem_name(refusal, "no-implementation-fits")
         return self.diagnostic(name, f"{refusal.message}{around}", refusal, "error")
 
     def cannot_start(self, refusal: Refusal) -> Diagnostic:
         """Tell of a call that cannot start as the scene is."""
         message = f"`{self._task.name}` begins with a call that cannot start in this scene: {refusal.message}"
-        return self.diagnostic(_kind(refusal, "cannot-start"), message, refusal, "warning")
+        return self.diagnostic(_problem_name(refusal, "cannot-start"), message, refusal, "warning")
 
     def unreachable(self, why: str) -> Diagnostic:
         """Tell of a goal."""
@@ -90,14 +121,15 @@ class _Told:
         return [Label(_diagnostics.span_of(place), "this one") for place in found[:LABELLED]]
 
     def _span(self, place: Position) -> Span:
-        path = self._files.shown(place.path)
+        path = self._shown(place.path)
         return Span(path, place.line, place.column, place.line, place.column + 1)
 
 
-def _kind(refusal: Refusal, otherwise: str) -> str:
-    """Return the name of what is wrong: with inferred parameters, or another thing."""
-    if {each.stage for each in refusal.rejected} != {"inference"}:
-        return otherwise
+def _problem_name(refusal: Refusal, otherwise: str) -> str:
+    """Return the name of what is wrong: with inferred parameters, with preconditions, or another thing."""
+    stages = {each.stage for each in refusal.rejected}
+    if stages != {"inference"}:
+        return "cannot-start" if stages == {"pre"} else otherwise
     return "several-answers" if any(" may be " in each.reason for each in refusal.rejected) else "no-answer"
 
 

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cache, lru_cache
 from pathlib import Path
+from typing import TypeAlias
 
 import click
 
 from skillc_compiler import pipeline
+from skillc_compiler.collecting import no_collection
 from skillc_compiler.library.skills import SkillLibrary, Task
 from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.program import Program
+from skillc_compiler.resolve.files import read
+from skillc_compiler.resolve.individuals import Individuals
+from skillc_compiler.resolve.program import resolve
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
 from skillc_dsl.parser import parse
@@ -19,18 +25,25 @@ from skillc_dsl.source import Source, Span
 from skillc_ontology import catalogue
 from skillc_runtime.commands._files import SHIPPED, LibraryFiles, find, texts
 
+Peopled: TypeAlias = Callable[[Program], Mapping[str, Individuals]]
+"""The individuals in the scenes of a program's tasks, by task."""
 _MOST_FILES = 2000
 __all__ = ["SHIPPED", "LibraryFiles", "compile_library", "find", "find_task", "task_named", "texts", "vocabulary"]
 
 
-def compile_library(
-    library: LibraryFiles, scenes: Mapping[str, Mapping[str, Sequence[str]]] | None = None
-) -> Outcome[SkillLibrary]:
+def compile_library(library: LibraryFiles, peopled: Peopled | None = None) -> Outcome[SkillLibrary]:
     """Compile, with the shipped ontology as vocabulary; diagnostics show paths as from here.
 
-    `scenes` are the individuals that each task may name, with their classes; those of other tasks are not checked.
+    `peopled` gives the individuals that the tasks of a program may name; those of other tasks are not checked.
     """
-    outcome = pipeline.compile(library.sources, vocabulary(), library.shelf, library.name, scenes or {}, _parsed)
+    with no_collection():
+        files = read(library.sources, library.shelf, library.name, _parsed)
+        program = resolve(files.value, vocabulary(), library.name, pipeline.NO_SCENES)
+        individuals = peopled(program.value) if peopled else {}
+        if individuals:
+            program = resolve(files.value, vocabulary(), library.name, individuals)
+        checked = Outcome(program.value, pipeline.problems(files, program))
+        outcome = pipeline.finish(checked, library.sources)
     return Outcome(outcome.value, tuple(_relocate(d, library) for d in outcome.diagnostics))
 
 

@@ -38,7 +38,7 @@ def of_task(reference: str, keeping: Keeping = NOT_KEPT) -> Mission:
     task = _library.task_named(library, name)
     if task.scene is None:
         raise click.UsageError(f"the task `{name}` has no scene; run it with --scene FILE and --goal or --skill")
-    path = _scenes.path_of(task, files)
+    path = _scenes.scene_of(task, files)
     if path is None:
         raise click.UsageError(f'the scene "{task.scene}" of `{name}` is neither beside its file nor shipped')
     if task.goal is None and task.body is None:
@@ -60,7 +60,7 @@ def of_scene(
     library = compiled(_library.find(library_path or _library.SHIPPED / "wiping"))
     world = world_for(keeping, _files.scene_path(scene) if scene else None, library)
     state = world.snapshot()
-    individuals = _scenes.classes_of(state, library)
+    individuals = _scenes.classes_of(state, library.vocabulary)
     prefixes = state.vocabulary.prefixes
     if goal is not None:
         asked = parse_goal(goal, library.vocabulary, individuals, prefixes)

@@ -1,60 +1,98 @@
-"""The scenes of a library's tasks, for checking what the tasks name."""
+"""The scenes of a library's tasks: which files they are, who is in them, and what is wrong with them."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TypeAlias
 
-from skillc_compiler.library.skills import SkillLibrary, Task
+from skillc_compiler.library.skills import Task
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.program import Program
+from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
-from skillc_dsl.source import Source, Span
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _diagnostics, _foresight
-from skillc_runtime.commands._library import LibraryFiles
+from skillc_runtime.commands import _diagnostics
+from skillc_runtime.commands._files import LibraryFiles
 from skillc_runtime.world.documents import SceneError
 from skillc_runtime.world.scene import Scene, read_scene
 from skillc_runtime.world.state import WorldState
 
-LONGEST_TASK = 10
-"""How many lines below its name a task's goal stands at most."""
-
-Individuals = dict[str, list[str]]
+Individuals: TypeAlias = dict[str, list[str]]
 """The IRIs of a scene with their classes."""
+Read: TypeAlias = Callable[[Path, Vocabulary], Outcome[Scene | None]]
+"""Reads a scene in the words of a vocabulary, with what is wrong with it; None where there is no text."""
 
 
-def path_of(task: Task, files: LibraryFiles) -> Path | None:
-    """Return a task's scene, relative to the task's file or shipped; None where there is no such file."""
-    assert task.scene is not None
-    beside = files.places[task.source.path].parent / task.scene
-    if beside.is_file():
-        return beside
+@dataclass(frozen=True, slots=True)
+class Desk:
+    """Where the files of a library are: its places on disk, and how diagnostics show them, both by path."""
+
+    place: Callable[[str], Path]
+    shown: Callable[[str], str]
+
+    @staticmethod
+    def of(files: LibraryFiles) -> Desk:
+        """Return where the files of a library on disk are."""
+        return Desk(files.places.__getitem__, files.shown)
+
+
+@dataclass(frozen=True, slots=True)
+class Populated:
+    """Scenes that were read: those without errors by file, the files of those of tasks by task, and what is wrong.
+
+    `individuals` are those of each task's scene.
+    """
+
+    of_tasks: Mapping[str, Path]
+    sound: Mapping[Path, Scene]
+    individuals: Mapping[str, Individuals]
+    problems: tuple[Diagnostic, ...]
+
+
+def read(path: Path, vocabulary: Vocabulary) -> Outcome[Scene | None]:
+    """Read a scene file."""
     try:
-        return catalogue.scene(task.scene)
+        scene = read_scene(path, vocabulary)
+    except SceneError as error:
+        return Outcome(None, tuple(_diagnostics.of_problems(error.problems)))
+    return Outcome(scene, tuple(_diagnostics.of_problems(scene.problems)))
+
+
+def populated(program: Program, desk: Desk, others: Collection[Path] = (), read_by: Read = read) -> Populated:
+    """Read the scenes of a program's own tasks, and others; `read_by` may remember what it read before."""
+    written = list(_written(program))
+    found = {task: path_of(text.value, desk.place(text.span.path).parent) for task, text in written}
+    of_tasks = {task: path for task, path in found.items() if path is not None}
+    scenes = {path: read_by(path, program.vocabulary) for path in sorted({*of_tasks.values(), *others})}
+    sound = {path: scene.value for path, scene in scenes.items() if scene.ok and scene.value}
+    people = {path: classes_of(scene.state, program.vocabulary) for path, scene in sound.items()}
+    missing = (_unknown(text, desk) for task, text in written if task not in of_tasks)
+    wrong = (problem for scene in scenes.values() for problem in scene.diagnostics)
+    individuals = {task: people[path] for task, path in of_tasks.items() if path in people}
+    return Populated(of_tasks, sound, individuals, tuple(dict.fromkeys((*missing, *wrong))))
+
+
+def scene_of(task: Task, files: LibraryFiles) -> Path | None:
+    """Return the file of a compiled task's scene; None where there is no such file."""
+    assert task.scene is not None
+    return path_of(task.scene, files.places[task.source.path].parent)
+
+
+def path_of(scene: str, beside: Path) -> Path | None:
+    """Return the file of a scene, beside the task's file or shipped; None where there is no such file."""
+    if (beside / scene).is_file():
+        return beside / scene
+    try:
+        return catalogue.scene(scene)
     except FileNotFoundError:
         return None
 
 
-def individuals_of(library: SkillLibrary, files: LibraryFiles) -> tuple[Outcome[dict[str, Individuals]], set[Path]]:
-    """Return the individuals in the scene of each task, with what is wrong with the scenes, and the files read."""
-    found: dict[str, Individuals] = {}
-    problems: list[Diagnostic] = []
-    read: set[Path] = set()
-    for name, task in library.tasks.items():
-        path = path_of(task, files) if task.scene else None
-        if path is None:
-            problems += [_unknown(task, files)] if task.scene else []
-            continue
-        read.add(path)
-        scene = _read(path, library)
-        problems += scene.diagnostics
-        if scene.ok and scene.value is not None:
-            found[name] = classes_of(scene.value.state, library)
-    return Outcome(found, tuple(problems)), read
-
-
-def classes_of(state: WorldState, library: SkillLibrary) -> Individuals:
-    """Return the individuals of a world with their classes, as the library knows them: the scene may have its own."""
-    known = library.vocabulary.classes.keys()
+def classes_of(state: WorldState, vocabulary: Vocabulary) -> Individuals:
+    """Return the individuals of a world with their classes, as a library knows them: the scene may have its own."""
+    known = vocabulary.classes.keys()
     above = state.vocabulary.ancestors
     return {
         iri: sorted({each for cls in state.types(iri) for each in ({cls} if cls in known else above[cls] & known)})
@@ -62,57 +100,15 @@ def classes_of(state: WorldState, library: SkillLibrary) -> Individuals:
     }
 
 
-def foreseen(compiled: Outcome[SkillLibrary], files: LibraryFiles, scene: Path | None) -> list[Diagnostic]:
-    """Return what keeps tasks from being done in their scenes, and whom in them or in `scene` no implementation fits.
-
-    Of libraries and scenes with mistakes nothing is foreseen, and nothing that was told while compiling.
-    """
-    if not compiled.ok:
-        return []
-    library = compiled.value
-    own = {source.path for source in files.sources}
-    placed = [(task, path_of(task, files)) for task in library.tasks.values() if task.scene and task.source.path in own]
-    paths = {path for path in (scene, *(path for _, path in placed)) if path is not None}
-    scenes = {path: read.value for path in sorted(paths) if (read := _read(path, library)).ok and read.value}
-    of_tasks = (
-        _foresight.of_task(task, library, files, scenes[path]) for task, path in placed if path and path in scenes
-    )
-    of_individuals = (_foresight.of_individuals(library, read, str(path)) for path, read in scenes.items())
-    errors = [each for found in of_tasks for each in found if not _told(each, compiled.diagnostics)]
-    shown = {(label.span.path, label.span.line) for each in errors for label in each.labels}
-    others = [each for found in of_individuals for each in found]
-    return [*errors, *(each for each in others if (each.span.path, each.span.line) not in shown)]
+def _written(program: Program) -> Iterator[tuple[str, s.Text]]:
+    """Yield each task with its scene as written, those of the shelf left out."""
+    for unit in program.files:
+        for declaration in unit.file.declarations:
+            if isinstance(declaration, s.TaskDeclaration) and declaration.scene and unit.library == program.name:
+                yield declaration.name.text, declaration.scene
 
 
-def _told(foreseen: Diagnostic, compiled: Sequence[Diagnostic]) -> bool:
-    """Whether compiling has said already, some lines below the task's first, that no skill does what a goal asks."""
-    goals = [each.span for each in compiled if each.name == "unachievable-goal"]
-    first = foreseen.span
-    return foreseen.name == "unreachable-goal" and any(
-        goal.path == first.path and 0 <= goal.line - first.line <= LONGEST_TASK for goal in goals
-    )
-
-
-def _read(path: Path, library: SkillLibrary) -> Outcome[Scene | None]:
-    try:
-        scene = read_scene(path, library.vocabulary)
-    except SceneError as error:
-        return Outcome(None, tuple(_diagnostics.of_problems(error.problems)))
-    return Outcome(scene, tuple(_diagnostics.of_problems(scene.problems)))
-
-
-def texts_of(paths: set[Path]) -> dict[str, Source]:
-    """Return the texts of scenes by the path that diagnostics show."""
-    return {shown: source for path in paths for shown, source in _diagnostics.scene_text(path).items()}
-
-
-def _unknown(task: Task, files: LibraryFiles) -> Diagnostic:
-    place, scene = task.source, task.scene or ""
-    span = Span(files.shown(place.path), place.line, place.column, place.line, place.column + 1)
-    shipped = did_you_mean(scene, catalogue.scenes())
-    return Diagnostic(
-        "unknown-scene",
-        span,
-        f'the task `{task.name}` has the scene "{scene}", which is neither beside this file nor shipped',
-        shipped,
-    )
+def _unknown(scene: s.Text, desk: Desk) -> Diagnostic:
+    message = f'the scene "{scene.value}" is neither beside this file nor shipped'
+    span = replace(scene.span, path=desk.shown(scene.span.path))
+    return Diagnostic("unknown-scene", span, message, did_you_mean(scene.value, catalogue.scenes()))

@@ -59,9 +59,8 @@ class Grounding:
 
     def __init__(self, problem: Problem) -> None:
         self._problem = problem
-        self._members = {
-            each.type: problem.domain.of_type(problem.objects, each.type) for each in variables(problem.domain)
-        }
+        types = {each.type for each in variables(problem.domain)}
+        self._members = {type_: problem.domain.of_type(problem.objects, type_) for type_ in types}
         self._costs = {(each.function, each.arguments): each.units for each in problem.costs}
         self._changing = {each.atom.predicate for action in problem.domain.actions for each in action.effects}
         self._static = frozenset(each for each in problem.init if each.predicate not in self._changing)

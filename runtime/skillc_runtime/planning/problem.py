@@ -12,12 +12,12 @@ from skillc_compiler.library.pddl.domain import PlanningDomain
 from skillc_compiler.library.pddl.formulas import TRUE, Formula, Typed, renamed
 from skillc_compiler.library.pddl.goals import ground_goal, with_predicates_of
 from skillc_compiler.library.pddl.names import object_names
-from skillc_compiler.library.pddl.planning import planning_domain
 from skillc_compiler.library.pddl.problem import Problem
 from skillc_compiler.library.pddl.translate import Untranslatable
 from skillc_compiler.library.reading import walk
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_runtime.planning.domains import domain_of
 from skillc_runtime.planning.excluding import excluding
 from skillc_runtime.planning.initial import Initial
 from skillc_runtime.planning.left_out import LeftOut
@@ -69,7 +69,7 @@ def pose_problem(
     """
     library = _in_the_words_of(state.vocabulary, library)
     named = _named(goal, state)
-    domain = planning_domain(library, _combined(state))
+    domain = domain_of(library, _combined(state))
     wanted = _ground(goal, library, domain, named, state)
     domain = with_predicates_of(wanted, library, domain)
     useful = Helpful(domain, ()) if wanted == TRUE else helpful(domain, wanted)

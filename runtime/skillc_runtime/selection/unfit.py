@@ -20,13 +20,17 @@ class Unfit:
 
 def unfit(library: SkillLibrary, state: WorldState, individuals: frozenset[str]) -> Iterator[Unfit]:
     """Yield those of the individuals that all implementations of some skill reject by their classes, by IRI."""
+    narrow = [
+        (skill.name, parameter, accepted)
+        for skill in library.skills.values()
+        for parameter in skill.parameters
+        if (accepted := _accepted(library, skill.name, parameter))
+    ]
     for individual in sorted(individuals & state.individuals):
-        asked = ((skill, parameter) for skill in library.skills.values() for parameter in skill.parameters)
         skills = {
-            skill.name: accepted
-            for skill, parameter in asked
-            if (accepted := _accepted(library, skill.name, parameter))
-            and _rejected(state, individual, parameter, accepted)
+            skill: accepted
+            for skill, parameter, accepted in narrow
+            if _rejected(state, individual, parameter, accepted)
         }
         if skills:
             yield Unfit(individual, skills)

@@ -1,0 +1,39 @@
+"""Planning domains, remembered: tasks in like scenes, and plans that are made anew, need the same one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+from skillc_compiler.library.pddl.domain import PlanningDomain
+from skillc_compiler.library.pddl.planning import planning_domain
+from skillc_compiler.library.skills import SkillLibrary
+
+REMEMBERED = 4
+
+
+def domain_of(library: SkillLibrary, combined: frozenset[frozenset[str]]) -> PlanningDomain:
+    """Return the library as a planning domain, as `planning_domain` does."""
+    return _domain(_Skills(library), combined)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Skills:
+    """A library as a key: the same skills, in a vocabulary that says the same."""
+
+    library: SkillLibrary
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, _Skills):
+            return NotImplemented
+        one, two = self.library, other.library
+        same = one.name == two.name and one.skills is two.skills and one.implementations is two.implementations
+        return same and one.names == two.names and one.vocabulary == two.vocabulary
+
+    def __hash__(self) -> int:
+        return hash((id(self.library.skills), id(self.library.implementations)))
+
+
+@lru_cache(REMEMBERED)
+def _domain(skills: _Skills, combined: frozenset[frozenset[str]]) -> PlanningDomain:
+    return planning_domain(skills.library, combined)
