@@ -1,10 +1,7 @@
 """Folders that are no stores, damaged stores, full and read-only disks: a clear word, and nothing lost."""
 
 import os
-import resource
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pyoxigraph as ox
@@ -14,6 +11,8 @@ from skillc_runtime.world.store import base
 from skillc_runtime.world.store.disk import FACTS, FORMAT, JOURNAL, MARK, DiskStore
 from skillc_runtime.world.store.opening import open_store
 from skillc_runtime.world.store.store import StoreError
+from store.actors import use_as_a_guest, write_to_a_full_disk
+from store.processes import Actor
 from store.worlds import facts_of, model_of
 from world.lab import assign, iri
 
@@ -125,76 +124,27 @@ def test_a_store_in_use_is_not_reset(tmp_path: Path) -> None:
     assert weight(tmp_path / "store") == 7.0
 
 
-FULL = f"""
-import resource, sys
-sys.path.insert(0, {str(Path(__file__).parents[1])!r})
-from pathlib import Path
-from store.worlds import model_of
-from store.test_broken import DiskStore, StoreError, assign
-model = model_of(DiskStore(Path(sys.argv[1])))
-for number in range(50):
-    model.commit([assign("box", "weight", float(number))])
-size = (Path(sys.argv[1]) / "journal").stat().st_size
-resource.setrlimit(resource.RLIMIT_FSIZE, (size + 2000, resource.RLIM_INFINITY))
-before, made = model.snapshot(), 0
-try:
-    while True:
-        before = model.commit([assign("box", "weight", 100.0 + made)]).after
-        made += 1
-except StoreError as error:
-    assert model.snapshot() is before
-    print(made, error)
-resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
-model.commit([assign("box", "weight", 1000.0)])
-"""
-
-
 def test_a_full_disk_refuses_the_write_and_loses_none(tmp_path: Path) -> None:
-    assert resource.RLIM_INFINITY, "the limit on file sizes stands for the size of the disk"
-    run = subprocess.run([sys.executable, "-c", FULL, str(tmp_path / "store")], capture_output=True, text=True)
-    assert run.returncode == 0, run.stderr
-    made, _, message = run.stdout.partition(" ")
+    writer = Actor(write_to_a_full_disk, tmp_path / "store")
+    made, message = writer.told()
+    assert writer.process.exitcode == 0
     assert int(made) > 0 and "nothing can be written to" in message and "File too large" in message
     kept = model_of(DiskStore(tmp_path / "store"))
     assert kept.snapshot().value(iri("box"), iri("weight")) == 1000.0
     assert DiskStore(tmp_path / "store").read().sequence == 1 + 50 + int(made) + 1
 
 
-READ_ONLY = f"""
-import os, sys
-sys.path.insert(0, {str(Path(__file__).parents[1])!r})
-from pathlib import Path
-from store.worlds import facts_of, model_of
-from store.test_broken import DiskStore, StoreError, assign
-if os.geteuid() == 0:
-    os.setuid(65534)
-model = model_of(DiskStore(Path(sys.argv[1])))
-print(len(facts_of(model.snapshot())))
-try:
-    model.commit([assign("box", "weight", 5.0)])
-except StoreError as error:
-    print(error)
-try:
-    DiskStore(Path(sys.argv[1]) / "new")
-except StoreError as error:
-    print(error)
-"""
-
-
 def test_a_store_that_may_only_be_read_is_read(tmp_path: Path) -> None:
     place = written(tmp_path / "store")
     expected = len(facts_of(model_of(DiskStore(place)).snapshot()))
-    for folder in (tmp_path, *tmp_path.parents):
-        if folder.owner() == Path.home().owner() and folder.name.startswith(("pytest", "test", "store")):
-            folder.chmod(0o755)
     for file in place.rglob("*"):
         file.chmod(0o555 if file.is_dir() else 0o444)
     place.chmod(0o555)
-    run = subprocess.run([sys.executable, "-c", READ_ONLY, str(place)], capture_output=True, text=True)
+    tmp_path.chmod(0o755)
+    guest = Actor(use_as_a_guest, tmp_path, place.name)
+    count, refused, closed = guest.told()
     place.chmod(0o755)
-    assert run.returncode == 0, run.stderr
-    count, refused, closed = run.stdout.splitlines()
-    assert int(count) == expected
+    assert guest.process.exitcode == 0 and int(count) == expected
     assert refused.endswith("journal is read-only here, so nothing can be written to the store")
     assert closed.endswith("cannot be opened: Permission denied")
 

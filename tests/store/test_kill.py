@@ -1,23 +1,22 @@
 """Killed at any moment, a writer loses nothing that it was told is kept and leaves nothing half done."""
 
-import itertools
 import os
-import signal
 import time
 from pathlib import Path
 from random import Random
-from typing import NoReturn
 
 import pytest
 
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.store.disk import DiskStore
 from skillc_runtime.world.store.store import Transaction
-from store.processes import told, writer
+from store.actors import write, write_and_tidy_up
+from store.processes import Actor
 from store.worlds import facts_of, model_of
-from world.lab import SCENE, assign, iri
+from world.lab import SCENE, iri
 
 KILLS = int(os.environ.get("SKILLC_STORE_KILLS", "2"))
+"""How often the moments are chosen anew; 100 make tens of thousands of writes."""
 
 
 def replayed(transactions: tuple[Transaction, ...]) -> WorldState:
@@ -33,12 +32,11 @@ def test_a_killed_writer_loses_nothing(tmp_path: Path, seed: int) -> None:
     keeper = DiskStore(place)
     model_of(keeper)
     for life in range(3):
-        process = writer(place, seed, 100_000, f"life-{life}")
-        assert process.stdout is not None
-        acknowledged.append(process.stdout.readline().strip())
-        time.sleep(chance.random() * 0.5)
-        process.kill()
-        acknowledged += told(process)
+        writer = Actor(write, str(place), seed, 100_000, f"life-{life}")
+        acknowledged.append(writer.hear())
+        time.sleep(chance.random() * 0.25)
+        writer.kill()
+        acknowledged += writer.told()
     kept = keeper.since(1)
     assert [each.sequence for each in kept] == list(range(2, len(kept) + 2))
     origins = [each.origin for each in kept]
@@ -53,31 +51,12 @@ def test_a_killed_writer_loses_nothing(tmp_path: Path, seed: int) -> None:
 
 @pytest.mark.parametrize("seed", range(KILLS))
 def test_whoever_is_killed_while_tidying_up_loses_nothing(tmp_path: Path, seed: int) -> None:
-    store = DiskStore(tmp_path / "store")
-    model_of(store)
-    store.close()
-    reading, writing = os.pipe()
-    child = os.fork()
-    if child == 0:
-        _write_and_tidy_up(tmp_path / "store", writing)
-    os.close(writing)
-    os.read(reading, 1)
+    writer = Actor(write_and_tidy_up, tmp_path / "store")
+    writer.hear()
     time.sleep(Random(seed).random() * 0.6)
-    os.kill(child, signal.SIGKILL)
-    os.waitpid(child, 0)
-    acknowledged = 1 + len(os.read(reading, 10_000))
-    os.close(reading)
+    writer.kill()
+    acknowledged = 1 + len(writer.told())
     kept = DiskStore(tmp_path / "store").read()
     assert kept.sequence - 1 in (acknowledged, acknowledged + 1)
     model = model_of(DiskStore(tmp_path / "store"))
     assert model.snapshot().value(iri("box"), iri("weight")) == float(kept.sequence - 1)
-
-
-def _write_and_tidy_up(place: Path, acknowledge: int) -> NoReturn:
-    """Open, write and close, which tidies up, again and again."""
-    for number in itertools.count(1):
-        store = DiskStore(place)
-        model_of(store).commit([assign("box", "weight", float(number))])
-        os.write(acknowledge, b".")
-        store.close()
-    raise AssertionError

@@ -4,7 +4,8 @@ from itertools import pairwise
 from pathlib import Path
 
 from skillc_runtime.world.store.disk import DiskStore
-from store.processes import told, writer
+from store.actors import write
+from store.processes import Actor
 from store.worlds import facts_of, model_of
 
 WRITERS, WRITES = 3, 60
@@ -13,17 +14,17 @@ WRITERS, WRITES = 3, 60
 def test_processes_that_write_at_once_agree_on_one_order(tmp_path: Path) -> None:
     store = DiskStore(tmp_path / "store")
     model = model_of(store)
-    processes = [writer(tmp_path / "store", seed, WRITES, f"writer-{seed}") for seed in range(WRITERS)]
+    writers = [Actor(write, str(tmp_path / "store"), seed, WRITES, f"writer-{seed}") for seed in range(WRITERS)]
     heard: list[str] = []
     model.listen(lambda event: heard.append(event.origin))
-    while any(process.poll() is None for process in processes):
+    while any(writer.process.is_alive() for writer in writers):
         model.follow()
     model.follow()
-    lines = [told(process) for process in processes]
-    assert all(process.returncode == 0 for process in processes)
+    told = [writer.told() for writer in writers]
+    assert all(writer.process.exitcode == 0 for writer in writers)
     assert len(heard) == WRITERS * WRITES
-    for own in lines:
-        assert [origin for origin in heard if origin in set(own)] == own[:-1]
+    for own in told:
+        assert [origin for origin in heard if origin in set(own)] == own
     changes = sum(one.split()[0] != next_.split()[0] for one, next_ in pairwise(heard))
     assert changes > WRITERS, "the writers took turns"
     store.close()

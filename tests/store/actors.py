@@ -1,0 +1,79 @@
+"""What processes do to a store in the tests; each tells, while it goes on, what it was told is kept."""
+
+from __future__ import annotations
+
+import itertools
+import os
+import resource
+from multiprocessing.connection import Connection
+from pathlib import Path
+from random import Random
+
+from skillc_runtime.world.model import WorldError, WorldModel
+from skillc_runtime.world.store.contents import world_of
+from skillc_runtime.world.store.disk import JOURNAL, DiskStore
+from skillc_runtime.world.store.opening import open_store
+from skillc_runtime.world.store.store import StoreError
+from store.worlds import facts_of, model_of, random_write
+from world.lab import VOCABULARY, assign
+
+
+def write(tell: Connection, place: str, seed: int, count: int, name: str) -> None:
+    """Make so many random writes, whatever others do meanwhile; tell the origin of each."""
+    store = open_store(place)
+    kept = store.read()
+    model = WorldModel(world_of(kept.triples, VOCABULARY, place), store, kept.sequence)
+    chance, made = Random(seed), 0
+    while made < count:
+        try:
+            model.commit(random_write(chance), f"{name} {made}")
+        except WorldError:
+            continue
+        tell.send(f"{name} {made}")
+        made += 1
+
+
+def write_and_tidy_up(tell: Connection, place: Path) -> None:
+    """Open, write and close, which tidies up, without end; tell the number of each write."""
+    for number in itertools.count(1):
+        store = DiskStore(place)
+        model_of(store).commit([assign("box", "weight", float(number))])
+        tell.send(str(number))
+        store.close()
+
+
+def write_to_a_full_disk(tell: Connection, place: Path) -> None:
+    """Write until the disk is full, which a limit on file sizes stands for; tell how often and why it ended."""
+    model = model_of(DiskStore(place))
+    for number in range(50):
+        model.commit([assign("box", "weight", float(number))])
+    endless = resource.RLIM_INFINITY
+    resource.setrlimit(resource.RLIMIT_FSIZE, ((place / JOURNAL).stat().st_size + 2000, endless))
+    before, made = model.snapshot(), 0
+    try:
+        while True:
+            before = model.commit([assign("box", "weight", 100.0 + made)]).after
+            made += 1
+    except StoreError as error:
+        assert model.snapshot() is before
+        tell.send(str(made))
+        tell.send(str(error))
+    resource.setrlimit(resource.RLIMIT_FSIZE, (endless, endless))
+    model.commit([assign("box", "weight", 1000.0)])
+
+
+def use_as_a_guest(tell: Connection, folder: Path, name: str) -> None:
+    """Use a store in a folder as somebody who may only read; tell the size of its world and the two refusals."""
+    os.chdir(folder)
+    if os.geteuid() == 0:
+        os.setuid(65534)
+    model = model_of(DiskStore(Path(name)))
+    tell.send(str(len(facts_of(model.snapshot()))))
+    try:
+        model.commit([assign("box", "weight", 5.0)])
+    except StoreError as error:
+        tell.send(str(error))
+    try:
+        DiskStore(Path(name) / "new")
+    except StoreError as error:
+        tell.send(str(error))
