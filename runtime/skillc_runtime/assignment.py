@@ -4,25 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import assert_never
+from typing import Literal, assert_never
 
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.tree import Node
-from skillc_runtime.planning.plan import Solved, Step
+from skillc_runtime.planning.choose import Planners, at_hand
+from skillc_runtime.planning.plan import PlanResult, Solved, Step
 from skillc_runtime.planning.problem import GoalError
+from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.plans.body import plan_body
 from skillc_runtime.plans.order import arranged, numbers
+from skillc_runtime.plans.quickest import quickest
 from skillc_runtime.selection.preflight import preflight
 from skillc_runtime.world.state import WorldState
 
 
 @dataclass(frozen=True, slots=True)
 class Reach:
-    """A goal to plan for."""
+    """A goal to plan for, and what the plan is to have little of: work of all robots, or time until it is over."""
 
     goal: Condition
+    minimise: Literal["work", "makespan"] = "work"
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,14 +69,16 @@ class Refused:
     why: str
 
 
-def prepare(assignment: Assignment, library: SkillLibrary, without: Sequence[Step] = ()) -> Prepared | Refused:
+def prepare(
+    assignment: Assignment, library: SkillLibrary, without: Sequence[Step] = (), planners: Planners | None = None
+) -> Prepared | Refused:
     """Plan if there is a goal, and look for everything that would keep the body from running, before anything moves.
 
-    `without` are steps that the plan may not have.
+    `without` are steps that the plan may not have; unless told, those planners are used that are installed.
     """
     match assignment.aim:
-        case Reach(goal):
-            prepared = _planned(assignment, goal, library, without)
+        case Reach():
+            prepared = _planned(assignment, assignment.aim, library, without, planners or at_hand())
         case Perform(body):
             prepared = Prepared(assignment, body, None)
         case _:
@@ -84,10 +90,10 @@ def prepare(assignment: Assignment, library: SkillLibrary, without: Sequence[Ste
 
 
 def _planned(
-    assignment: Assignment, goal: Condition, library: SkillLibrary, without: Sequence[Step]
+    assignment: Assignment, aim: Reach, library: SkillLibrary, without: Sequence[Step], planners: Planners
 ) -> Prepared | Refused:
     try:
-        answer = solve(library, assignment.state, goal, without=without)
+        answer = _answered(assignment, aim, library, without, planners)
     except GoalError as error:
         return Refused(str(error))
     if not isinstance(answer, Solved):
@@ -95,3 +101,16 @@ def _planned(
     arrangement = arranged(answer.plan, library, assignment.state)
     steps = tuple(answer.plan.steps[number] for number in numbers(arrangement))
     return Prepared(assignment, plan_body(answer.plan, arrangement, library), Planned(answer, steps))
+
+
+def _answered(
+    assignment: Assignment, aim: Reach, library: SkillLibrary, without: Sequence[Step], planners: Planners
+) -> PlanResult:
+    match aim.minimise:
+        case "work":
+            return solve(library, assignment.state, aim.goal, planners.for_work, without=without)
+        case "makespan":
+            answer = quickest(library, assignment.state, aim.goal, planners, without=without)
+            return answer.as_solved() if isinstance(answer, Scheduled) else answer
+        case _:
+            assert_never(aim.minimise)

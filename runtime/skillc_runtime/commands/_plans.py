@@ -3,21 +3,40 @@
 from __future__ import annotations
 
 import json
-from typing import assert_never
+from typing import TypeAlias, assert_never
 
+from skillc_compiler.library.conditions import Condition
 from skillc_runtime.commands._mission import Mission
+from skillc_runtime.planning.choose import Planners
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Step, Unsolvable
+from skillc_runtime.planning.problem import GoalError
+from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.planning.solve import solve
+from skillc_runtime.plans.quickest import quickest
+
+Answer: TypeAlias = PlanResult | Scheduled
 
 
-def as_text(answer: PlanResult, mission: Mission) -> str:
-    """Return the steps, one a line, or why there are none."""
+def answer(mission: Mission, goal: Condition, minimise: str, planners: Planners, deadline_s: float) -> Answer:
+    """Plan for a goal: with little work, or to be over early."""
+    library, state = mission.library, mission.assignment.state
+    try:
+        if minimise == "makespan":
+            return quickest(library, state, goal, planners, deadline_s)
+        return solve(library, state, goal, planners.for_work, deadline_s)
+    except GoalError as error:
+        return Unsolvable(str(error))
+
+
+def as_text(answer: Answer, mission: Mission) -> str:
+    """Return the steps, one a line, or why there are none; steps of a schedule with their times."""
     match answer:
-        case Solved(plan=plan, optimal=optimal, planner=planner):
-            quality = "proved optimal" if optimal == "proven" else "best found, not proved optimal"
+        case Solved(plan=plan, planner=planner):
             lines = [f"{number}  {_call(step, mission)}" for number, step in enumerate(plan.steps, 1)]
-            return "\n".join(
-                [*lines, f"{len(plan.steps)} steps, {plan.duration_s:g} s expected, {quality} ({planner})"]
-            )
+            total = f"{len(plan.steps)} steps, {plan.duration_s:g} s expected, {_quality(answer)} ({planner})"
+            return "\n".join([*lines, total])
+        case Scheduled():
+            return _schedule_text(answer, mission)
         case Unsolvable(why=why):
             return f"there is no plan: {why}"
         case GaveUp(why=why):
@@ -26,31 +45,60 @@ def as_text(answer: PlanResult, mission: Mission) -> str:
             assert_never(answer)
 
 
-def as_json(answer: PlanResult, mission: Mission) -> str:
+def _schedule_text(answer: Scheduled, mission: Mission) -> str:
+    timed = answer.schedule.steps
+    lines = [f"{each.start_s:7.1f} s  {each.duration_s:6.1f} s  {_call(each.step, mission)}" for each in timed]
+    over = f"{len(timed)} steps, over after {answer.schedule.makespan_s:g} s with {answer.plan.duration_s:g} s of work"
+    lines.append(f"{over}, {_quality(answer)} ({answer.planner})")
+    lines.append(f"times: {answer.times}")
+    return "\n".join(lines if answer.note is None else [*lines, f"note: {answer.note}"])
+
+
+def _quality(answer: Solved | Scheduled) -> str:
+    if answer.optimal == "proven":
+        return "proved optimal"
+    known = "" if answer.at_least_s is None else f", any plan takes at least {answer.at_least_s:g} s"
+    return f"best found, not proved optimal{known}"
+
+
+def as_json(answer: Answer, mission: Mission) -> str:
     """Return one JSON object: status, steps with source lines, optimality, planner, or the reason."""
+    return json.dumps(_document(answer, mission), indent=2)
+
+
+def _document(answer: Answer, mission: Mission) -> dict[str, object]:
     match answer:
-        case Solved(plan=plan, optimal=optimal, planner=planner):
-            document: dict[str, object] = {
-                "status": "solved",
-                "plan": [
-                    {
-                        "skill": step.skill,
-                        "arguments": _arguments(step, mission),
-                        "source": str(mission.library.skills[step.skill].source),
-                    }
-                    for step in plan.steps
-                ],
-                "plan_optimal": optimal == "proven",
-                "duration_s": plan.duration_s,
-                "planner": planner,
-            }
+        case Solved(plan=plan):
+            steps = [_step(step, mission) for step in plan.steps]
+            return {**_solved(answer, steps), "duration_s": plan.duration_s, "planner": answer.planner}
+        case Scheduled(schedule=schedule, plan=plan):
+            steps = [
+                {**_step(each.step, mission), "start_s": each.start_s, "duration_s": each.duration_s}
+                for each in schedule.steps
+            ]
+            times = {"makespan_s": schedule.makespan_s, "duration_s": plan.duration_s}
+            notes = {"planner": answer.planner, "times": answer.times, "note": answer.note}
+            return {**_solved(answer, steps), **times, **notes}
         case Unsolvable(why=why):
-            document = {"status": "unsolvable", "failure": why}
+            return {"status": "unsolvable", "failure": why}
         case GaveUp(why=why):
-            document = {"status": "gave-up", "failure": why}
+            return {"status": "gave-up", "failure": why}
         case _:
             assert_never(answer)
-    return json.dumps(document, indent=2)
+
+
+def _solved(answer: Solved | Scheduled, steps: list[dict[str, object]]) -> dict[str, object]:
+    return {
+        "status": "solved",
+        "plan": steps,
+        "plan_optimal": answer.optimal == "proven",
+        "at_least_s": answer.at_least_s,
+    }
+
+
+def _step(step: Step, mission: Mission) -> dict[str, object]:
+    source = str(mission.library.skills[step.skill].source)
+    return {"skill": step.skill, "arguments": _arguments(step, mission), "source": source}
 
 
 def _call(step: Step, mission: Mission) -> str:

@@ -16,6 +16,7 @@ from skillc_runtime.assignment import Prepared, prepare
 from skillc_runtime.commands._following import Follower
 from skillc_runtime.commands._live import Live
 from skillc_runtime.commands._mission import Mission
+from skillc_runtime.planning.choose import Planners
 from skillc_runtime.report.result import TaskResult
 from skillc_runtime.report.summary import Choices, summarise
 from skillc_runtime.report.wiping import Wiping, find_wipings
@@ -33,12 +34,13 @@ from skillc_runtime.world.store.store import StoreError
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """How to run: where reports go (None: nowhere), which seed, at which pace, whether to show progress."""
+    """How to run: where reports go (None: nowhere), which seed, at which pace, whether to show progress, who plans."""
 
     out: Path | None = None
     seed: int = 0
     real_time: bool = False
     quiet: bool = False
+    planners: Planners | None = None
 
 
 def run(mission: Mission, options: Options) -> TaskResult:
@@ -46,7 +48,7 @@ def run(mission: Mission, options: Options) -> TaskResult:
     name = mission.assignment.name
     with Live(name, options.quiet, options.real_time) as live:
         live.say("preparing")
-        prepared = prepare(mission.assignment, mission.library)
+        prepared = prepare(mission.assignment, mission.library, planners=options.planners)
         if not isinstance(prepared, Prepared):
             return TaskResult(task=name, status="refused", seed=options.seed, failure=prepared.why)
         live.say("building the simulation")

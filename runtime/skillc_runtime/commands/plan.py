@@ -1,6 +1,7 @@
 """Plan for a task or a goal; nothing moves.
 
-Says whether the plan is proved optimal.
+Says whether the plan is proved optimal: by the time that all steps take together, or by the time at which the last one
+is over.
 
 Exit code 3 when there is no plan.
 """
@@ -12,7 +13,7 @@ from pathlib import Path
 
 import click
 
-from skillc_runtime.commands import _keeping
+from skillc_runtime.commands import _keeping, _planners
 
 SECONDS = click.FloatRange(min=0.1)
 
@@ -23,6 +24,7 @@ SECONDS = click.FloatRange(min=0.1)
 @click.option("--goal", help="The goal, as in a .skill file or as PDDL.")
 @click.option("--library", type=click.Path(path_type=Path), help="The skills to plan with, if not the shipped ones.")
 @_keeping.options
+@_planners.options
 @click.option("--deadline", type=SECONDS, default=30.0, show_default=True, help="Seconds the planner may take.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
 def command(
@@ -32,15 +34,15 @@ def command(
     library: Path | None,
     store: str | None,
     reset: bool,
+    minimise: str,
+    plan_cache: bool,
     deadline: float,
     as_json: bool,
 ) -> None:
     """Plan for TASK (`LIBRARY:NAME`, or a shipped task), or for a goal in a scene."""
     from skillc_runtime.assignment import Reach
     from skillc_runtime.commands import _mission, _plans
-    from skillc_runtime.planning.plan import Solved, Unsolvable
-    from skillc_runtime.planning.problem import GoalError
-    from skillc_runtime.planning.solve import solve
+    from skillc_runtime.planning.plan import GaveUp, Unsolvable
 
     if task is not None and (scene or goal or library):
         raise click.UsageError("a TASK has its own scene, goal and library; leave the options out")
@@ -51,9 +53,6 @@ def command(
     assignment = mission.assignment
     if not isinstance(assignment.aim, Reach):
         raise click.UsageError(f"the task `{assignment.name}` says itself what to do; run it with `skillc run`")
-    try:
-        answer = solve(mission.library, assignment.state, assignment.aim.goal, deadline_s=deadline)
-    except GoalError as error:
-        answer = Unsolvable(str(error))
+    answer = _plans.answer(mission, assignment.aim.goal, minimise, _planners.planners(plan_cache), deadline)
     click.echo(_plans.as_json(answer, mission) if as_json else _plans.as_text(answer, mission))
-    sys.exit(0 if isinstance(answer, Solved) else 3)
+    sys.exit(3 if isinstance(answer, Unsolvable | GaveUp) else 0)

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import click
 
-from skillc_runtime.commands import _keeping
+from skillc_runtime.commands import _keeping, _planners
 
 FOLDER = click.Path(path_type=Path, file_okay=False)
 
@@ -29,6 +29,7 @@ FOLDER = click.Path(path_type=Path, file_okay=False)
     help="A folder for report.html, events.jsonl and the film.",
 )
 @_keeping.options
+@_planners.options
 @click.option("--seed", default=0, show_default=True, help="How reality differs from the world model.")
 @click.option("--real-time", is_flag=True, help="Let simulated time pass no faster than the clock.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
@@ -41,6 +42,8 @@ def command(
     out: Path | None,
     store: str | None,
     reset: bool,
+    minimise: str,
+    plan_cache: bool,
     seed: int,
     real_time: bool,
     as_json: bool,
@@ -54,7 +57,8 @@ def command(
         raise click.UsageError("say either a TASK or --scene FILE (or --store) with --goal TEXT or --skill CALL")
     keeping = _keeping.keeping(store, reset)
     mission = _mission.of_task(task, keeping) if task else _mission.of_scene(scene, goal, skill, library, keeping)
-    result = _running.run(mission, _running.Options(out=out, seed=seed, real_time=real_time, quiet=as_json))
+    options = _running.Options(out, seed, real_time, as_json, _planners.planners(plan_cache))
+    result = _running.run(_planners.aimed(mission, minimise), options)
     if as_json:
         click.echo(_results.as_json(result))
     else:

@@ -1,13 +1,55 @@
-"""Which planner is used: the first of those that are there."""
+"""Which planners are used: those that are there, the strongest first."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from importlib.metadata import version
+
+from skillc_runtime.planning.aries.solver import Aries
+from skillc_runtime.planning.aries.solver import installed as installed_aries
 from skillc_runtime.planning.astar import AStar
-from skillc_runtime.planning.fast_downward import FastDownward, installed
+from skillc_runtime.planning.fast_downward import FastDownward
+from skillc_runtime.planning.fast_downward import installed as installed_fast_downward
 from skillc_runtime.planning.plan import Planner
+from skillc_runtime.planning.process import machine_limits
+from skillc_runtime.planning.remembering import RememberingPlanner, RememberingScheduler, Shelf
+from skillc_runtime.planning.schedule import Scheduler
+
+
+@dataclass(frozen=True, slots=True)
+class Planners:
+    """The planners for the least work, the strongest first, and the one for an early end, if there is one."""
+
+    for_work: tuple[Planner, ...]
+    for_makespan: Scheduler | None
+
+
+def at_hand(shelf: Shelf | None = None) -> Planners:
+    """Return the planners of this installation; what they answer is kept on the shelf and found there again."""
+    return Planners((*_fast_downward(shelf), AStar()), _aries(shelf))
 
 
 def available() -> tuple[Planner, ...]:
-    """Return the planners of this installation, the strongest first; the built-in one is always there."""
-    programs = installed()
-    return (FastDownward(programs), AStar()) if programs else (AStar(),)
+    """Return the planners for the least work, the strongest first; the built-in one is always there."""
+    return at_hand().for_work
+
+
+def _fast_downward(shelf: Shelf | None) -> tuple[Planner, ...]:
+    programs = installed_fast_downward()
+    if programs is None:
+        return ()
+    planner = FastDownward(programs)
+    return (planner if shelf is None else RememberingPlanner(planner, shelf, _who("up-fast-downward")),)
+
+
+def _aries(shelf: Shelf | None) -> Scheduler | None:
+    program = installed_aries()
+    if program is None:
+        return None
+    scheduler = Aries(program)
+    return scheduler if shelf is None else RememberingScheduler(scheduler, shelf, _who("up-aries"))
+
+
+def _who(package: str) -> str:
+    """Return what an answer depends on besides the problem and the time: the program and the memory it may use."""
+    return f"{package} {version(package)}, {machine_limits().memory_bytes} bytes"

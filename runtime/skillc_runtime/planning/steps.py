@@ -18,12 +18,22 @@ def plan_of(problem: Problem, actions: Iterable[tuple[str, ...]]) -> Plan:
     ground = [_action(problem, each) for each in actions]
     values = {(each.function, each.arguments): each.units for each in problem.costs}
     units = sum(_units(action, arguments, values) for action, arguments in ground)
-    steps = tuple(
-        Step(action.skill, dict(zip(action.binds, map(problem.names.__getitem__, arguments), strict=True)))
-        for action, arguments in ground
-        if action.skill is not None
-    )
-    return Plan(steps, units / problem.domain.scale)
+    steps = (_step(problem, *each) for each in ground)
+    return Plan(tuple(step for step in steps if step is not None), units / problem.domain.scale)
+
+
+def step_of(problem: Problem, words: tuple[str, ...]) -> Step | None:
+    """Return the step that an action (name, object ..) stands for, None for one that only says that the goal holds.
+
+    PlanTextError when there is no such action or object.
+    """
+    return _step(problem, *_action(problem, words))
+
+
+def _step(problem: Problem, action: Action, arguments: tuple[str, ...]) -> Step | None:
+    if action.skill is None:
+        return None
+    return Step(action.skill, dict(zip(action.binds, map(problem.names.__getitem__, arguments), strict=True)))
 
 
 def _action(problem: Problem, words: tuple[str, ...]) -> tuple[Action, tuple[str, ...]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.skills import Implementation, Parameter, Requirement, SkillLibrary
@@ -50,7 +50,7 @@ def reached(goal: Condition, state: WorldState) -> WorldState:
 def after_step(step: Step, library: SkillLibrary, state: WorldState) -> WorldState:
     """Return the world after one step; PlanError when it cannot start, or when its effects break an axiom."""
     try:
-        _check(step, library, state)
+        fitting(step, library, state)
         return with_effects(step, library, state)
     except (EvaluationError, WorldError) as reason:
         raise PlanError(str(reason)) from reason
@@ -73,20 +73,43 @@ def bindings_of(step: Step, library: SkillLibrary, state: WorldState) -> Binding
     return _bindings(library.skills[step.skill].parameters, step, state)
 
 
-def _check(step: Step, library: SkillLibrary, state: WorldState) -> None:
+def fitting(step: Step, library: SkillLibrary, state: WorldState) -> tuple[Implementation, ...]:
+    """Return the implementations with which a step can start; PlanError when it cannot, EvaluationError."""
     skill = library.skills.get(step.skill)
     if skill is None:
         raise PlanError("there is no such skill")
     bindings = _bindings(skill.parameters, step, state)
     for problem in _problems(skill.parameters, (*skill.pre, *skill.hold), bindings, state):
         raise PlanError(problem)
+    found: list[Implementation] = []
     refusals: list[str] = []
     for implementation in library.implementations_of(skill.name):
         misfit = next(_implementation_problems(implementation, step, state), None)
         if misfit is None:
-            return
-        refusals.append(f"{implementation.name}: {misfit}")
-    raise PlanError("no implementation fits: " + "; ".join(refusals))
+            found.append(implementation)
+        else:
+            refusals.append(f"{implementation.name}: {misfit}")
+    if not found:
+        raise PlanError("no implementation fits: " + "; ".join(refusals))
+    return tuple(found)
+
+
+def still_held(
+    step: Step, begun: Sequence[Implementation], library: SkillLibrary, state: WorldState
+) -> tuple[Implementation, ...]:
+    """Return those implementations of which all hold conditions hold; PlanError when there is none, EvaluationError."""
+    skill = library.skills[step.skill]
+    for lost in _problems((), skill.hold, _bindings(skill.parameters, step, state), state):
+        raise PlanError(lost)
+    losses = {each.name: next(_losses(each, step, state), None) for each in begun}
+    held = tuple(each for each in begun if losses[each.name] is None)
+    if not held:
+        raise PlanError("; ".join(f"{name}: {loss}" for name, loss in losses.items()))
+    return held
+
+
+def _losses(implementation: Implementation, step: Step, state: WorldState) -> Iterator[str]:
+    yield from _problems((), implementation.hold, _bindings(implementation.parameters, step, state), state)
 
 
 def _implementation_problems(implementation: Implementation, step: Step, state: WorldState) -> Iterator[str]:

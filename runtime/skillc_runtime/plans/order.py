@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -40,16 +40,18 @@ def arranged(plan: Plan, library: SkillLibrary, state: WorldState) -> Arrangemen
     the same device: a partial order in which every sequence of the steps has the same effect (Bäckström 1998, block
     deordering without blocks). PlanError when the plan does not work from this version of the world.
     """
+    earlier = waited_for(plan, library, state)
+    return arrange(range(len(earlier)), lambda one, other: one in earlier[other])
+
+
+def waited_for(plan: Plan, library: SkillLibrary, state: WorldState) -> tuple[frozenset[int], ...]:
+    """Return for each step the earlier ones that have to be over first; PlanError when the plan does not work."""
     touched = _touched(plan.steps, library, state)
-
-    def waits(late: int, early: int) -> bool:
-        return early < late and touched[early].conflicts(touched[late])
-
     earlier: list[frozenset[int]] = []
     for late in range(len(touched)):
-        direct = [early for early in range(late) if waits(late, early)]
+        direct = [early for early in range(late) if touched[early].conflicts(touched[late])]
         earlier.append(frozenset(direct).union(*(earlier[each] for each in direct)))
-    return arrange(range(len(touched)), lambda one, other: one in earlier[other])
+    return tuple(earlier)
 
 
 def arrange(steps: Sequence[int], before: Callable[[int, int], bool]) -> Arrangement:
@@ -98,20 +100,23 @@ def _touched(steps: Iterable[Step], library: SkillLibrary, state: WorldState) ->
     found = []
     for step in steps:
         after = after_step(step, library, state)
-        found.append(
-            Touched(
-                reads=frozenset(
-                    fact for each in _conditions(step, library) for fact in read_by(each, step.arguments, state)
-                ),
-                changes=frozenset(changed_between(state, after)),
-                settles=frozenset(
-                    fact for each in effects_of(step, library, state) for fact in settled_by(each, state)
-                ),
-                devices=frozenset(step.arguments[name] for name in locked[step.skill] if name in step.arguments),
-            )
-        )
+        found.append(touched_by(step, library, locked, state, after))
         state = after
     return found
+
+
+def touched_by(
+    step: Step, library: SkillLibrary, locked: Mapping[str, tuple[str, ...]], before: WorldState, after: WorldState
+) -> Touched:
+    """Return what a step touches that leads from one version of the world to another; `locked` as of `devices`."""
+    reads = (fact for each in _conditions(step, library) for fact in read_by(each, step.arguments, before))
+    settles = (fact for each in effects_of(step, library, before) for fact in settled_by(each, before))
+    return Touched(
+        reads=frozenset(reads),
+        changes=frozenset(changed_between(before, after)),
+        settles=frozenset(settles),
+        devices=frozenset(step.arguments[name] for name in locked[step.skill] if name in step.arguments),
+    )
 
 
 def _conditions(step: Step, library: SkillLibrary) -> Iterator[Condition]:

@@ -61,6 +61,17 @@ class Touched:
             or _meet(other.changes, self.reads)
         )
 
+    def is_disturbed_by(self, other: Touched) -> bool:
+        """Whether the other changes what this one reads."""
+        return _meet(other.changes, self.reads)
+
+    def shares_with(self, other: Touched) -> str | None:
+        """Return what the two cannot have both at the same time, in words: a device, or facts that both settle."""
+        common = self.devices & other.devices
+        if common:
+            return f"both lock {', '.join(sorted(common))}"
+        return "both settle the same facts" if _meet(self.settles, other.settles) else None
+
 
 def _meet(some: Iterable[Fact], others: Iterable[Fact]) -> bool:
     others = tuple(others)

@@ -149,22 +149,23 @@ def effect_text(change: Change) -> str:
     return f"(forall ({declared_text(change.variables)}) {effect})" if change.variables else effect
 
 
+def used_up(change: Change, action: Action) -> bool:
+    """Whether an action that takes time deletes at its start what it reads there and does not need to its end."""
+    deleted = not change.positive and change.condition == TRUE and not change.variables
+    return deleted and change.atom in conjuncts(action.precondition) and change.atom not in atoms(action.hold)
+
+
 def _durative(change: Change, action: Action) -> str:
     """Return one effect of a durative action, at its end; but what it needs at its start and uses up is gone at once.
 
     Otherwise two actions that overlap could use up the same thing.
     """
-    if _used_up(change, action):
+    if used_up(change, action):
         return f"(at start {_literal(change)})"
     effect = f"(at end {_literal(change)})"
     if change.condition != TRUE:
         effect = f"(when (at end {formula_text(change.condition)}) {effect})"
     return f"(forall ({declared_text(change.variables)}) {effect})" if change.variables else effect
-
-
-def _used_up(change: Change, action: Action) -> bool:
-    deleted = not change.positive and change.condition == TRUE and not change.variables
-    return deleted and change.atom in conjuncts(action.precondition) and change.atom not in atoms(action.hold)
 
 
 def _literal(change: Change) -> str:

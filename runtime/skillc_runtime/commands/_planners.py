@@ -1,0 +1,52 @@
+"""The options that say how plans are found; nothing heavy is imported here."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+if TYPE_CHECKING:
+    from skillc_runtime.commands._mission import Mission
+    from skillc_runtime.planning.choose import Planners
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+MEASURES = ("work", "makespan")
+
+
+def options(command: Command) -> Command:
+    """Add `--minimise` and `--no-plan-cache` to a command, which gets them as `minimise` and `plan_cache`."""
+    cache = click.option(
+        "--plan-cache/--no-plan-cache", default=True, help="Take plans that were found before for the same problem."
+    )
+    measure = click.option(
+        "--minimise",
+        type=click.Choice(MEASURES),
+        default=MEASURES[0],
+        show_default=True,
+        help="The time that all steps take together, or the time until the last one is over.",
+    )
+    return cache(measure(command))
+
+
+def planners(plan_cache: bool) -> Planners:
+    """Return the planners of this installation, with the answers that they gave before."""
+    from skillc_runtime.commands._shelf import user_shelf
+    from skillc_runtime.planning.choose import at_hand
+
+    return at_hand(user_shelf() if plan_cache else None)
+
+
+def aimed(mission: Mission, minimise: str) -> Mission:
+    """Return a mission whose plan is to have little of that; UsageError where there is nothing to plan."""
+    from skillc_runtime.assignment import Reach
+
+    if minimise == "work":
+        return mission
+    if not isinstance(mission.assignment.aim, Reach):
+        raise click.UsageError(f"`{mission.assignment.name}` says itself what to do: there is no plan to minimise")
+    aim = Reach(mission.assignment.aim.goal, "makespan")
+    return replace(mission, assignment=replace(mission.assignment, aim=aim))

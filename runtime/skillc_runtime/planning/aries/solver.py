@@ -1,0 +1,126 @@
+"""Asks aries for a schedule that is over early: with one instance of each action, with two, and so on."""
+
+from __future__ import annotations
+
+import platform
+import re
+import time
+from dataclasses import dataclass
+from importlib.util import find_spec
+from itertools import count
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from skillc_compiler.library.pddl.problem import Problem
+from skillc_runtime.planning.aries.flat import FlatProblem, NotTemporal, flattened
+from skillc_runtime.planning.aries.messages import action_name, problem_message
+from skillc_runtime.planning.plan import GaveUp
+from skillc_runtime.planning.process import Ended, Limits, NotStarted, OutOfTime, Run, Running, machine_limits, wait
+from skillc_runtime.planning.schedule import Schedule, TimedStep
+from skillc_runtime.planning.steps import PlanTextError, step_of
+
+PROGRAMS = {
+    ("Linux", "x86_64"): "up-aries_linux_amd64",
+    ("Darwin", "x86_64"): "up-aries_macos_amd64",
+    ("Darwin", "arm64"): "up-aries_macos_arm64",
+}
+GRACE_S = 0.5
+"""Told to stop, it gets so long to print the best that it has found."""
+
+_ENVIRONMENT = {"ARIES_LCP_SYMMETRY_BREAKING": "simple"}
+"""Its own choice of how to break symmetries makes version 0.5.0 panic on many problems."""
+
+_NOTHING = "NO PLAN"
+_LINE = re.compile(r"^ *(\d+\.?\d*): \((\S+)((?: [^\s()]+)*)\) \[(\d+\.?\d*)\]$", re.MULTILINE)
+
+
+def installed() -> str | None:
+    """Return the program in the installed package, None where there is none; nothing of it is imported."""
+    package, name = find_spec("up_aries"), PROGRAMS.get((platform.system(), platform.machine()))
+    if package is None or package.origin is None or name is None:
+        return None
+    program = Path(package.origin).parent / "bin" / name
+    return str(program) if program.is_file() else None
+
+
+@dataclass(frozen=True, slots=True)
+class _Nothing:
+    """There is no schedule with so few instances of each action."""
+
+
+class Aries:
+    """Runs the program in a temporary folder; what it prints is a schedule only once somebody has checked it."""
+
+    name = "aries"
+
+    def __init__(self, program: str, limits: Limits | None = None) -> None:
+        self._program = program
+        self._limits = limits or machine_limits()
+
+    def schedule(self, problem: Problem, deadline_s: float) -> Schedule | GaveUp:
+        """Return the best schedule found within so many seconds; searching ends when one more instance is no help."""
+        end = time.monotonic() + deadline_s
+        try:
+            flat = flattened(problem)
+            with TemporaryDirectory(prefix="skillc-plan-", ignore_cleanup_errors=True) as folder:
+                (Path(folder) / "problem.upp").write_bytes(problem_message(flat))
+                return self._deeper_and_deeper(flat, Path(folder), end)
+        except NotTemporal as why:
+            return GaveUp(f"aries does not take the problem: {why}")
+        except OSError as error:
+            return GaveUp(f"aries has no place to work in: {error.filename}: {error.strerror}")
+
+    def _deeper_and_deeper(self, flat: FlatProblem, folder: Path, end: float) -> Schedule | GaveUp:
+        answer: Schedule | _Nothing | GaveUp = _Nothing()
+        depths = count(1)
+        while isinstance(answer, _Nothing):
+            answer = self._of_depth(next(depths), flat, folder, end)
+        while isinstance(answer, Schedule):
+            deeper = self._of_depth(next(depths), flat, folder, end)
+            if not isinstance(deeper, Schedule) or deeper.makespan_s >= answer.makespan_s:
+                return answer
+            answer = deeper
+        return answer
+
+    def _of_depth(self, depth: int, flat: FlatProblem, folder: Path, end: float) -> Schedule | _Nothing | GaveUp:
+        seconds = int(end - time.monotonic())
+        if seconds < 1:
+            return GaveUp("aries gave up: its time was up")
+        searching = ("solve", "--optimal", "--min-depth", str(depth), "--max-depth", str(depth))
+        command = (self._program, "--log-level", "error", *searching, "--timeout", str(seconds), "problem.upp")
+        with Running(command, folder, "said.txt", self._limits, environment=_ENVIRONMENT) as search:
+            wait((search,), end + GRACE_S)
+            return _understood(search.outcome(), flat)
+
+
+def _understood(outcome: Run, flat: FlatProblem) -> Schedule | _Nothing | GaveUp:
+    match outcome:
+        case Ended(0, said) if _LINE.search(said):
+            return _schedule(said, flat)
+        case Ended(0, said) if _NOTHING in said:
+            return _Nothing()
+        case Ended(code, said):
+            panic = next((line for line in said.splitlines() if "panicked" in line), outcome.last_line)
+            how = f"was ended by signal {-code}" if code < 0 else f"ended with code {code}, saying: {panic}"
+            return GaveUp(f"aries gave up: it {how}")
+        case NotStarted(why):
+            return GaveUp(f"aries cannot be started ({why})")
+        case OutOfTime():
+            return GaveUp("aries gave up: its time was up")
+
+
+def _schedule(said: str, flat: FlatProblem) -> Schedule | GaveUp:
+    """Return the schedule that was printed, units as seconds."""
+    actions = {action_name(index): each.action for index, each in enumerate(flat.actions)}
+    steps = []
+    for start, name, words, duration in _LINE.findall(said):
+        if name not in actions:
+            return GaveUp(f"aries wrote something that is no plan: `{name}` is no action of the problem")
+        action, scale = actions[name], flat.problem.domain.scale
+        try:
+            step = step_of(flat.problem, (action.name, *words.split()[: len(action.parameters)]))
+        except PlanTextError as error:
+            return GaveUp(f"aries wrote something that is no plan: {error}")
+        if step is not None:
+            steps.append(TimedStep(step, float(start) / scale, float(duration) / scale))
+    return Schedule(tuple(sorted(steps, key=lambda each: each.start_s)))

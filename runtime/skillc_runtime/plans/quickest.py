@@ -1,0 +1,163 @@
+"""From a goal to a checked schedule that is over early: steps of different robots side by side."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+from skillc_compiler.library.conditions import Condition
+from skillc_compiler.library.pddl.devices import devices
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.planning.busy import work_of
+from skillc_runtime.planning.choose import Planners
+from skillc_runtime.planning.narrowing import NARROW
+from skillc_runtime.planning.plan import GaveUp, Plan, Planner, Solved, Step, Unsolvable
+from skillc_runtime.planning.problem import Posed, pose_problem
+from skillc_runtime.planning.schedule import Schedule, Scheduled, Scheduler
+from skillc_runtime.planning.solve import DEADLINE_S, solve
+from skillc_runtime.planning.validate import PlanError, validate
+from skillc_runtime.plans.rehearsal import rehearse
+from skillc_runtime.plans.scheduling import scheduled
+from skillc_runtime.world.state import WorldState
+
+BY_LINKS = "each step begins as soon as those are over that it waits for"
+SHARE = 0.5
+"""The plan with the least work gets this share of the time, one that is over earlier what is left."""
+BOUND_S = 4.0
+"""Finding out how long a device must be at work takes no longer than this."""
+TOLERANCE_S = 1e-6
+
+ScheduleResult: TypeAlias = Scheduled | Unsolvable | GaveUp
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """What is asked for: the goal, in which world, with which skills but without some steps, by a monotonic time."""
+
+    library: SkillLibrary
+    state: WorldState
+    goal: Condition
+    without: tuple[Step, ...]
+    end: float
+
+    @property
+    def left_s(self) -> float:
+        """The time that is left, in seconds."""
+        return max(self.end - time.monotonic(), 0.0)
+
+
+def quickest(
+    library: SkillLibrary,
+    state: WorldState,
+    goal: Condition,
+    planners: Planners,
+    deadline_s: float = DEADLINE_S,
+    without: Sequence[Step] = (),
+) -> ScheduleResult:
+    """Return a plan with times from a version of the world to the goal; each was played in the world model first.
+
+    The plan with the least work is scheduled; where that cannot be proven to be over first, the scheduler looks for a
+    better one. Without it, or if it fails, the answer says so. GoalError when the goal cannot be planned for.
+    """
+    question = Question(library, state, goal, tuple(without), time.monotonic() + deadline_s)
+    least = solve(library, state, goal, planners.for_work, SHARE * deadline_s, without)
+    if isinstance(least, Unsolvable):
+        return least
+    posed = pose_problem(library, state, goal, without, NARROW)
+    question = replace(question, library=posed.library)
+    first = _by_links(least, question) if isinstance(least, Solved) else least
+    if isinstance(first, Scheduled):
+        at_least_s = 0.0 if posed.narrowed else _at_least_s(posed, first.schedule, planners.for_work[0], question)
+        first = _rated(replace(first, left_out=posed.left_out), at_least_s)
+        if first.optimal == "proven":
+            return first
+    return _better(first, planners.for_makespan, posed, question)
+
+
+def _by_links(solved: Solved, question: Question) -> Scheduled | GaveUp:
+    try:
+        schedule = scheduled(solved.plan, question.library, question.state)
+        rehearse(schedule, question.library, question.state, question.goal)
+    except PlanError as error:
+        return GaveUp(f"{solved.planner} returned a plan that does not work: {error}")
+    return Scheduled(schedule, solved.plan, "best found", solved.planner, BY_LINKS)
+
+
+def _better(
+    first: Scheduled | GaveUp, scheduler: Scheduler | None, posed: Posed, question: Question
+) -> Scheduled | GaveUp:
+    """Return what the scheduler finds if that is over earlier than the first schedule, else that with a note."""
+    if scheduler is None:
+        return _noted(first, "a temporal planner may find a better one: pip install 'skillc[temporal]'")
+    answer = scheduler.schedule(posed.problem, question.left_s)
+    if isinstance(answer, GaveUp):
+        return _noted(first, answer.why)
+    try:
+        rehearse(answer, question.library, question.state, question.goal)
+        plan, tight = _tightened(answer, question)
+    except PlanError as error:
+        return _noted(first, f"{scheduler.name} returned a schedule that does not work: {error}")
+    if isinstance(first, Scheduled) and tight.makespan_s >= first.schedule.makespan_s - TOLERANCE_S:
+        return _noted(first, f"{scheduler.name} found none that is over earlier")
+    at_least_s = first.at_least_s if isinstance(first, Scheduled) else None
+    found = Scheduled(tight, plan, "best found", scheduler.name, scheduler.name, left_out=posed.left_out)
+    return _rated(found, at_least_s or 0.0)
+
+
+def _noted(answer: Scheduled | GaveUp, note: str) -> Scheduled | GaveUp:
+    if isinstance(answer, GaveUp):
+        return GaveUp(f"{answer.why}; {note}")
+    return replace(answer, note=note)
+
+
+def _tightened(schedule: Schedule, question: Question) -> tuple[Plan, Schedule]:
+    """Return the steps in an order that works one after the other, and with the earliest times that it allows.
+
+    A temporal planner leaves gaps between steps, and times that meet in other ways than steps that run can.
+    """
+    library, state, goal = question.library, question.state, question.goal
+    work_s = sum(each.duration_s for each in schedule.steps)
+    by_begin = tuple(each.step for each in schedule.steps)
+    by_end = tuple(each.step for each in sorted(schedule.steps, key=lambda each: each.end_s))
+    try:
+        plan = Plan(by_begin, work_s)
+        validate(plan, library, state, goal)
+    except PlanError:
+        plan = Plan(by_end, work_s)
+        validate(plan, library, state, goal)
+    tight = scheduled(plan, library, state)
+    rehearse(tight, library, state, goal)
+    return plan, tight
+
+
+def _rated(answer: Scheduled, at_least_s: float) -> Scheduled:
+    if answer.schedule.makespan_s <= at_least_s + TOLERANCE_S:
+        return replace(answer, optimal="proven")
+    return replace(answer, at_least_s=at_least_s or None)
+
+
+def _at_least_s(posed: Posed, schedule: Schedule, planner: Planner, question: Question) -> float:
+    """Return a time that every plan takes, in seconds: that which the busiest device must be at work."""
+    end, bound = time.monotonic() + min(BOUND_S, question.left_s), 0.0
+    names = {iri: name for name, iri in posed.problem.names.items()}
+    for device, busy_s in _work_s(schedule, question.library):
+        if busy_s <= bound:  # it need not work longer than it does here
+            break
+        answer = planner.plan(work_of(posed.problem, names[device]), max(end - time.monotonic(), 0.0))
+        if isinstance(answer, Solved):
+            known = answer.plan.duration_s if answer.optimal == "proven" else answer.at_least_s
+            bound = max(bound, known or 0.0)
+    return bound
+
+
+def _work_s(schedule: Schedule, library: SkillLibrary) -> Iterator[tuple[str, float]]:
+    """Yield the devices (IRIs) that a schedule locks and for how long, the busiest first."""
+    locked, found = devices(library), dict[str, float]()
+    for each in schedule.steps:
+        for name in locked[each.step.skill]:
+            if name in each.step.arguments:
+                device = each.step.arguments[name]
+                found[device] = found.get(device, 0.0) + each.duration_s
+    yield from sorted(found.items(), key=lambda each: (-each[1], each[0]))
