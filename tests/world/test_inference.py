@@ -23,7 +23,8 @@ def test_no_parameters_need_no_answer() -> None:
 def test_the_requirement_that_left_none_is_named_with_what_holds_instead() -> None:
     state = SCENE.changed([fact("gripper", "contain", "box")])
     answer = infer(WANTED, PICK, BINDINGS, state)
-    assert answer == NoneFound(EMPTY, "t:gripper contain t:box; needed: nothing")
+    assert isinstance(answer, NoneFound)
+    assert (answer.requirement, answer.reason) == (EMPTY, "t:gripper contain t:box; needed: nothing")
     answer = infer(WANTED, PICK, {**BINDINGS, "object": iri("robot")}, SCENE)
     assert isinstance(answer, NoneFound) and answer.requirement == THERE
     assert answer.reason.endswith("nothing has the relation contain to t:robot")
@@ -31,7 +32,32 @@ def test_the_requirement_that_left_none_is_named_with_what_holds_instead() -> No
 
 def test_an_answer_of_another_class_is_none() -> None:
     answer = infer(WANTED, PICK, BINDINGS, SCENE.changed([fact("robot", "contain", "eraser")]))
-    assert answer == NoneFound(THERE, "t:robot contain t:eraser; needed: a t:Location contain t:eraser")
+    assert isinstance(answer, NoneFound) and answer.requirement == THERE
+    assert answer.reason == "t:robot contain t:eraser; needed: a t:Location contain t:eraser"
+
+
+def test_what_is_of_another_is_named_as_the_nearest() -> None:
+    changes = (individual("arm-2", "Arm"), individual("gripper-2", "Gripper"), fact("arm-2", "hasGripper", "gripper-2"))
+    state = SCENE.changed([*changes, individual("arm-3", "Arm"), fact("gripper", "contain", "box")])
+    answer = infer(WANTED, PICK, {**BINDINGS, "arm": iri("arm-3")}, state)
+    assert isinstance(answer, NoneFound) and answer.requirement == MOUNTED
+    (near,) = answer.nearest
+    assert (near.requirement, near.about, near.bindings["gripper"]) == (MOUNTED, ("gripper",), iri("gripper-2"))
+    assert near.reason == "t:arm-2 hasA t:gripper-2; needed: t:arm-3 hasA t:gripper-2"
+
+
+def test_what_is_of_another_class_is_named_as_the_nearest() -> None:
+    answer = infer(WANTED, PICK, BINDINGS, SCENE.changed([fact("robot", "contain", "eraser")]))
+    assert isinstance(answer, NoneFound)
+    other = [near.reason for near in answer.nearest if near.requirement is None]
+    assert other == ["t:robot is a t:Robot; needed: t:Location"]
+
+
+def test_what_many_would_do_for_is_near_to_none() -> None:
+    crowd = SCENE.changed([individual(f"place-{n}", "Location") for n in range(9)])
+    for state, count in ((SCENE, 1), (crowd, 0)):
+        answer = infer(WANTED, PICK, {**BINDINGS, "object": iri("robot")}, state)
+        assert isinstance(answer, NoneFound) and len(answer.nearest) == count
 
 
 def test_a_class_without_individuals_is_named() -> None:

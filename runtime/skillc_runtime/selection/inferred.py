@@ -12,8 +12,12 @@ from skillc_runtime.trace.failure import Rejected
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.explain import explain
 from skillc_runtime.world.inference import Ambiguous, Binding, Found, NoneFound, infer
+from skillc_runtime.world.nearest import NearMiss
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
+
+NEAREST = 2
+"""So many near misses are named in words."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,8 +37,8 @@ def infer_parameters(
     match infer(wanted, implementation.pre, bindings, state):
         case Found(bindings=found, others=others):
             return Inferred(found, _others(found, others), _passed_over(found, others, state.vocabulary))
-        case NoneFound(requirement=requirement, reason=reason):
-            return _none(implementation, wanted, requirement, reason)
+        case NoneFound() as none:
+            return _none_found(implementation, wanted, none, state.vocabulary)
         case Ambiguous(candidates=candidates):
             return _ambiguous(implementation, wanted, candidates, state.vocabulary)
 
@@ -70,8 +74,8 @@ def infer_fixed(
             if any(len({answer[p.name] for answer in candidates}) > 1 and not p.any_ for p in settled):
                 return _ambiguous(implementation, settled, candidates, state.vocabulary)
             return bindings | _agreed(candidates)
-        case NoneFound(requirement=broken, reason=reason):
-            return _none(implementation, linked, broken, reason)
+        case NoneFound() as none:
+            return _none_found(implementation, linked, none, state.vocabulary)
 
 
 def _wanted(implementation: Implementation, known: Set[str]) -> list[Parameter]:
@@ -121,6 +125,23 @@ def _none(
     return Rejected(
         implementation=implementation.name, stage="inference" if wanted else "pre", reason=about + reason, source=source
     )
+
+
+def _none_found(
+    implementation: Implementation, wanted: Sequence[Parameter], none: NoneFound, vocabulary: Vocabulary
+) -> Rejected:
+    """Say what left none and, where that says more, what came nearest: first what meets all the rest."""
+    near = [miss for miss in none.nearest if miss.reason != none.reason]
+    near.sort(key=lambda miss: miss.requirement is not none.requirement)
+    shown = "; or ".join(_near(miss, none.requirement, vocabulary) for miss in near[:NEAREST])
+    reason = f"{none.reason}; nearest: {shown}" if shown else none.reason
+    return _none(implementation, wanted, none.requirement, reason)
+
+
+def _near(miss: NearMiss, told: Requirement | None, vocabulary: Vocabulary) -> str:
+    who = ", ".join(f"{name} = {vocabulary.short(miss.bindings[name])}" for name in miss.about)
+    other = f"for `{miss.requirement.text}`, " if miss.requirement is not None and miss.requirement is not told else ""
+    return f"{who}, but {other}{miss.reason}"
 
 
 def _ambiguous(

@@ -13,6 +13,7 @@ from skillc_compiler.library.vocabulary import ClassType
 from skillc_runtime.world.explain import explain
 from skillc_runtime.world.expressions import Bindings, EvaluationError
 from skillc_runtime.world.join import solutions
+from skillc_runtime.world.nearest import NearMiss, nearest
 from skillc_runtime.world.state import WorldState
 
 Binding: TypeAlias = dict[str, str]
@@ -29,10 +30,14 @@ class Found:
 
 @dataclass(frozen=True, slots=True)
 class NoneFound:
-    """No answer: the requirement that left none (None where a class has no individual), and why in words."""
+    """No answer: the requirement that left none (None where a class has no individual), and why in words.
+
+    `nearest` are individuals that would do but for one thing.
+    """
 
     requirement: Requirement | None
     reason: str
+    nearest: tuple[NearMiss, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,14 +86,15 @@ def _why_none(
     """Add one requirement after the other until none is left, and explain the last one on what was left before it."""
     for name, cls in variables.items():
         if not state.instances(cls):
-            return NoneFound(None, f"`{name}`: there is no {state.vocabulary.short(cls)} in the world model")
-    nearest, linked = _first(variables, (), bindings, state) or {}, frozenset[str]()
+            reason = f"`{name}`: there is no {state.vocabulary.short(cls)} in the world model"
+            return NoneFound(None, reason, nearest(variables, requirements, bindings, state))
+    before, linked = _first(variables, (), bindings, state) or {}, frozenset[str]()
     for count, requirement in enumerate(requirements, start=1):
         left = _first(variables, [each.condition for each in requirements[:count]], bindings, state)
         if left is None:
-            scope = {**bindings, **nearest}
-            return NoneFound(requirement, _explained(requirement.condition, linked, variables, scope, state))
-        nearest = left
+            reason = _explained(requirement.condition, linked, variables, {**bindings, **before}, state)
+            return NoneFound(requirement, reason, nearest(variables, requirements, bindings, state))
+        before = left
         linked |= free_variables(requirement.condition)
     raise AssertionError("there is an answer after all")
 

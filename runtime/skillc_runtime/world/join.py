@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import repeat
 
 from skillc_compiler.library.conditions import And, Anything, Condition, Holds, Individual, Term, Variable
 from skillc_compiler.library.reading import free_variables
@@ -14,17 +15,24 @@ from skillc_runtime.world.values import Value
 
 
 def solutions(
-    variables: Mapping[str, str], conditions: Iterable[Condition], bindings: Bindings, state: WorldState
+    variables: Mapping[str, str],
+    conditions: Iterable[Condition],
+    bindings: Bindings,
+    state: WorldState,
+    most_tried: int | None = None,
 ) -> Iterator[dict[str, str]]:
     """Yield each way to bind the variables (name to class) under which all conditions about them hold.
 
-    The order is the same every time. Conditions that speak of none of the variables are not looked at.
-    EvaluationError as in `evaluate`.
+    The order is the same every time. Conditions that speak of none of the variables are not looked at. After looking
+    at `most_tried` individuals it ends. EvaluationError as in `evaluate`.
     """
-    filters = [_filter(part, variables) for condition in conditions for part in _parts(condition)]
-    relevant = tuple(each for each in filters if each.about)
+    relevant = (condition for condition in conditions if not free_variables(condition).isdisjoint(variables))
+    filters = [_filter(part, variables) for condition in relevant for part in _parts(condition)]
     scope = {**bindings, **dict.fromkeys(variables)}
-    yield from _extended(dict(variables), relevant, scope, state)
+    if not all(each.test(state, scope) for each in filters if not each.about):
+        return
+    tries = repeat(True) if most_tried is None else repeat(True, most_tried)
+    yield from _extended(dict(variables), tuple(filters), scope, state, tries)
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +57,11 @@ def _parts(condition: Condition) -> Iterator[Condition]:
 
 
 def _extended(
-    left: dict[str, str], filters: tuple[_Filter, ...], scope: dict[str, Value | None], state: WorldState
+    left: dict[str, str],
+    filters: tuple[_Filter, ...],
+    scope: dict[str, Value | None],
+    state: WorldState,
+    tries: Iterator[bool],
 ) -> Iterator[dict[str, str]]:
     """Bind the variable with the fewest candidates, then the others, testing each condition as soon as it is bound."""
     if not left:
@@ -61,10 +73,12 @@ def _extended(
     ready = tuple(each.test for each in filters if name in each.about and each.about.isdisjoint(rest))
     cls = left[name]
     for individual in sorted(found[name]):
+        if not next(tries, False):
+            break
         if state.is_a(individual, cls):
             scope[name] = individual
             if all(test(state, scope) for test in ready):
-                for others in _extended(rest, filters, scope, state):
+                for others in _extended(rest, filters, scope, state, tries):
                     yield {name: individual, **others}
     scope[name] = None
 
