@@ -90,7 +90,9 @@ def _tell_plan(prepared: Prepared, setting: Setting) -> None:
         for step in solved.plan.steps
     )
     now, cost = setting.cell.now, solved.plan.duration_s
-    made = PlanMade(time=now, planner=solved.planner, optimal=solved.optimal, cost=cost, steps=steps)
+    short = setting.library.vocabulary.short
+    names = {iri: short(iri) for step in steps for iri in step.arguments.values()}
+    made = PlanMade(time=now, planner=solved.planner, optimal=solved.optimal, cost=cost, steps=steps, names=names)
     Listeners(setting.listeners)(made)
 
 

@@ -123,10 +123,12 @@ LINE = Position("depot.skill", 5, 1)
 GO = PlanStep(skill="Go", arguments={"to": "http://example.org/lab#b"}, source=LINE)
 STAY = PlanStep(skill="Go", arguments={"to": "http://example.org/lab#a"}, source=LINE)
 
+NAMES = {"http://example.org/lab#a": "lab:a", "http://example.org/lab#b": "lab:b"}
+
 
 def planned(*events: Event) -> Story:
     """Return the story of a plan to go to b and to a."""
-    plan = PlanMade(time=0.0, planner="test", optimal="", cost=1.0, steps=(GO, STAY))
+    plan = PlanMade(time=0.0, planner="test", optimal="", cost=1.0, steps=(GO, STAY), names=NAMES)
     return known(story_of([BEGIN, plan, *events]))
 
 
@@ -152,8 +154,8 @@ def test_planned_steps_find_their_calls_by_their_arguments() -> None:
 def test_a_step_whose_purpose_holds_is_skipped_and_one_that_was_not_reached_never_started() -> None:
     story = planned(node(1, 0, "if"), ended(1))
     assert [(step.status, step.bindings) for step in steps_of(story)] == [
-        ("skipped", {"to": "b"}),
-        ("not started", {"to": "a"}),
+        ("skipped", {"to": "lab:b"}),
+        ("not started", {"to": "lab:a"}),
     ]
 
 

@@ -36,7 +36,7 @@ def told(run: Path) -> Story:
 
 def _missing(run: Path) -> str:
     if not run.is_dir():
-        return f"there is no {run}; `skillc run TASK --out DIR` records a run in DIR"
+        return f"there is no {run}; `skillc run TASK --out DIR` records a run in DIR, unless it is refused"
     others = sorted(str(each.parent) for each in run.glob(f"*/{NAME}"))
     if others:
         return f"{run} has no {NAME}; there are recordings in {', '.join(others)}"

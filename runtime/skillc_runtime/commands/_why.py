@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain as together
 
 import msgspec
@@ -27,7 +27,7 @@ def overview(story: Story, run: str) -> str:
     for attempt in story.attempts:
         lines += _attempt(attempt)
     if story.failure is not None:
-        lines += ["", f"why: {story.failure.message}", *_indented(_chain(story.chain))]
+        lines += ["", f"why: {story.failure.message}", *_indented(_chain(story.chain, story.failure.message))]
     lines += ["", f"Ask about a step, a skill or a parameter: `skillc why {run} {_example(story)}`"]
     return "\n".join(lines)
 
@@ -56,7 +56,7 @@ def _attempt(attempt: Attempt) -> Iterator[str]:
         yield f"plan of {count} by {attempt.planner}{proved}, {attempt.cost:g} s expected"
     for step in attempt.steps:
         yield _line(step)
-        yield f"       {_arguments(step)}"
+        yield from _indented(filter(None, [_arguments(step)]), 7)
 
 
 def _arguments(call: Call) -> str:
@@ -105,10 +105,10 @@ def _never(call: Call) -> Iterator[str]:
 def _choice(call: Call) -> Iterator[str]:
     if call.implementation:
         yield f"chosen: {call.implementation} ({call.implementation_source}), {_ground(call)}"
-    if call.rejected:
+    rejected = _others(call)
+    if rejected:
         yield "rejected:"
-        yield from _indented(together.from_iterable(map(_refusal, call.rejected)))
-
+        yield from _indented(together.from_iterable(map(_refusal, rejected)))
     if call.untried:
         yield "not tried, since they rank after it (less specific, less preferred, or declared later):"
         yield from (f"  {each.implementation} ({each.source}): {_would(each)}" for each in call.untried)
@@ -117,7 +117,12 @@ def _choice(call: Call) -> Iterator[str]:
 def _ground(call: Call) -> str:
     if call.fixed:
         return "which the call names"
-    return "the first in rank that fits" if call.rejected or call.untried else "the only one"
+    return "the first in rank that fits" if _others(call) or call.untried else "the only one"
+
+
+def _others(call: Call) -> tuple[Rejected, ...]:
+    """Return the implementations that did not do, but for the one chosen last, whose failure is the call's."""
+    return tuple(each for each in call.rejected if each.implementation != call.implementation)
 
 
 def _would(untried: Untried) -> str:
@@ -167,7 +172,7 @@ def _causes(causes: Sequence[Failure]) -> Iterator[str]:
 def _chain(links: Sequence[Link], known: str = "") -> Iterator[str]:
     """Lead to the innermost one, whose reason is said unless it is known."""
     for depth, link in enumerate(links):
-        innermost = f": {link.message}" if link is links[-1] and link.message != known else ""
+        innermost = f": {link.message}" if link is links[-1] and link.message not in known else ""
         yield f"{'  ' * depth}in {link.kind} {link.name} ({link.source}){innermost}"
 
 
@@ -179,13 +184,15 @@ def _parameter(call: Call, name: str) -> Iterator[str]:
     yield _line(call).strip()
     if name in call.bindings:
         yield from _indented(_bound(call, name), 4)
+    elif name in call.unset:
+        yield from _indented((f"{name} has no value:", *together.from_iterable(map(_refusal, call.rejected))), 4)
 
 
-def _indented(lines: Iterator[str] | Sequence[str] | map[str], spaces: int = 2) -> Iterator[str]:
+def _indented(lines: Iterable[str], spaces: int = 2) -> Iterator[str]:
     return (f"{' ' * spaces}{line}" for line in lines)
 
 
 def _example(story: Story) -> str:
-    """Return a question worth asking: of the step that failed, else of the first."""
-    failed = next((call.number for call in story.calls if call.status == "failure"), None)
-    return failed or "1"
+    """Return a question worth asking: about the last step that failed, else the first."""
+    failed = [call.number for call in story.calls if call.status == "failure" and "." not in call.number]
+    return failed[-1] if failed else "1"

@@ -46,6 +46,8 @@ class Film:
 
         FilmError or RenderingError where that is not possible, OSError where the path cannot be written.
         """
+        if not self._frames:
+            raise FilmError("the run ended before anything moved")
         try:
             import av
         except ImportError as error:

@@ -40,12 +40,16 @@ class PlanStep(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class PlanMade(_Event, tag="plan-made", frozen=True, kw_only=True):
-    """A planner found a plan; `optimal` is what it says about it, `cost` in the unit of durations, seconds."""
+    """A planner found a plan; `optimal` is what it says about it, `cost` in the unit of durations, seconds.
+
+    `names` are the short names of the individuals in its steps, by IRI.
+    """
 
     planner: str
     optimal: str
     cost: float
     steps: tuple[PlanStep, ...]
+    names: dict[str, str] = {}
 
 
 class Replanned(_Event, tag="replanned", frozen=True, kw_only=True):

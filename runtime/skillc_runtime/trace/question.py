@@ -44,7 +44,7 @@ def asked(story: Story, question: str) -> Answer:
 
 def parameters_of(call: Call) -> tuple[str, ...]:
     """Return the parameters of which something is known."""
-    return tuple(dict.fromkeys((*call.bindings, *(each.parameter for each in call.determined))))
+    return tuple(dict.fromkeys((*call.bindings, *call.unset)))
 
 
 def _about(calls: Sequence[Call], text: str) -> tuple[Call, ...]:
@@ -74,11 +74,28 @@ def _spelled(call: Call, parameter: str) -> str:
 
 
 def _nothing(calls: Sequence[Call], text: str) -> str:
-    steps = sum("." not in call.number for call in calls)
     if _NUMBER.fullmatch(text):
-        return f"there is no step {text}; the steps are numbered 1 to {steps}" if steps else "no step ever began"
+        return _no_number(calls, text)
+    owner, _, parameter = text.rpartition(".")
+    owners = _about(calls, owner) if owner else ()
+    if owners:
+        known = dict.fromkeys(name for call in owners for name in parameters_of(call))
+        return f"{owner} has no parameter `{parameter}`; it has {', '.join(known) or 'none'}"
     skills = dict.fromkeys(call.skill for call in calls)
     parameters = sorted({name for call in calls for name in parameters_of(call)})
-    near = get_close_matches(text.rpartition(".")[2], [*skills, *parameters], n=1)
+    near = get_close_matches(parameter, [*skills, *parameters], n=1)
     hint = f"did you mean `{near[0]}`? " if near else ""
     return f"nothing in this run is called `{text}`; {hint}there are the skills {', '.join(skills) or '(none)'}"
+
+
+def _no_number(calls: Sequence[Call], number: str) -> str:
+    """Say which numbers there are: of steps, or of the calls inside the one that was meant."""
+    above, _, _ = number.rpartition(".")
+    around = next((call for call in calls if call.number == above), None)
+    if above and around is None:
+        return _no_number(calls, above)
+    count = len(around.calls) if around is not None else sum("." not in call.number for call in calls)
+    numbers = f"{above}.1 to {above}.{count}" if above else f"1 to {count}"
+    if not count:
+        return f"no skill was called in step {above}" if above else "no step ever began"
+    return f"there is no step {number}; " + (f"those in {above} are {numbers}" if above else f"the steps are {numbers}")

@@ -42,9 +42,11 @@ class Untried(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 class Attempted(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """What a call that failed had: its arguments as text, the implementations that did not do, the facts.
 
-    The facts are those that its conditions read, at that moment.
+    `unset` are the parameters that were to be found in the world. The facts are those that its conditions read, at
+    that moment.
     """
 
     arguments: dict[str, str] = {}
+    unset: tuple[str, ...] = ()
     rejected: tuple[Rejected, ...] = ()
     facts: tuple[str, ...] = ()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import inf
 
 from msgspec import structs
@@ -21,6 +21,7 @@ def steps(body: Body, before: int) -> tuple[Call, ...]:
     calls = [call for root in body.roots for call in ((root,) if root.is_call else root.calls)]
     skipped = [event.source for event in body.skipped]
     found: list[Record | Call] = []
+    names = body.plan.names if body.plan is not None else {}
     for step in body.plan.steps if body.plan is not None else ():
         call = next((each for each in calls if _runs(each, step)), None)
         if call is not None:
@@ -28,7 +29,7 @@ def steps(body: Body, before: int) -> tuple[Call, ...]:
         passed_over = call is None and step.source is not None and step.source in skipped
         if passed_over and step.source is not None:
             skipped.remove(step.source)
-        found.append(call or _planned(step, "skipped" if passed_over else "not started"))
+        found.append(call or _planned(step, names, "skipped" if passed_over else "not started"))
     numbered = enumerate([*found, *calls], start=before + 1)
     as_calls = tuple(_step(each, str(number)) for number, each in numbered)
     return _side_by_side(tuple(structs.replace(each, planned=body.plan is not None) for each in as_calls))
@@ -77,8 +78,8 @@ def _bindings(call: Record) -> dict[str, str]:
     return attempted.arguments if attempted is not None else {}
 
 
-def _planned(step: PlanStep, status: str) -> Call:
-    arguments = {name: iri.rpartition("#")[2].rpartition("/")[2] for name, iri in step.arguments.items()}
+def _planned(step: PlanStep, names: Mapping[str, str], status: str) -> Call:
+    arguments = {name: names.get(iri, iri) for name, iri in step.arguments.items()}
     return Call(number="", skill=step.skill, status=status, source=step.source, bindings=arguments)
 
 
@@ -90,6 +91,7 @@ def _call(call: Record, number: str) -> Call:
     choice, end = call.choice, call.end
     attempted = end.attempted if end is not None else None
     rejected = attempted.rejected if attempted is not None else choice.rejected if choice is not None else ()
+    bindings = _bindings(call)
     inner = enumerate(call.calls, start=1)
     return Call(
         number=number,
@@ -100,8 +102,9 @@ def _call(call: Record, number: str) -> Call:
         implementation_source=choice.source if choice is not None else None,
         started=call.start.time,
         ended=end.time if end is not None else None,
-        bindings=_bindings(call),
+        bindings=bindings,
         determined=choice.determined if choice is not None else (),
+        unset=tuple(name for name in attempted.unset if name not in bindings) if attempted is not None else (),
         fixed=choice.fixed if choice is not None else False,
         untried=choice.untried if choice is not None else (),
         rejected=rejected,

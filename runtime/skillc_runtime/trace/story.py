@@ -47,7 +47,8 @@ class Call(_Part, frozen=True, kw_only=True):
     success, failure, halted, running, skipped (what it is for held already), not started. `source` is the place of the
     call, of a planned step that of the skill; `implementation_source` that of the implementation chosen last. `beside`
     are the steps that ran at the same time. `planned` tells that a planner bound its arguments, `fixed` that the call
-    names its implementation. `starts` counts the starts, `chain` leads from this call to what failed.
+    names its implementation. `unset` are parameters that were to be found in the world and were not. `starts` counts
+    the starts, `chain` leads from this call to what failed.
     """
 
     number: str
@@ -60,6 +61,7 @@ class Call(_Part, frozen=True, kw_only=True):
     ended: float | None = None
     bindings: dict[str, str] = {}
     determined: tuple[Determined, ...] = ()
+    unset: tuple[str, ...] = ()
     planned: bool = False
     fixed: bool = False
     untried: tuple[Untried, ...] = ()

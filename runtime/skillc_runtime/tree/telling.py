@@ -61,7 +61,8 @@ def attempted(
 ) -> Attempted:
     """Return what a call that failed had."""
     shown = bindings_text(arguments, skill.parameters, context.library.vocabulary)
-    return Attempted(arguments=shown, rejected=tuple(rejected), facts=facts)
+    unset = tuple(each.name for each in skill.parameters if each.direction == "infer" and each.name not in arguments)
+    return Attempted(arguments=shown, unset=unset, rejected=tuple(rejected), facts=facts)
 
 
 def facts_at_failure(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from heapq import nsmallest
 from itertools import islice
 from typing import TypeAlias
@@ -18,6 +18,7 @@ from skillc_compiler.library.conditions import (
     Holds,
     Individual,
     IsA,
+    Or,
     PropertyOf,
     Same,
     Term,
@@ -61,6 +62,9 @@ def _facts(item: msgspec.Struct, state: WorldState, bindings: _Names) -> Iterato
             one, other = _known(left, bindings), _known(right, bindings)
             if one is not None and other is not None:
                 yield f"{short(one)} {'==' if one == other else '!='} {short(other)}"
+        case Or(parts):
+            for alternative in _true(parts, state, bindings) or parts:
+                yield from _facts(alternative, state, bindings)
         case Exists() | Forall():
             for individual in _telling(item, state, bindings):
                 yield from _facts(item.body, state, {**bindings, item.variable: individual})
@@ -108,6 +112,14 @@ def _telling(condition: Exists | Forall, state: WorldState, bindings: _Names) ->
             if evaluate(condition.body, state, {**bindings, condition.variable: each}) == wanted
         )
         return list(islice(deciding, LISTED)) or members[:LISTED]
+    except EvaluationError:
+        return []
+
+
+def _true(parts: Sequence[Condition], state: WorldState, bindings: _Names) -> list[Condition]:
+    """Return the alternatives that hold; none where that cannot be decided."""
+    try:
+        return [part for part in parts if evaluate(part, state, bindings)]
     except EvaluationError:
         return []
 
