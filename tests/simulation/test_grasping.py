@@ -22,11 +22,10 @@ from cells import (
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.grasp import Release
 from skillc_runtime.primitives.gripper import ParallelGripper
-from skillc_runtime.primitives.placing import placed
 from skillc_runtime.primitives.primitive import SkillFailure, Status
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.changes import AddRelation, ClearProperty
-from skillc_runtime.world.frames import WORLD_FRAME, FrameError, pose
+from skillc_runtime.world.frames import WORLD_FRAME, FrameError, placed, pose
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.terms import AT, BASE_FRAME_ID, CONTAIN, FRAME_ID, POSITION, SKILLC
 

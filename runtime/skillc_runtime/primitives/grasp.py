@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.primitives.placing import placed
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.robots.cell import Cell
 from skillc_runtime.robots.tools import working_face
 from skillc_runtime.world.changes import AddRelation
-from skillc_runtime.world.frames import pose, size
+from skillc_runtime.world.frames import placed, pose, size
 from skillc_runtime.world.terms import CONTAIN, FRAME_ID, GRASP_WIDTH
 
 FREE_BY_M = 0.005

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose, exp
-from skillc_runtime.primitives.placing import placed
 from skillc_runtime.world.changes import SetProperty
-from skillc_runtime.world.frames import pose
+from skillc_runtime.world.frames import placed, pose
 from skillc_runtime.world.terms import LOCATED
 
 if TYPE_CHECKING:

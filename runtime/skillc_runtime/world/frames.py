@@ -1,4 +1,4 @@
-"""Where things are believed to be: poses composed through the tree of frames, and what follows from them."""
+"""Where things are believed to be, in the world and seen from one another, and how large they are."""
 
 from __future__ import annotations
 
@@ -6,46 +6,78 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.terms import AT, BASE_FRAME_ID, FRAME_ID, ORIENTATION, POSITION, SIZE
+from skillc_runtime.motion.pose import Array, Pose, quaternion_of
+from skillc_runtime.world.changes import SetProperty
+from skillc_runtime.world.space.errors import FrameError, MissingFact, Unplaced
+from skillc_runtime.world.space.space import WORLD_FRAME, space_of
+from skillc_runtime.world.terms import BASE_FRAME_ID, FRAME_ID, ORIENTATION, POSITION, SIZE
 
 if TYPE_CHECKING:
     from skillc_runtime.world.state import WorldState
 
-WORLD_FRAME = "map"
-
-
-class FrameError(ValueError):
-    """A pose that the world model does not hold; the message says of what and which fact is missing."""
-
-
-class MissingFact(FrameError):
-    """A number that `individual` lacks: its `property`, an IRI."""
-
-    def __init__(self, state: WorldState, individual: str, property_: str) -> None:
-        short = state.vocabulary.short
-        super().__init__(f"{short(individual)} has no {short(property_)} in the world model")
-        self.individual, self.property = individual, property_
+__all__ = [
+    "WORLD_FRAME",
+    "FrameError",
+    "MissingFact",
+    "Unplaced",
+    "carried_by",
+    "moved",
+    "normal",
+    "placed",
+    "pose",
+    "seen_from",
+    "size",
+    "width",
+]
 
 
 def pose(state: WorldState, individual: str) -> Pose:
-    """Return where a thing is in the world; a thing without a pose of its own is where the location it is at is.
+    """Return where a thing is in the world; a thing without a pose of its own is where that is which carries it.
 
-    FrameError when a fact is missing, a frame is unknown, or frames form a circle.
+    FrameError when a fact is missing, a frame is unknown, or frames form a circle. The arrays are read-only.
     """
-    result, seen = Pose(np.zeros(3), np.eye(3)), [individual]
-    while True:
-        base = state.value(individual, BASE_FRAME_ID)
-        if base is None:
-            individual = _location(state, individual)
-        else:
-            result = _own_pose(state, individual) @ result
-            if base == WORLD_FRAME:
-                return result
-            individual = _owner(state, str(base), individual)
-        if individual in seen:
-            raise FrameError(f"the frames of {' and '.join(map(state.vocabulary.short, seen))} form a circle")
-        seen.append(individual)
+    return space_of(state).pose(individual)
+
+
+def seen_from(state: WorldState, viewer: str, individual: str) -> Pose:
+    """Return where a thing is in the frame of another; FrameError as for `pose`."""
+    return pose(state, viewer).inverse() @ pose(state, individual)
+
+
+def placed(thing: str, at: Pose, frame: str = WORLD_FRAME) -> list[SetProperty]:
+    """Return the changes that say that a thing, by IRI, is at a pose in a frame, by its FrameId."""
+    values = zip((*POSITION, *ORIENTATION), (*at.position, *quaternion_of(at.rotation)), strict=True)
+    numbers = [SetProperty(thing, name, float(value)) for name, value in values]
+    return [SetProperty(thing, BASE_FRAME_ID, frame), *numbers]
+
+
+def moved(state: WorldState, thing: str, at: Pose, viewer: str) -> list[SetProperty]:
+    """Return the changes that put a thing at a pose seen from another thing; what carries it goes on carrying it.
+
+    What was nowhere is placed in the world. FrameError when the viewer is nowhere or moves with the thing.
+    """
+    if _rides_on(state, viewer, thing):
+        short = state.vocabulary.short
+        raise FrameError(f"{short(viewer)} moves with {short(thing)}, so its place cannot say where that is")
+    goal = pose(state, viewer) @ at
+    try:
+        carrier = space_of(state).carrier(thing)
+    except Unplaced:
+        carrier = None
+    if carrier is None:
+        return placed(thing, goal)
+    return placed(thing, pose(state, carrier).inverse() @ goal, _frame(state, carrier))
+
+
+def carried_by(state: WorldState, thing: str, carrier: str) -> list[SetProperty]:
+    """Return the changes that leave a thing where it is and let it move with another from now on.
+
+    FrameError when either is nowhere, the carrier has no frame, or the carrier already moves with the thing.
+    """
+    if _rides_on(state, carrier, thing):
+        short = state.vocabulary.short
+        raise FrameError(f"{short(carrier)} moves with {short(thing)}, so it cannot carry it")
+    return placed(thing, seen_from(state, carrier, thing), _frame(state, carrier))
 
 
 def normal(state: WorldState, surface: str) -> Array:
@@ -54,42 +86,29 @@ def normal(state: WorldState, surface: str) -> Array:
 
 
 def size(state: WorldState, individual: str) -> Array:
-    """Return a thing's extent (3,) in m along the axes of its frame."""
-    return np.array([_number(state, individual, name) for name in SIZE])
+    """Return a thing's extent (3,) in m along the axes of its frame; MissingFact when it is not known."""
+    return np.array([space_of(state).number(individual, name) for name in SIZE])
 
 
 def width(state: WorldState, tool: str) -> float:
-    """Return a tool's extent in m across the direction of work."""
-    return _number(state, tool, SIZE[1])
+    """Return a tool's extent in m across the direction of work; MissingFact when it is not known."""
+    return space_of(state).number(tool, SIZE[1])
 
 
-def _own_pose(state: WorldState, individual: str) -> Pose:
-    position = [_number(state, individual, name) for name in POSITION]
-    quaternion = [_number(state, individual, name) for name in ORIENTATION]
-    return Pose.of(np.array(position), np.array(quaternion))
+def _rides_on(state: WorldState, individual: str, carrier: str) -> bool:
+    """Whether one is the other or moves with it; FrameError when the frames of one form a circle or lead nowhere."""
+    space, at = space_of(state), individual
+    space.pose(individual)
+    while at != carrier:
+        below = space.carrier(at)
+        if below is None:
+            return False
+        at = below
+    return True
 
 
-def _number(state: WorldState, individual: str, name: str) -> float:
-    value = state.value(individual, name)
-    if not isinstance(value, int | float):
-        raise MissingFact(state, individual, name)
-    return float(value)
-
-
-def _location(state: WorldState, individual: str) -> str:
-    places = sorted(state.objects(individual, AT))
-    if not places:
-        short = state.vocabulary.short(individual)
-        raise FrameError(
-            f"the world model does not say where {short} is: it has neither a BaseFrameId nor a place it is at"
-        )
-    return places[0]
-
-
-def _owner(state: WorldState, frame: str, asking: str) -> str:
-    owners = state.having(FRAME_ID, frame)
-    if len(owners) != 1:
-        found = f"{len(owners)} things have" if owners else "nothing has"
-        short = state.vocabulary.short(asking)
-        raise FrameError(f"{short} is placed in the frame `{frame}`, but {found} this FrameId")
-    return owners[0]
+def _frame(state: WorldState, individual: str) -> str:
+    frame = state.value(individual, FRAME_ID)
+    if not isinstance(frame, str):
+        raise FrameError(f"{state.vocabulary.short(individual)} has no FrameId, so nothing can be placed in its frame")
+    return frame

@@ -14,7 +14,7 @@ from skillc_runtime.world.table import Table
 from skillc_runtime.world.values import Value, has
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
 class WorldState:
     """Individuals with their classes, relations and properties; closed world, unique names.
 

@@ -16,6 +16,7 @@ TOOL = SKILLC + "Tool"
 
 AT = SKIROS + "at"
 CONTAIN = SKIROS + "contain"
+HAS_A = SKIROS + "hasA"
 HAS_ARM = SKILLC + "hasArm"
 HAS_GRIPPER = SKILLC + "hasGripper"
 HAS_SENSOR = SKILLC + "hasSensor"
