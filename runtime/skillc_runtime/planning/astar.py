@@ -20,7 +20,7 @@ from skillc_compiler.library.pddl.formulas import (
     Universal,
 )
 from skillc_compiler.library.pddl.problem import Problem
-from skillc_runtime.planning.grounding import GroundAction, Grounding
+from skillc_runtime.planning.grounding import GroundAction, Grounding, TimeIsUp
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.relaxed import Estimate
 from skillc_runtime.planning.steps import plan_of
@@ -36,9 +36,11 @@ class AStar:
     def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
         """Solve a problem; a plan it returns is proven to be the shortest."""
         end = time.monotonic() + deadline_s
-        grounding = Grounding(problem)
-        actions = grounding.actions
-        goal = grounding.goal()
+        grounding = Grounding(problem, end)
+        try:
+            actions, goal = grounding.actions, grounding.goal()
+        except TimeIsUp:
+            return _gave_up("its time was up before it knew all actions")
         if not grounding.possible(goal):
             return Unsolvable("the goal cannot be reached even if nothing were ever undone")
         numbers = {atom: number for number, atom in enumerate(sorted(grounding.reachable, key=_order))}
@@ -52,9 +54,12 @@ class AStar:
         if isinstance(found, _Exhausted):
             return Unsolvable("no sequence of skills reaches the goal")
         if isinstance(found, _TimeUp):
-            why = f"its time was up after {found.states} states; the extra `planner` installs a stronger one"
-            return GaveUp(f"the built-in planner gave up: {why}")
+            return _gave_up(f"its time was up after {found.states} states")
         return Solved(plan_of(problem, (actions[index].words for index in found)), "proven", self.name)
+
+
+def _gave_up(why: str) -> GaveUp:
+    return GaveUp(f"the built-in planner gave up: {why}; the extra `planner` installs a stronger one")
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import Assign, Condition
@@ -9,7 +10,7 @@ from skillc_compiler.library.pddl.domain import Action
 from skillc_compiler.library.pddl.formulas import FALSE, Atom, Formula, conjunction, conjuncts
 from skillc_compiler.library.reading import terms_read
 from skillc_compiler.library.skills import Skill
-from skillc_runtime.planning.grounding import Grounding
+from skillc_runtime.planning.grounding import Grounding, TimeIsUp
 from skillc_runtime.planning.problem import Posed
 from skillc_runtime.planning.words import Words
 from skillc_runtime.world.explain import explain
@@ -17,12 +18,17 @@ from skillc_runtime.world.state import WorldState
 
 DEPTH = 4
 LISTED = 3
+LONGEST_S = 5.0
+"""Finding out why takes no longer than this; of a large scene it may not be found out."""
 
 
 def why_unsolvable(posed: Posed, goal: Condition, state: WorldState) -> str:
     """Say why a problem without a plan has none, as far as reachability without deletions can tell."""
-    diagnosis = _Diagnosis(posed, state)
-    notes = [*diagnosis.reasons(goal), *_left_out(posed, goal), *_undecided(posed)]
+    try:
+        reasons = tuple(_Diagnosis(posed, state).reasons(goal))
+    except TimeIsUp:
+        reasons = ("no sequence of skills reaches the goal; the scene is too large to say why",)
+    notes = [*reasons, *_left_out(posed, goal), *_undecided(posed)]
     return "; ".join(dict.fromkeys(notes))
 
 
@@ -31,7 +37,7 @@ class _Diagnosis:
         self._domain, self._objects = posed.problem.domain, posed.problem.objects
         self._state = state
         self._words = Words(posed.problem, posed.library)
-        self._grounding = Grounding(posed.problem)
+        self._grounding = Grounding(posed.problem, time.monotonic() + LONGEST_S)
         self._grounding.explore()
 
     def reasons(self, condition: Condition) -> Iterator[str]:

@@ -5,6 +5,7 @@ Which atoms can ever be true is found by ignoring what actions delete.
 
 from __future__ import annotations
 
+import time
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -35,6 +36,10 @@ from skillc_runtime.planning.variables import variables
 Values: TypeAlias = Mapping[str, str]
 
 
+class TimeIsUp(Exception):
+    """A problem has so many actions that finding them takes longer than there is time."""
+
+
 @dataclass(frozen=True, slots=True)
 class GroundEffect:
     """The atom becomes true or false where the condition held before."""
@@ -55,10 +60,13 @@ class GroundAction:
 
 
 class Grounding:
-    """A problem's actions for its objects, as far as relaxed reachability lets them apply."""
+    """A problem's actions for its objects, as far as relaxed reachability lets them apply.
 
-    def __init__(self, problem: Problem) -> None:
-        self._problem = problem
+    TimeIsUp when the monotonic clock reaches `end` before they are found.
+    """
+
+    def __init__(self, problem: Problem, end: float = float("inf")) -> None:
+        self._problem, self._end = problem, end
         types = {each.type for each in variables(problem.domain)}
         self._members = {type_: problem.domain.of_type(problem.objects, type_) for type_ in types}
         self._costs = {(each.function, each.arguments): each.units for each in problem.costs}
@@ -165,6 +173,8 @@ class Grounding:
     def _instances(self, action: Action) -> Iterator[GroundAction]:
         condition = conjunction((action.precondition, action.hold))
         for values in self._bindings(action, conjuncts(condition), {}):
+            if time.monotonic() > self._end:
+                raise TimeIsUp
             precondition = self.reduced(condition, values)
             if self.possible(precondition):
                 names = tuple(values[each.name] for each in action.parameters)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import product
+from math import prod
 from typing import assert_never
 
 from skillc_compiler.library.pddl.costs import ASSUMED_SECONDS, units
@@ -24,6 +25,12 @@ from skillc_runtime.world.expressions import EvaluationError, property_of, value
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import has
 
+MOST_VALUES = 1_000_000
+
+
+class TooManyValues(Exception):
+    """A condition or a duration reads so many things that it cannot be worked out for all of them."""
+
 
 class Initial:
     """Reads a version of the world for a planner; `undecided` collects what had no value for some individuals."""
@@ -43,7 +50,7 @@ class Initial:
     def costs(self) -> Iterator[CostValue]:
         """Yield the value of each cost function for all tuples of its types."""
         for function in self._domain.costs:
-            for names in product(*(self._members[each.type] for each in function.parameters)):
+            for names in self._choices(function.parameters, f"the duration of {function.skill}"):
                 yield CostValue(function.name, names, self._units(function, names))
 
     def _tuples(self, predicate: Predicate) -> Iterable[tuple[str, ...]]:
@@ -80,13 +87,20 @@ class Initial:
         return {each for each in owners if has(property_of(self._state, each, property_), value)}
 
     def _guard(self, predicate: Predicate, fact: GuardFact) -> Iterator[tuple[str, ...]]:
-        for names in product(*(self._members[each.type] for each in predicate.parameters)):
+        for names in self._choices(predicate.parameters, f"condition `{fact.label}` of {fact.skill}"):
             bindings = {variable: self._iris[name] for variable, name in zip(fact.variables, names, strict=True)}
             try:
                 if evaluate(fact.condition, self._state, bindings):
                     yield names
             except EvaluationError as error:
                 self.undecided[f"condition `{fact.label}` of {fact.skill}: {error}"] = None
+
+    def _choices(self, parameters: Sequence[Typed], reader: str) -> Iterator[tuple[str, ...]]:
+        members = [self._members[each.type] for each in parameters]
+        if prod(map(len, members)) > MOST_VALUES:
+            sizes = " x ".join(str(len(each)) for each in members)
+            raise TooManyValues(f"{reader} would have to be worked out for {sizes} things")
+        return product(*members)
 
     def _units(self, function: CostFunction, names: tuple[str, ...]) -> int:
         bindings = {variable: self._iris[name] for variable, name in zip(function.variables, names, strict=True)}

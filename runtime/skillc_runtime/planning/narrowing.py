@@ -2,8 +2,9 @@
 
 Kept are the things that the goal names, all things of which there are few (robots, arms, grippers, tools), what stands
 in a relation to these with few others (the place of a thing, the arm of a robot), step by step, and for each parameter
-of a skill some things of its type. A plan for these is a plan for the scene. That it is the cheapest is not known,
-and that there is none proves nothing: see `bound`.
+of a skill some things of its type. A plan for these is one for the scene unless a `forall` says something about what
+was left out, which running it in the world model shows. That it is the cheapest is not known, and that there is none
+proves nothing: see `bound`.
 """
 
 from __future__ import annotations

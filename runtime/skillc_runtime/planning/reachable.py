@@ -2,24 +2,45 @@
 
 from __future__ import annotations
 
+import time
+from dataclasses import replace
+
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.pddl.formulas import FALSE, conjuncts
+from skillc_compiler.library.pddl.problem import Problem
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.planning.diagnose import why_unsolvable
-from skillc_runtime.planning.grounding import Grounding
+from skillc_runtime.planning.bound import relaxed_scene
+from skillc_runtime.planning.diagnose import LONGEST_S, why_unsolvable
+from skillc_runtime.planning.grounding import Grounding, TimeIsUp
+from skillc_runtime.planning.initial import TooManyValues
+from skillc_runtime.planning.narrowing import NARROW
 from skillc_runtime.planning.problem import GoalError, pose_problem
 from skillc_runtime.world.state import WorldState
 
 
 def why_unreachable(library: SkillLibrary, state: WorldState, goal: Condition) -> str | None:
-    """Return why no plan can reach the goal even if nothing once true were ever lost; None if one may."""
+    """Return why no plan can reach the goal even if nothing once true were ever lost; None if one may.
+
+    Of a large scene the part near the goal is looked at, the rest stood in for. None also where that cannot be told.
+    """
     try:
-        posed = pose_problem(library, state, goal)
+        posed = pose_problem(library, state, goal, (), NARROW)
     except GoalError as error:
         return str(error)
-    grounding = Grounding(posed.problem)
-    grounding.explore()
-    wanted = grounding.goal()
-    if wanted != FALSE and all(grounding.possible(part) for part in conjuncts(wanted)):
+    except TooManyValues:
         return None
-    return why_unsolvable(posed, goal, state)
+    problem = relaxed_scene(posed, state) if posed.narrowed else posed.problem
+    if problem is None or _is_reachable(problem):
+        return None
+    return why_unsolvable(replace(posed, problem=problem), goal, state)
+
+
+def _is_reachable(problem: Problem) -> bool:
+    """Whether all parts of the goal are reachable, or there is no time to find out."""
+    grounding = Grounding(problem, time.monotonic() + LONGEST_S)
+    try:
+        grounding.explore()
+        wanted = grounding.goal()
+    except TimeIsUp:
+        return True
+    return wanted != FALSE and all(grounding.possible(part) for part in conjuncts(wanted))

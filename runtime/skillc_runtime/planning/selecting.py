@@ -40,7 +40,9 @@ def select(domain: PlanningDomain, state: WorldState, named: Set[str], breadth: 
         if not counts[each] and iri not in named and not is_spoken_of(iri, domain, state)
     }
     kept = {iri: each for iri, each in candidates.items() if iri not in silent} if silent else candidates
-    found = frozenset(kept) if breadth is None else near(domain, state, kept, named, breadth)
+    found = frozenset(kept)
+    if breadth is not None and len(kept) > breadth.objects:
+        found = near(domain, state, kept, named, breadth)
     others = {iri: each for iri, each in kept.items() if iri not in found}
     reasons = (
         LeftOut(tuple(sorted(types.keys() - candidates.keys())), NO_USE, harmless=True),

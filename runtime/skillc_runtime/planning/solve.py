@@ -6,13 +6,17 @@ import time
 from collections.abc import Sequence
 
 from skillc_compiler.library.conditions import Condition
+from skillc_compiler.library.pddl.problem import Problem
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.planning.choose import available
 from skillc_runtime.planning.diagnose import why_unsolvable
+from skillc_runtime.planning.narrowing import NARROW, Breadth
 from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Step, Unsolvable
-from skillc_runtime.planning.problem import Posed, pose_problem
+from skillc_runtime.planning.problem import GoalError, Posed, pose_problem
 from skillc_runtime.planning.validate import PlanError, validate
+from skillc_runtime.planning.widening import Means, in_stages
 from skillc_runtime.world.conditions import evaluate
+from skillc_runtime.world.expressions import EvaluationError
 from skillc_runtime.world.state import WorldState
 
 DEADLINE_S = 30.0
@@ -25,27 +29,56 @@ def solve(
     planners: Sequence[Planner] | None = None,
     deadline_s: float = DEADLINE_S,
     without: Sequence[Step] = (),
+    *,
+    prove: bool = False,
+    breadth: Breadth | None = NARROW,
 ) -> PlanResult:
     """Return a plan from a version of the world to the goal; every plan was run in the world model first.
 
-    `without` are steps that the plan may not have.
+    `without` are steps that the plan may not have. Of a large scene the part near the goal is planned with first, as
+    wide as `breadth` says; with `prove` more of it is taken until the plan is proven to be the shortest.
     Where a planner gives up, the next one gets the time that is left. GoalError when the goal cannot be planned for.
     """
     end = time.monotonic() + deadline_s
-    posed = pose_problem(library, state, goal, without)
-    if evaluate(goal, state, {}):
+    chosen = tuple(available() if planners is None else planners)
+
+    def pose(width: Breadth | None) -> Posed:
+        return pose_problem(library, state, goal, without, width)
+
+    def answer(posed: Posed, seconds: float) -> PlanResult:
+        return _answered(chosen, posed, state, goal, seconds)
+
+    def search(problem: Problem, seconds: float) -> PlanResult:
+        return chosen[0].plan(problem, seconds)
+
+    def explain(posed: Posed) -> str:
+        return why_unsolvable(posed, goal, state)
+
+    return in_stages(Means(pose, answer, search, explain), state, end, breadth, prove=prove)
+
+
+def _answered(
+    planners: Sequence[Planner], posed: Posed, state: WorldState, goal: Condition, deadline_s: float
+) -> PlanResult:
+    end = time.monotonic() + deadline_s
+    if _holds(goal, state):
         return Solved(Plan((), 0.0), "proven", "the world as it is")
     failures: list[str] = []
-    for planner in available() if planners is None else planners:
+    for planner in planners:
         result = _checked(planner.plan(posed.problem, max(end - time.monotonic(), 0.0)), posed, state, goal)
         match result:
-            case Solved():
+            case Solved() | Unsolvable():
                 return result
-            case Unsolvable():
-                return Unsolvable(why_unsolvable(posed, goal, state))
             case GaveUp(why):
                 failures.append(why)
     return GaveUp("; ".join(failures))
+
+
+def _holds(goal: Condition, state: WorldState) -> bool:
+    try:
+        return evaluate(goal, state, {})
+    except EvaluationError as reason:
+        raise GoalError(f"the goal cannot be decided: {reason}") from reason
 
 
 def _checked(result: PlanResult, posed: Posed, state: WorldState, goal: Condition) -> PlanResult:

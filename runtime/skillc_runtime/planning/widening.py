@@ -1,0 +1,122 @@
+"""Plans with the near part of a large scene first, then with more of it.
+
+What a narrowed problem cannot tell is not claimed: its shortest plan is proven only if no plan of the whole scene can
+be shorter (see `bound`), and that it has no plan means that more of the scene is looked at, up to all of it.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TypeAlias, assert_never
+
+from skillc_compiler.library.pddl.problem import Problem
+from skillc_runtime.planning.bound import relaxed_scene
+from skillc_runtime.planning.initial import TooManyValues
+from skillc_runtime.planning.narrowing import Breadth
+from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
+from skillc_runtime.planning.problem import Posed
+from skillc_runtime.world.state import WorldState
+
+STAGE_SHARE = 0.5
+"""Of the time that is left a narrowed problem gets this share, so that a wider one can still be tried."""
+
+BOUND_S = 2.0
+"""Finding out whether a plan for a part of the scene is the cheapest of all takes no longer than this."""
+
+TOLERANCE_S = 1e-6
+
+Pose: TypeAlias = Callable[[Breadth | None], Posed]
+Answer: TypeAlias = Callable[[Posed, float], PlanResult]
+Search: TypeAlias = Callable[[Problem, float], PlanResult]
+Explain: TypeAlias = Callable[[Posed], str]
+
+
+@dataclass(frozen=True, slots=True)
+class Means:
+    """How problems are posed, answered with a checked plan, searched without checking, and why they have no plan.
+
+    Times are in seconds.
+    """
+
+    pose: Pose
+    answer: Answer
+    search: Search
+    explain: Explain
+
+
+def in_stages(means: Means, state: WorldState, end: float, breadth: Breadth | None, *, prove: bool) -> PlanResult:
+    """Return the answer for the smallest part of the scene that has one, until the time `end` of the monotonic clock.
+
+    The first part has a `breadth`; without one it is the whole scene. With `prove` the part is widened until a plan is
+    proven to be the cheapest, or nothing is left out.
+    """
+    best: Solved | None = None
+    while True:
+        try:
+            posed = means.pose(breadth)
+        except TooManyValues as reason:
+            return best or GaveUp(str(reason))
+        if breadth is None or not posed.narrowed:
+            return _of_all(best, posed, means, end)
+        answer = means.answer(posed, STAGE_SHARE * _left(end))
+        match answer:
+            case Solved():
+                best = _labelled(answer, posed, means, state, end)
+                if best.optimal == "proven" or not prove:
+                    return best
+            case Unsolvable():
+                why = _out_of_reach(posed, means, state, end)
+                if why is not None:
+                    return Unsolvable(why)
+            case GaveUp():
+                if _left(end) <= 0.0:
+                    return best or answer
+            case _:
+                assert_never(answer)
+        breadth = breadth.wider()
+
+
+def _of_all(best: Solved | None, posed: Posed, means: Means, end: float) -> PlanResult:
+    """Return the answer for the whole scene, or the best of the answers for its parts if there is none in time."""
+    answer = means.answer(posed, _left(end))
+    match answer:
+        case Solved():
+            return replace(answer, left_out=posed.left_out)
+        case Unsolvable():
+            return Unsolvable(means.explain(posed))
+        case GaveUp():
+            return best or answer
+        case _:
+            assert_never(answer)
+
+
+def _labelled(solved: Solved, posed: Posed, means: Means, state: WorldState, end: float) -> Solved:
+    """Return a plan of a narrowed problem with what is known about it in the whole scene."""
+    found = replace(solved, left_out=posed.left_out, at_least_s=None)
+    if solved.optimal != "proven":
+        return found
+    bound = _bound(posed, means, state, end)
+    if not isinstance(bound, Solved) or bound.optimal != "proven":
+        return replace(found, optimal="optimal for the filtered problem")
+    if bound.plan.duration_s >= solved.plan.duration_s - TOLERANCE_S:
+        return found
+    return replace(found, optimal="optimal for the filtered problem", at_least_s=bound.plan.duration_s)
+
+
+def _out_of_reach(posed: Posed, means: Means, state: WorldState, end: float) -> str | None:
+    """Return why the whole scene has no plan, None if it may have one."""
+    relaxed = relaxed_scene(posed, state)
+    if relaxed is None or not isinstance(means.search(relaxed, min(BOUND_S, _left(end))), Unsolvable):
+        return None
+    return means.explain(replace(posed, problem=relaxed))
+
+
+def _bound(posed: Posed, means: Means, state: WorldState, end: float) -> PlanResult | None:
+    problem = relaxed_scene(posed, state)
+    return None if problem is None else means.search(problem, min(BOUND_S, _left(end)))
+
+
+def _left(end: float) -> float:
+    return max(end - time.monotonic(), 0.0)
