@@ -16,7 +16,7 @@ from store.worlds import facts_of, model_of
 from world.lab import SCENE, iri
 
 KILLS = int(os.environ.get("SKILLC_STORE_KILLS", "2"))
-"""How often the moments are chosen anew; 100 make tens of thousands of writes."""
+"""How often the moments are chosen anew; 60 make more than 6,000 writes."""
 
 
 def replayed(transactions: tuple[Transaction, ...]) -> WorldState:
@@ -33,14 +33,14 @@ def test_a_killed_writer_loses_nothing(tmp_path: Path, seed: int) -> None:
     model_of(keeper)
     for life in range(3):
         writer = Actor(write, str(place), seed, 100_000, f"life-{life}")
-        acknowledged.append(writer.hear())
-        time.sleep(chance.random() * 0.25)
+        acknowledged += [writer.hear() for _ in range(chance.randint(10, 60))]
+        time.sleep(chance.random() * 0.02)
         writer.kill()
         acknowledged += writer.told()
     kept = keeper.since(1)
     assert [each.sequence for each in kept] == list(range(2, len(kept) + 2))
     origins = [each.origin for each in kept]
-    assert len(acknowledged) > 30
+    assert len(acknowledged) >= 30
     assert [o for o in origins if o in set(acknowledged)] == acknowledged
     surplus = [origin for origin in origins if origin not in set(acknowledged)]
     assert len(surplus) <= 3, "at most the write that each life died in"

@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 
 from skillc_ontology.catalogue import vocabulary_files
 from skillc_runtime.world.contents import contents
 from skillc_runtime.world.documents import Document
 from skillc_runtime.world.listing import Entry, listing
 from skillc_runtime.world.query import Cell, query
+from skillc_runtime.world.scene import world_of
 from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.store.facts import all_facts
 from skillc_runtime.world.values import show
 
 
-def listed(scene: Path, state: WorldState, everything: bool, as_json: bool) -> str:
-    """Return what is known of the individuals of a scene's own file, or of everything.
+def listed(scene: Document, state: WorldState, everything: bool, as_json: bool) -> str:
+    """Return what is known of the individuals that a scene itself speaks of, or of everything.
 
     As text it is a paragraph for each individual, as JSON a list of objects.
     """
-    own = contents([Document.read(scene)])
+    own = contents([scene])
     labels = {**contents(_shipped()).labels, **own.labels}
     entries = listing(state, state.individuals if everything else state.individuals & own.subjects)
     if as_json:
@@ -27,9 +28,15 @@ def listed(scene: Path, state: WorldState, everything: bool, as_json: bool) -> s
     return "\n\n".join(_paragraph(entry, labels.get(entry.individual), state) for entry in entries)
 
 
-def answer(scene: Path, sparql: str, state: WorldState, as_json: bool) -> str:
+def kept(place: str, state: WorldState) -> Document:
+    """Return as a document what a world that a store keeps says beside the shipped ontology."""
+    shipped = frozenset(all_facts(world_of(_shipped(), state.vocabulary)))
+    return Document(place, "".join(sorted(f"{fact} .\n" for fact in all_facts(state) if fact not in shipped)))
+
+
+def answer(scene: Document, sparql: str, state: WorldState, as_json: bool) -> str:
     """Answer a query over the scene and the shipped ontology, as a table or as a list of objects."""
-    result = query([Document.read(scene), *_shipped()], sparql, state.vocabulary)
+    result = query([scene, *_shipped()], sparql, state.vocabulary)
     if as_json:
         return json.dumps([dict(zip(result.columns, row, strict=True)) for row in result.rows], indent=2)
     rows = [result.columns, *(tuple(map(_text, row)) for row in result.rows)]

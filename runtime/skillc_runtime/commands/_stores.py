@@ -31,6 +31,8 @@ def kept_world(
     """
     assert keeping.place is not None
     try:
+        if scene is None and "://" not in keeping.place and not Path(keeping.place).exists():
+            raise StoreError(f"there is no store {keeping.place}; name the scene to begin with")
         store = open_store(keeping.place, keeping.reset)
         click.get_current_context().call_on_close(store.close)
         return _world(store, scene, vocabulary, load)
@@ -54,7 +56,7 @@ def _world(
         kept = store.read()
     _compare(kept, scene, store)
     state = world_of(kept.triples, vocabulary, str(store))
-    click.echo(f"{store}: the world after {kept.sequence} transactions, which began as {_name(kept)}", err=True)
+    click.echo(f"{store}: the world after {_counted(kept.sequence)}, which began as {_name(kept)}", err=True)
     return WorldModel(state, store, kept.sequence)
 
 
@@ -78,3 +80,7 @@ def _beginning(scene: Path) -> str:
 def _name(kept: Kept) -> str:
     found = _BEGINNING.fullmatch(kept.beginning)
     return found[1] if found else "something else"
+
+
+def _counted(transactions: int) -> str:
+    return f"{transactions} transaction" + "s" * (transactions != 1)
