@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program import Program, ReadFile
-from skillc_compiler.resolve.declared import Bare, Declared, declare, used, visible
+from skillc_compiler.resolve.declared import Bare, Declared, declare, prefixes_in, used, visible
 from skillc_compiler.resolve.names import Kind, bare_terms
-from skillc_dsl import syntax as s
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,10 +55,9 @@ def visible_in(program: Program, base: Vocabulary) -> dict[str, Visible]:
 
 def _visible(unit: ReadFile, declared: Mapping[str, Declared], whole: Vocabulary, base: Vocabulary) -> Visible:
     here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports if path in declared)]
-    own = {line.name.text: line.iri for line in unit.file.header if isinstance(line, s.Prefix)}
     return Visible(
         bare=visible(bare_terms(base, used(unit.file, base)), here),
-        prefixes={**base.prefixes, **own},
+        prefixes=prefixes_in(unit.file, base),
         functions=frozenset(name for there in here for name in there.functions),
         skills=frozenset(name for there in here for name in there.skills),
         vocabulary=whole,

@@ -72,6 +72,10 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 def _iri(program: Program, library: str, name: str) -> str:
     """Return the IRI of a declared class: of the library, or of the vocabulary whose class is declared again."""
+    before, _, local = name.rpartition(":")
+    if before:
+        iri = program.vocabulary.prefixes.get(before, "") + local
+        return program.vocabulary.aliases.get(iri, iri)
     own = namespace(library) + name
     return (
         own

@@ -57,13 +57,19 @@ def prefix(library: str, taken: Mapping[str, str]) -> str:
 def declare(files: Sequence[ReadFile], vocabulary: Vocabulary) -> dict[str, Declared]:
     """Return by path what each file declares.
 
-    A term whose bare name is visible where it is declared is that term, with something added; else it is new.
+    A term whose bare name is visible where it is declared is that term, with something added; else it is new. A
+    qualified name says itself which term it is; where there is no such prefix, it counts as a bare one.
     """
     found: dict[str, Declared] = {}
     bare = bare_in(files, vocabulary)
     for unit in files:
-        found[unit.file.path] = _declared_in(unit, bare[unit.file.path], found)
+        found[unit.file.path] = _declared_in(unit, bare[unit.file.path], found, vocabulary)
     return found
+
+
+def prefixes_in(file: s.File, vocabulary: Vocabulary) -> dict[str, str]:
+    """Return the prefixes that a file can write: those of all vocabularies and its own."""
+    return {**vocabulary.prefixes, **{line.name.text: line.iri for line in file.header if isinstance(line, s.Prefix)}}
 
 
 def bare_in(files: Sequence[ReadFile], vocabulary: Vocabulary) -> dict[str, Bare]:
@@ -96,15 +102,22 @@ def visible(bare: Bare, imported: Iterable[Declared]) -> Bare:
     return {kind: {name: tuple(sorted(iris)) for name, iris in merged[kind].items()} for kind in KINDS}
 
 
-def _declared_in(unit: ReadFile, bare: Bare, others: Mapping[str, Declared]) -> Declared:
+def _declared_in(unit: ReadFile, bare: Bare, others: Mapping[str, Declared], vocabulary: Vocabulary) -> Declared:
     known = visible(bare, (others[path] for _, path in unit.imports if path in others))
+    prefixes = prefixes_in(unit.file, vocabulary)
     declared = Declared()
     for declaration in unit.file.declarations:
         match declaration:
             case s.ClassDeclaration() | s.RelationDeclaration() | s.PropertyDeclaration():
                 kind, name = kind_of(declaration), declaration.name.text
-                existing = known[kind].get(name, ())
-                declared.terms[kind][name] = existing[0] if existing else namespace(unit.library) + name
+                before, _, local = name.rpartition(":")
+                if before in prefixes:
+                    iri = prefixes[before] + local
+                    declared.terms[kind][name] = vocabulary.aliases.get(iri, iri)
+                else:
+                    existing = known[kind].get(local, ())
+                    iri = existing[0] if existing else namespace(unit.library) + local
+                    declared.terms[kind] |= {name: iri, local: iri}
             case s.FunctionDeclaration():
                 declared.functions.add(declaration.name.text)
             case s.SkillDeclaration():

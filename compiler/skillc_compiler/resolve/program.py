@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program import Implementation, Program, ReadFile, Skill, Task
-from skillc_compiler.resolve.declared import Declared, bare_in, declare, visible
+from skillc_compiler.resolve.declared import Declared, bare_in, declare, prefixes_in, visible
 from skillc_compiler.resolve.implementations import implementation
 from skillc_compiler.resolve.individuals import Individuals, narrowest
 from skillc_compiler.resolve.names import KINDS, Kind, Names
@@ -60,12 +60,11 @@ def _names(files: Sequence[ReadFile], declared: Mapping[str, Declared], base: Vo
     for unit in files:
         here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports)]
         visible_here = {name for there in here for name in there.names()}
-        own = {line.name.text: line.iri for line in unit.file.header if isinstance(line, s.Prefix)}
         found[unit.file.path] = Names(
             bare=visible(bare[unit.file.path], here),
             known=known,
             vocabulary=base,
-            prefixes={**base.prefixes, **own},
+            prefixes=prefixes_in(unit.file, base),
             functions={},
             skills={name for there in here for name in there.skills},
             elsewhere={name: path for name, path in homes.items() if name not in visible_here},

@@ -17,7 +17,7 @@ from skillc_compiler.library.vocabulary import (
 )
 from skillc_compiler.program import ReadFile, position
 from skillc_compiler.resolve.declared import Declared, namespace, prefix
-from skillc_compiler.resolve.names import Names
+from skillc_compiler.resolve.names import Kind, Names
 from skillc_compiler.resolve.typenames import value_type
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -37,13 +37,13 @@ def extend(
         for declaration in unit.file.declarations:
             match declaration:
                 case s.ClassDeclaration():
-                    iri = here.terms["class"][declaration.name.text]
+                    iri = _declared("class", declaration.name, here, look_up)
                     classes[iri] = _class(declaration, iri, classes.get(iri), look_up)
                 case s.RelationDeclaration():
-                    iri = here.terms["relation"][declaration.name.text]
+                    iri = _declared("relation", declaration.name, here, look_up)
                     relations[iri] = _relation(declaration, iri, relations.get(iri), look_up)
                 case s.PropertyDeclaration():
-                    iri = here.terms["property"][declaration.name.text]
+                    iri = _declared("property", declaration.name, here, look_up)
                     properties[iri] = _property(declaration, iri, properties.get(iri), look_up)
                 case s.FunctionDeclaration():
                     functions.setdefault(declaration.name.text, _function(declaration, look_up))
@@ -57,6 +57,13 @@ def extend(
         properties=properties,
         functions=functions,
     )
+
+
+def _declared(kind: Kind, name: s.Name, here: Declared, names: Names) -> str:
+    """Return the IRI under which a term is declared; report a prefix that there is not."""
+    if ":" in name.text:
+        names.individual(name)
+    return here.terms[kind][name.text]
 
 
 def _class(written: s.ClassDeclaration, iri: str, old: ClassTerm | None, names: Names) -> ClassTerm:
