@@ -10,7 +10,7 @@ import pytest
 from shipped import shelf, vocabulary
 
 from skillc_compiler.goals import parse_goal
-from skillc_compiler.manual import Page, foresight, of_module, pages
+from skillc_compiler.manual import Page, foresight, of_module, pages, vocabularies
 from skillc_compiler.pipeline import compile
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.encoding import decode
@@ -25,7 +25,7 @@ from skillc_runtime.world.scene import read_scene
 ROOT = Path(__file__).parent.parent.parent
 GIVERS = {"Diagnostic", "report", "report_unknown", "Problem", "Breach", "Flaw", "_problem_name"}
 PLACES = ("dsl", "compiler", "runtime/skillc_runtime/world", "runtime/skillc_runtime/commands")
-OF_VOCABULARIES = {"broken-turtle", "unknown-datatype"}
+OF_VOCABULARIES = {page.name for page in of_module(vocabularies)}
 OF_SCENES = {page.name for page in of_module(foresight)}
 NAME = re.compile(r"[a-z]+(-[a-z]+)*")
 LAB = "http://example.org/lab#"
@@ -49,7 +49,7 @@ def problems(page: Page, text: str) -> list[str]:
     """Return the names of the diagnostics of an example."""
     if page.name in OF_SCENES:
         return in_library(text)
-    if page.good.startswith("@prefix"):
+    if page.name in OF_VOCABULARIES or page.good.startswith("@prefix"):
         return in_turtle(page.name, text)
     if page.name == "not-formatted":
         warning = not_formatted(Source("example.skill", text))
@@ -70,7 +70,8 @@ def problems(page: Page, text: str) -> list[str]:
 def in_turtle(name: str, text: str) -> list[str]:
     """Return the names of the problems of a vocabulary or scene."""
     if name in OF_VOCABULARIES:
-        return [d.name for d in load([Source("example.ttl", text)]).diagnostics]
+        shipped = [Source(path, turtle) for path, turtle in vocabulary_files()]
+        return [d.name for d in load(shipped, [Source("example.ttl", text)]).diagnostics]
     with TemporaryDirectory() as folder:
         scene = Path(folder, "example.ttl")
         scene.write_text(text, "latin-1" if "saved as Latin-1" in text else "utf-8")

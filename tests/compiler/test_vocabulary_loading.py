@@ -63,7 +63,8 @@ def test_relations() -> None:
 
 def test_properties() -> None:
     found = loaded(
-        't:force a owl:DatatypeProperty ; rdfs:domain t:A, t:B ; rdfs:range xsd:double ; skillc:dimension "Force" .\n'
+        "t:force a owl:DatatypeProperty ; rdfs:domain [ owl:unionOf ( t:A t:B ) ] ; rdfs:range xsd:double ;\n"
+        '    skillc:dimension "Force" .\n'
         "t:share a owl:DatatypeProperty, owl:FunctionalProperty ; rdfs:domain t:A ; rdfs:range xsd:float .\n"
         't:state a owl:DatatypeProperty ; rdfs:range [ a rdfs:Datatype ; owl:oneOf ( "On" "Off" ) ] .\n'
         't:normal a owl:DatatypeProperty ; rdfs:range skillc:Vector ; skillc:computedBy "m:normal" .\n'

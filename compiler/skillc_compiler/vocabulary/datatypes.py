@@ -7,21 +7,26 @@ from dataclasses import dataclass
 
 import pyoxigraph as ox
 
-from skillc_compiler.library.vocabulary import NumberType, PlainType, Position, ValueType, VectorType
-from skillc_compiler.vocabulary.graph import Graph
+from skillc_compiler.library.vocabulary import NumberType, PlainType, Position, ValueType, VectorType, local_name
+from skillc_compiler.vocabulary.graph import Graph, Node
+from skillc_compiler.vocabulary.names import OWL, RANGE, RDFS, SKILLC, XSD
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 
-XSD = "http://www.w3.org/2001/XMLSchema#"
-OWL = "http://www.w3.org/2002/07/owl#"
-RANGE = "http://www.w3.org/2000/01/rdf-schema#range"
-SKILLC = "https://w3id.org/skillc/core#"
 NUMBERS = frozenset(f"{XSD}{name}" for name in ("double", "float", "decimal"))
+INTEGERS = frozenset(
+    f"{XSD}{name}"
+    for name in (
+        *("integer", "int", "long", "short", "byte", "nonNegativeInteger", "positiveInteger", "unsignedInt"),
+        *("unsignedLong", "unsignedShort", "unsignedByte", "nonPositiveInteger", "negativeInteger"),
+    )
+)
 PLAIN: dict[str, ValueType] = {
     f"{XSD}string": PlainType("Text"),
+    f"{XSD}anyURI": PlainType("Text"),
+    f"{RDFS}Literal": PlainType("Text"),
     f"{XSD}boolean": PlainType("Bool"),
-    f"{XSD}integer": PlainType("Int"),
-    f"{XSD}int": PlainType("Int"),
+    **{datatype: PlainType("Int") for datatype in INTEGERS},
     f"{SKILLC}Pose": PlainType("Pose"),
 }
 
@@ -39,22 +44,18 @@ def value_type(graph: Graph, iri: str) -> Typed | None:
     ranges = graph.objects(iri, RANGE)
     if not ranges:
         return Typed(PlainType("Text"))
-    if isinstance(ranges[0], ox.BlankNode):
-        return _enumerated(graph, ranges[0])
-    dimension = graph.text(iri, f"{SKILLC}dimension") or "Number"
-    match ranges[0]:
-        case ox.NamedNode(value=datatype) if datatype in NUMBERS:
-            return Typed(NumberType(dimension))
-        case ox.NamedNode(value=datatype) if datatype == f"{SKILLC}Vector":
-            return Typed(VectorType(dimension))
-        case ox.NamedNode(value=datatype) if datatype in PLAIN:
-            return Typed(PLAIN[datatype])
-    return None
+    return _typed(graph, ranges[0], graph.text(iri, f"{SKILLC}dimension") or "Number")
+
+
+def ranges_of(graph: Graph, iri: str) -> tuple[str, ...]:
+    """Return the kinds of values that a data property's ranges ask for at once, in words."""
+    types = {_word(typed) for each in graph.objects(iri, RANGE) if (typed := _typed(graph, each, "Number"))}
+    return tuple(sorted(types))
 
 
 def value_types_known(graph: Graph, properties: Iterable[str], places: Mapping[str, Position]) -> Iterator[Diagnostic]:
     """Report the data properties that cannot be used because their range is no type of the language."""
-    for iri in properties:
+    for iri in sorted(properties):
         if value_type(graph, iri) is None:
             place = places.get(iri, Position(iri, 1, 1))
             yield Diagnostic(
@@ -64,6 +65,33 @@ def value_types_known(graph: Graph, properties: Iterable[str], places: Mapping[s
                 help="use xsd:double, integer, string or boolean, skillc:Pose, skillc:Vector or an owl:oneOf of texts",
                 severity="warning",
             )
+
+
+def _typed(graph: Graph, range_: Node, dimension: str) -> Typed | None:
+    """Return the type of one range; one with restrictions is that which it restricts."""
+    match range_:
+        case ox.BlankNode():
+            restricted = graph.objects(range_, f"{OWL}onDatatype")
+            return _typed(graph, restricted[0], dimension) if restricted else _enumerated(graph, range_)
+        case ox.NamedNode(value=datatype) if datatype in NUMBERS:
+            return Typed(NumberType(dimension))
+        case ox.NamedNode(value=datatype) if datatype == f"{SKILLC}Vector":
+            return Typed(VectorType(dimension))
+        case ox.NamedNode(value=datatype) if datatype in PLAIN:
+            return Typed(PLAIN[datatype])
+    return None
+
+
+def _word(typed: Typed) -> str:
+    match typed.type:
+        case PlainType(name="Text"):
+            return "a text"
+        case PlainType(name="Bool"):
+            return "true or false"
+        case NumberType() | PlainType(name="Int"):
+            return "a number"
+        case _:
+            return f"a {local_name(type(typed.type).__name__)}"
 
 
 def _enumerated(graph: Graph, node: ox.BlankNode) -> Typed | None:

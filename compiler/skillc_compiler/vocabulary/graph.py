@@ -1,4 +1,4 @@
-"""Turtle texts as one graph that answers the few questions a vocabulary asks."""
+"""Triples as one graph that answers the few questions a vocabulary asks."""
 
 from __future__ import annotations
 
@@ -7,24 +7,24 @@ from collections.abc import Iterable, Iterator
 
 import pyoxigraph as ox
 
-from skillc_dsl.diagnostics import Diagnostic, Outcome
-from skillc_dsl.source import Source, Span
-
 RDF = "http://www.w3.org/1999/02/22-rdf-syntax-ns#"
 Node = ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple
 
 
 class Graph:
-    """Triples by subject and predicate; blank nodes of different files never meet."""
+    """Triples by subject and predicate."""
 
-    def __init__(self) -> None:
+    def __init__(self, triples: Iterable[ox.Triple | ox.Quad] = ()) -> None:
         self._objects: dict[tuple[Node, str], list[Node]] = defaultdict(list)
+        self._subjects: dict[str, dict[Node, None]] = defaultdict(dict)
         self._instances: dict[str, list[Node]] = defaultdict(list)
+        self.add(triples)
 
     def add(self, triples: Iterable[ox.Triple | ox.Quad]) -> None:
         """Take in triples."""
         for triple in triples:
             self._objects[triple.subject, triple.predicate.value].append(triple.object)
+            self._subjects[triple.predicate.value][triple.subject] = None
             if triple.predicate.value == f"{RDF}type" and isinstance(triple.object, ox.NamedNode):
                 self._instances[triple.object.value].append(triple.subject)
 
@@ -35,6 +35,10 @@ class Graph:
     def nodes(self, cls: str) -> tuple[Node, ...]:
         """Return everything declared to be of exactly this class, blank nodes too, in order of appearance."""
         return tuple(self._instances[cls])
+
+    def subjects(self, predicate: str) -> tuple[str, ...]:
+        """Return the IRIs of which something is said with a predicate, sorted."""
+        return tuple(sorted(node.value for node in self._subjects[predicate] if isinstance(node, ox.NamedNode)))
 
     def objects(self, subject: Node | str, predicate: str) -> tuple[Node, ...]:
         """Return the objects in order of appearance."""
@@ -50,30 +54,9 @@ class Graph:
         return next((o.value for o in self.objects(subject, predicate) if isinstance(o, ox.Literal)), None)
 
     def members(self, head: Node) -> Iterator[Node]:
-        """Yield the members of an RDF list."""
-        while values := self.objects(head, f"{RDF}first"):
+        """Yield the members of an RDF list, up to where it is broken or begins again."""
+        seen: set[Node] = set()
+        while head not in seen and (values := self.objects(head, f"{RDF}first")):
+            seen.add(head)
             yield values[0]
-            head = self.objects(head, f"{RDF}rest")[0]
-
-
-def read(sources: Iterable[Source]) -> Outcome[Graph]:
-    """Parse Turtle texts into one graph; a broken text is left out and reported with its line."""
-    graph = Graph()
-    problems: list[Diagnostic] = []
-    for source in sources:
-        try:
-            graph.add(list(ox.parse(source.text, format=ox.RdfFormat.TURTLE)))
-        except SyntaxError as error:
-            problems.append(_broken(source, error))
-    return Outcome(graph, tuple(problems))
-
-
-def _broken(source: Source, error: SyntaxError) -> Diagnostic:
-    line, column = error.lineno or 1, error.offset or 1
-    reason = (error.msg or "not Turtle").rpartition(": ")[2]
-    return Diagnostic(
-        "broken-turtle",
-        Span(source.path, line, column, error.end_lineno or line, error.end_offset or column + 1),
-        f"this file is not Turtle: {reason}",
-        help="mend the file; everything it says is ignored until then",
-    )
+            head = next(iter(self.objects(head, f"{RDF}rest")), ox.NamedNode(f"{RDF}nil"))

@@ -1,159 +1,111 @@
-"""From Turtle texts to a Vocabulary: classes, relations and properties with their axioms."""
+"""From the texts of ontologies to a Vocabulary: classes, relations and properties with their axioms."""
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Mapping, Sequence
-from itertools import combinations
+from collections.abc import Iterator, Sequence
 
-import pyoxigraph as ox
-
-from skillc_compiler.library.vocabulary import (
-    THING,
-    ClassTerm,
-    Position,
-    PropertyTerm,
-    RelationTerm,
-    Signature,
-    Vocabulary,
-)
-from skillc_compiler.vocabulary.datatypes import value_type, value_types_known
-from skillc_compiler.vocabulary.graph import Graph, read
-from skillc_compiler.vocabulary.mandatory import required
-from skillc_compiler.vocabulary.positions import positions
-from skillc_dsl.diagnostics import Outcome
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.vocabulary.contradictions import contradictions
+from skillc_compiler.vocabulary.datatypes import value_types_known
+from skillc_compiler.vocabulary.doubts import doubts
+from skillc_compiler.vocabulary.equal import circles_told, equal
+from skillc_compiler.vocabulary.expressions import subclasses, superclasses
+from skillc_compiler.vocabulary.graph import Graph
+from skillc_compiler.vocabulary.kinds import declarations, undeclared
+from skillc_compiler.vocabulary.names import CLASS, KINDS, PROPERTY, SUBCLASS, SUBPROPERTY
+from skillc_compiler.vocabulary.places import Places
+from skillc_compiler.vocabulary.precedence import Split, passed_over, split
+from skillc_compiler.vocabulary.prefixes import preferred, prefixes, taken
+from skillc_compiler.vocabulary.reading import Ontology, read
+from skillc_compiler.vocabulary.terms import Terms, classes, deprecated, properties, relations
+from skillc_compiler.vocabulary.unused import imports, unused
+from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.source import Source
 
-OWL = "http://www.w3.org/2002/07/owl#"
-RDFS = "http://www.w3.org/2000/01/rdf-schema#"
-REPLACED = "http://purl.org/dc/terms/isReplacedBy"
-VANN = "http://purl.org/vocab/vann/"
-SKILLC = "https://w3id.org/skillc/core#"
-KINDS = ("Class", "ObjectProperty", "DatatypeProperty")
+
+def load(sources: Sequence[Source], own: Sequence[Source] = ()) -> Outcome[Vocabulary]:
+    """Read vocabularies: `sources`, and beside them `own`, in which the terms of the former cannot be changed.
+
+    Diagnostics: files that cannot be read, contradictions, and of `own` also whatever is not used.
+    """
+    shipped, theirs = read(sources), read(own)
+    standing = frozenset(iri for each in shipped.value for iri in _terms(Graph(each.triples))) if own else frozenset()
+    parts = [split(each, shipped.value, standing) for each in theirs.value]
+    graph = Graph(triple for each in shipped.value for triple in each.triples)
+    known = preferred(graph)
+    graph.add(triple for part in parts for triple in part.counting)
+    assumed = declarations(graph, [triple for part in parts for triple in part.counting])
+    new = undeclared(graph, assumed)
+    graph.add(assumed)
+    places = Places(each.source for each in (*shipped.value, *theirs.value))
+    understood = _vocabulary(graph, places, standing, prefixes(graph, theirs.value, known))
+    problems = (
+        *(*shipped.diagnostics, *theirs.diagnostics, *taken(theirs.value, known)),
+        *(*understood.diagnostics, *_undeclared(new, places, understood.value)),
+        *_of_files(theirs.value, parts, graph, understood.value),
+    )
+    return Outcome(understood.value, problems)
 
 
-def load(sources: Sequence[Source]) -> Outcome[Vocabulary]:
-    """Read vocabularies in Turtle. Diagnostics: a broken file, a property with an unknown range."""
-    graph = read(sources)
-    places = positions(sources)
-    aliases = _aliases(graph.value)
-    untyped = value_types_known(graph.value, graph.value.instances(f"{OWL}DatatypeProperty"), places)
+def _vocabulary(
+    graph: Graph, places: Places, standing: frozenset[str], prefixes: dict[str, str]
+) -> Outcome[Vocabulary]:
+    kinds = _terms(graph)
+    below = _below(graph, kinds)
+    same = equal(graph, kinds, below, standing)
+    terms = Terms(graph, kinds, below, same.aliases, standing, places)
     vocabulary = Vocabulary(
-        prefixes=_prefixes(graph.value),
-        aliases=aliases,
-        deprecated=_deprecated(graph.value),
-        classes=_classes(graph.value, aliases, places),
-        relations=_relations(graph.value, aliases, places),
-        properties=_properties(graph.value, aliases, places),
+        prefixes=prefixes,
+        aliases=same.aliases,
+        deprecated=deprecated(terms),
+        classes=classes(terms),
+        relations=relations(terms),
+        properties=properties(terms),
     )
-    return Outcome(vocabulary, (*graph.diagnostics, *untyped))
-
-
-def _prefixes(graph: Graph) -> dict[str, str]:
-    pairs = (
-        (graph.text(iri, f"{VANN}preferredNamespacePrefix"), graph.text(iri, f"{VANN}preferredNamespaceUri"))
-        for iri in graph.instances(f"{OWL}Ontology")
+    circles = [each for each in same.circles if kinds[each[0]] == CLASS]
+    others = [each for each in same.circles if kinds[each[0]] != CLASS]
+    problems = (
+        *value_types_known(graph, [iri for iri, kind in kinds.items() if kind == PROPERTY], places.terms),
+        *circles_told(circles, below, places, SUBCLASS, vocabulary.short),
+        *circles_told(others, below, places, SUBPROPERTY, vocabulary.short),
+        *contradictions(graph, vocabulary, places),
+        *doubts(graph, vocabulary, places),
     )
-    return {prefix: base for prefix, base in sorted((p or "", b or "") for p, b in pairs) if prefix and base}
+    return Outcome(vocabulary, problems)
 
 
-def _aliases(graph: Graph) -> dict[str, str]:
-    terms = [iri for kind in KINDS for iri in graph.instances(f"{OWL}{kind}")]
-    named = ((iri, graph.iris(iri, f"{SKILLC}aliasOf")) for iri in terms)
-    return {iri: others[0] for iri, others in sorted(named) if others}
+def _terms(graph: Graph) -> dict[str, str]:
+    """Return all terms with their kinds; one that is declared as several is of the first."""
+    return {iri: kind for kind in reversed(KINDS) for iri in graph.instances(kind)}
 
 
-def _deprecated(graph: Graph) -> dict[str, str]:
-    terms = [iri for kind in KINDS for iri in graph.instances(f"{OWL}{kind}")]
-    marked = (iri for iri in terms if graph.text(iri, f"{OWL}deprecated") in ("true", "1"))
-    return {iri: next(iter(graph.iris(iri, REPLACED)), "") for iri in sorted(marked)}
+def _below(graph: Graph, kinds: dict[str, str]) -> dict[str, set[str]]:
+    """Return what each term is below of, by its own declaration or as the member of a union."""
+    below: dict[str, set[str]] = {}
+    for iri, kind in kinds.items():
+        above = superclasses(graph, iri) if kind == CLASS else set(graph.iris(iri, SUBPROPERTY))
+        below[iri] = {other for other in above if other in kinds and other != iri}
+    for iri, kind in kinds.items():
+        for member in subclasses(graph, iri) if kind == CLASS else ():
+            if member in kinds and member != iri:
+                below[member].add(iri)
+    return below
 
 
-def _classes(graph: Graph, aliases: Mapping[str, str], places: Mapping[str, Position]) -> dict[str, ClassTerm]:
-    disjoint = _disjoint(graph)
-    return {
-        iri: ClassTerm(
-            iri=iri,
-            parents=tuple(aliases.get(p, p) for p in graph.iris(iri, f"{RDFS}subClassOf") if p != THING),
-            disjoint=tuple(sorted(disjoint[iri])),
-            required=required(graph, iri, aliases),
-            comment=graph.text(iri, f"{RDFS}comment") or "",
-            source=places.get(iri),
+def _undeclared(terms: Sequence[tuple[str, str]], places: Places, vocabulary: Vocabulary) -> Iterator[Diagnostic]:
+    for iri, kind in terms:
+        yield Diagnostic(
+            "undeclared-term",
+            places.term(iri),
+            f"`{vocabulary.short(iri)}` is used and nowhere declared; it is taken for a {kind}",
+            help="declare it, or put the file that does into the same folder",
+            severity="warning",
         )
-        for iri in graph.instances(f"{OWL}Class")
-        if iri not in aliases
-    }
 
 
-def _disjoint(graph: Graph) -> dict[str, set[str]]:
-    disjoint: dict[str, set[str]] = defaultdict(set)
-    for iri in graph.instances(f"{OWL}Class"):
-        disjoint[iri].update(graph.iris(iri, f"{OWL}disjointWith"))
-    for axiom in graph.nodes(f"{OWL}AllDisjointClasses"):
-        for head in graph.objects(axiom, f"{OWL}members"):
-            members = [m.value for m in graph.members(head) if isinstance(m, ox.NamedNode)]
-            for one, other in combinations(members, 2):
-                disjoint[one].add(other)
-    return disjoint
-
-
-def _relations(graph: Graph, aliases: Mapping[str, str], places: Mapping[str, Position]) -> dict[str, RelationTerm]:
-    inverse = _inverses(graph)
-    terms = (iri for iri in graph.instances(f"{OWL}ObjectProperty") if iri not in aliases)
-    return {iri: _relation(graph, iri, inverse.get(iri), places.get(iri)) for iri in terms}
-
-
-def _inverses(graph: Graph) -> dict[str, str]:
-    stated = {
-        iri: inverse
-        for iri in graph.instances(f"{OWL}ObjectProperty")
-        for inverse in graph.iris(iri, f"{OWL}inverseOf")[:1]
-    }
-    return {**{inverse: iri for iri, inverse in stated.items()}, **stated}
-
-
-def _relation(graph: Graph, iri: str, inverse: str | None, place: Position | None) -> RelationTerm:
-    return RelationTerm(
-        iri=iri,
-        signatures=_signatures(graph, iri, inverse),
-        parents=graph.iris(iri, f"{RDFS}subPropertyOf"),
-        inverse=inverse,
-        functional=_is(graph, iri, "FunctionalProperty"),
-        inverse_functional=_is(graph, iri, "InverseFunctionalProperty"),
-        symmetric=_is(graph, iri, "SymmetricProperty"),
-        transitive=_is(graph, iri, "TransitiveProperty"),
-        asymmetric=_is(graph, iri, "AsymmetricProperty"),
-        irreflexive=_is(graph, iri, "IrreflexiveProperty"),
-        comment=graph.text(iri, f"{RDFS}comment") or "",
-        source=place,
-    )
-
-
-def _signatures(graph: Graph, iri: str, inverse: str | None) -> tuple[Signature, ...]:
-    """A relation without domain and range has those of its inverse, turned round."""
-    domains, ranges = graph.iris(iri, f"{RDFS}domain"), graph.iris(iri, f"{RDFS}range")
-    if inverse and not domains and not ranges:
-        domains, ranges = graph.iris(inverse, f"{RDFS}range"), graph.iris(inverse, f"{RDFS}domain")
-    return tuple(Signature(domain, range_) for domain in domains or (THING,) for range_ in ranges or (THING,))
-
-
-def _properties(graph: Graph, aliases: Mapping[str, str], places: Mapping[str, Position]) -> dict[str, PropertyTerm]:
-    found: dict[str, PropertyTerm] = {}
-    for iri in graph.instances(f"{OWL}DatatypeProperty"):
-        typed = value_type(graph, iri)
-        if iri not in aliases and typed is not None:
-            found[iri] = PropertyTerm(
-                iri=iri,
-                domains=graph.iris(iri, f"{RDFS}domain") or (THING,),
-                type=typed.type,
-                values=typed.values,
-                functional=_is(graph, iri, "FunctionalProperty"),
-                computed_by=graph.text(iri, f"{SKILLC}computedBy"),
-                comment=graph.text(iri, f"{RDFS}comment") or "",
-                source=places.get(iri),
-            )
-    return found
-
-
-def _is(graph: Graph, iri: str, characteristic: str) -> bool:
-    return f"{OWL}{characteristic}" in graph.iris(iri, "http://www.w3.org/1999/02/22-rdf-syntax-ns#type")
+def _of_files(
+    own: Sequence[Ontology], parts: Sequence[Split], graph: Graph, vocabulary: Vocabulary
+) -> Iterator[Diagnostic]:
+    yield from imports(own, graph)
+    yield from passed_over(parts, vocabulary)
+    yield from unused(parts, graph)

@@ -11,28 +11,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-import pyoxigraph as ox
-
-from skillc_compiler.vocabulary.graph import Graph, Node
-
-OWL = "http://www.w3.org/2002/07/owl#"
-SUBCLASS = "http://www.w3.org/2000/01/rdf-schema#subClassOf"
-AT_LEAST = tuple(
-    f"{OWL}{name}" for name in ("minCardinality", "cardinality", "minQualifiedCardinality", "qualifiedCardinality")
-)
+from skillc_compiler.vocabulary.expressions import needs
+from skillc_compiler.vocabulary.graph import Graph
 
 
 def required(graph: Graph, cls: str, aliases: Mapping[str, str]) -> tuple[str, ...]:
     """Return the relations and properties that every individual of a class has at least one of, sorted."""
-    restrictions = (node for node in graph.objects(cls, SUBCLASS) if isinstance(node, ox.BlankNode))
-    demanding = (node for node in restrictions if _demands(graph, node))
-    found = {aliases.get(iri, iri) for node in demanding for iri in graph.iris(node, f"{OWL}onProperty")}
-    return tuple(sorted(found))
-
-
-def _demands(graph: Graph, restriction: Node) -> bool:
-    """Whether a restriction asks for one value or more."""
-    if graph.objects(restriction, f"{OWL}someValuesFrom"):
-        return True
-    counts = (graph.text(restriction, predicate) for predicate in AT_LEAST)
-    return any(count is not None and count.isdigit() and int(count) > 0 for count in counts)
+    return tuple(sorted({aliases.get(need.property, need.property) for need in needs(graph, cls)}))
