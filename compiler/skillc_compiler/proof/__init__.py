@@ -3,9 +3,9 @@
 A state (`state.py`) is knowledge: relations, values and other conditions that are known to hold or not to; what is
 not in it is open. Names are symbolic individuals. Two of them may be the same unless their classes are disjoint or a
 condition tells them apart (`sorts.py`), and a write takes away all knowledge that it may have made untrue
-(`writing.py`), by the axioms of its relation (`axioms.py`): functional relations replace, inverses and sub-relations
-follow, and chains of a transitive relation are left open. `truth.py` evaluates a condition to true, false or open,
-`learning.py` takes in what was seen.
+(`writing.py`, `forgetting.py`), by the axioms of its relation (`axioms.py`): functional relations replace, inverses
+and sub-relations follow, and chains of a transitive relation are left open. `truth.py` evaluates a condition to true,
+false or open, `learning.py` takes in what was seen.
 
 A body begins with what its preconditions, holds and ranges promise (`opening.py`). `exploring.py` goes through its
 nodes and returns for each the states after success, after failure, and after a failure by a hold, each with the

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from skillc_compiler.program import Call, Step
 from skillc_compiler.proof.binding import bound, required
+from skillc_compiler.proof.forgetting import forgotten
 from skillc_compiler.proof.learning import learned
 from skillc_compiler.proof.run import Around, Run, mixed
 from skillc_compiler.proof.sorts import Sorts
 from skillc_compiler.proof.state import State
 from skillc_compiler.proof.trail import Ends, Way, Ways, add, after, few, merge
-from skillc_compiler.proof.writing import Assigned, Write, forgotten
+from skillc_compiler.proof.writes import Assigned, Write
 from skillc_dsl import syntax as s
 
 

@@ -8,13 +8,15 @@ from dataclasses import replace
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.program import Call, Requirement
 from skillc_compiler.proof.binding import Binding, bound, candidates, changes, class_of, required
+from skillc_compiler.proof.forgetting import forgotten
 from skillc_compiler.proof.learning import learned
 from skillc_compiler.proof.run import Around, Effected, Run, disturbed
 from skillc_compiler.proof.state import State
 from skillc_compiler.proof.summaries import hidden, seen_from
 from skillc_compiler.proof.trail import Ends, Trail, Way, Ways, add, step
 from skillc_compiler.proof.truth import truth
-from skillc_compiler.proof.writing import Write, applied, forgotten
+from skillc_compiler.proof.writes import Write
+from skillc_compiler.proof.writing import applied
 
 
 def called(run: Run, call: Call, ways: Ways, around: Around) -> Ends:

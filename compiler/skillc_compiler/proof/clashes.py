@@ -12,7 +12,7 @@ from skillc_compiler.proof.axioms import Axioms
 from skillc_compiler.proof.binding import candidates
 from skillc_compiler.proof.findings import Clash
 from skillc_compiler.proof.summaries import Summaries, calls_in
-from skillc_compiler.proof.writing import Related, Valued, Write
+from skillc_compiler.proof.writes import Related, Valued, Write
 from skillc_compiler.walk import within
 from skillc_dsl import syntax as s
 

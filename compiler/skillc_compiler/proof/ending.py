@@ -27,7 +27,8 @@ from skillc_compiler.proof.sorts import Sorts
 from skillc_compiler.proof.state import State
 from skillc_compiler.proof.trail import Ends, Way, Ways, length
 from skillc_compiler.proof.truth import truth
-from skillc_compiler.proof.writing import Related, Valued, Write, applied, condition_of, write_of
+from skillc_compiler.proof.writes import Related, Valued, Write, condition_of, write_of
+from skillc_compiler.proof.writing import applied
 
 
 def findings(run: Run, implementation: Implementation, start: State, ends: Ends) -> Iterator[Finding]:

@@ -22,7 +22,7 @@ from skillc_compiler.proof.summaries import Summaries
 from skillc_compiler.proof.truth import truth
 from skillc_compiler.proof.understood import Understood
 from skillc_compiler.proof.watching import PropertyWatch
-from skillc_compiler.proof.writing import Write
+from skillc_compiler.proof.writes import Write
 from skillc_compiler.walk import within
 from skillc_dsl import syntax as s
 

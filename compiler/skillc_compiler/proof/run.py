@@ -10,13 +10,14 @@ from skillc_compiler.library.conditions import Effect
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.program import Call, Clause, Implementation, Program, Requirement, Step, Valued
 from skillc_compiler.proof.findings import BrokenHold, Finding, Unassigned, Unguaranteed
+from skillc_compiler.proof.forgetting import forgotten
 from skillc_compiler.proof.opening import requirements_of
 from skillc_compiler.proof.sorts import Sorts
 from skillc_compiler.proof.state import State
 from skillc_compiler.proof.summaries import Summaries, hidden
 from skillc_compiler.proof.trail import Ends, Trail, Way, Ways, length
 from skillc_compiler.proof.truth import truth
-from skillc_compiler.proof.writing import Write, forgotten
+from skillc_compiler.proof.writes import Write
 from skillc_compiler.walk import clauses_in, values_in
 from skillc_dsl.source import Span
 

@@ -12,7 +12,8 @@ from skillc_compiler.proof.binding import candidates, changes, class_of
 from skillc_compiler.proof.opening import name_sorts, opening, requirements_of
 from skillc_compiler.proof.sorts import Sorts, some
 from skillc_compiler.proof.truth import truth
-from skillc_compiler.proof.writing import Assigned, Ended, Related, Valued, Write, applied, either_way, write_of
+from skillc_compiler.proof.writes import Assigned, Ended, Related, Valued, Write, either_way, write_of
+from skillc_compiler.proof.writing import applied
 from skillc_compiler.types import Thing
 from skillc_dsl import syntax as s
 

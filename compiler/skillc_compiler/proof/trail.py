@@ -6,9 +6,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
+from skillc_compiler.proof.forgetting import forgotten
 from skillc_compiler.proof.sorts import Sorts
 from skillc_compiler.proof.state import State, joined
-from skillc_compiler.proof.writing import Write, forgotten
+from skillc_compiler.proof.writes import Write
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.source import Span
 

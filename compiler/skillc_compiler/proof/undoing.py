@@ -7,11 +7,12 @@ from collections.abc import Iterator
 from skillc_compiler.library.conditions import Anything
 from skillc_compiler.program import Call, Step
 from skillc_compiler.proof.calling import called
+from skillc_compiler.proof.forgetting import forgotten
 from skillc_compiler.proof.run import Around, Run
 from skillc_compiler.proof.state import State
 from skillc_compiler.proof.summaries import calls_in, hidden
 from skillc_compiler.proof.trail import Ends, Way, Ways, add
-from skillc_compiler.proof.writing import Related, Write, either_way, forgotten
+from skillc_compiler.proof.writes import Related, Write, either_way
 
 
 def scoped(run: Run, node: Step, ways: Ways, around: Around) -> Ends:

@@ -7,10 +7,11 @@ from collections.abc import Iterator
 from skillc_compiler.library.conditions import Condition, HasProperty, Holds, Individual, PropertyOf, Variable
 from skillc_compiler.library.reading import walk
 from skillc_compiler.library.vocabulary import THING
+from skillc_compiler.proof.forgetting import forgotten
 from skillc_compiler.proof.learning import learned
 from skillc_compiler.proof.sorts import Sorts, some
 from skillc_compiler.proof.state import State
-from skillc_compiler.proof.writing import Related, Valued, Write, forgotten
+from skillc_compiler.proof.writes import Related, Valued, Write
 
 
 def awaited(sorts: Sorts, state: State, condition: Condition) -> State:

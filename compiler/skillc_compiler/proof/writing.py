@@ -1,114 +1,25 @@
-"""What changes when facts are written: what is then known, and what is known no longer because it may be the same."""
+"""What is known once something was certainly written."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
-from functools import lru_cache
-from typing import TypeAlias, assert_never
+from typing import assert_never
 
 from skillc_compiler.library.conditions import (
     Anything,
-    Assert,
-    Assign,
     Compare,
     Condition,
     Effect,
-    Exists,
-    Forall,
     HasProperty,
     Holds,
     Individual,
-    Invoke,
-    IsA,
-    Literal,
     PropertyOf,
-    Retract,
-    Same,
-    Term,
     Variable,
 )
-from skillc_compiler.library.pddl.rewriting import replaced
-from skillc_compiler.library.reading import walk
+from skillc_compiler.proof.forgetting import forgotten
 from skillc_compiler.proof.sorts import Sorts
 from skillc_compiler.proof.state import Side, State, Thing
-from skillc_compiler.proof.truth import truth
-
-
-@dataclass(frozen=True, slots=True)
-class Related:
-    """A relation that may be written: made true, made false, or either (None)."""
-
-    subject: Term
-    relation: str
-    object: Term
-    value: bool | None
-
-
-@dataclass(frozen=True, slots=True)
-class Valued:
-    """A property that may be written; `value` is the constant or name it gets, None where that is not known.
-
-    `cleared` tells that it may have no value afterwards.
-    """
-
-    subject: Term
-    property: str
-    value: Literal | Variable | Individual | None
-    cleared: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Assigned:
-    """An output that may get a value."""
-
-    name: str
-
-
-@dataclass(frozen=True, slots=True)
-class Ended:
-    """A `once` that may have run."""
-
-    key: int
-
-
-Write: TypeAlias = Related | Valued | Assigned | Ended
-
-
-def write_of(effect: Effect) -> Write:
-    """Return what an effect writes."""
-    match effect:
-        case Assert(subject=subject, relation=relation, object=object_):
-            return Related(subject, relation, object_, True)
-        case Retract(subject=subject, relation=relation, object=object_):
-            return Related(subject, relation, object_, False)
-        case Assign(subject=subject, property=iri, value=value):
-            return Valued(subject, iri, value if isinstance(value, Literal | Variable | Individual) else None)
-        case _:
-            assert_never(effect)
-
-
-def either_way(write: Write) -> Write:
-    """Return the write of which the result is not known."""
-    match write:
-        case Related():
-            return replace(write, value=None)
-        case Valued():
-            return replace(write, value=None, cleared=True)
-        case _:
-            return write
-
-
-def condition_of(write: Related | Valued) -> Condition | None:
-    """Return the condition that holds once it is written; None where that leaves something open."""
-    match write:
-        case Related(value=None) | Valued(value=None):
-            return None
-        case Related(subject=subject, relation=relation, object=object_):
-            return Holds(subject, relation, object_)
-        case Valued(subject=Variable() | Individual() as subject, property=iri, value=value) if value is not None:
-            return Compare(PropertyOf(subject, iri), "==", value)
-    return None
+from skillc_compiler.proof.writes import Assigned, Ended, Related, Valued, Write, canonical, write_of
 
 
 def applied(sorts: Sorts, state: State, effects: Iterable[Effect]) -> State:
@@ -140,35 +51,12 @@ def written(sorts: Sorts, state: State, write: Write) -> State:
             assert_never(write)
 
 
-def forgotten(sorts: Sorts, state: State, writes: Iterable[Write]) -> State:
-    """Return what is still known after any of these may have been written."""
-    for write in writes:
-        match write:
-            case Related():
-                state = _touched(sorts, state, write)
-            case Valued():
-                state = _without_value(sorts, state, write)
-            case Assigned(name=name):
-                state = state.without(name).replaced(assigned=state.assigned)
-            case Ended(key=key):
-                state = state.replaced(done={**state.done, key: None})
-            case _:
-                assert_never(write)
-    return state
-
-
 def _retracts(write: Write) -> bool:
     return isinstance(write, Related) and write.value is False
 
 
-def _canonical(sorts: Sorts, state: State, write: Related) -> tuple[Term, str, Term]:
-    relation, turned = sorts.axioms.name.get(write.relation, (write.relation, False))
-    subject, object_ = (replaced(term, state.same) for term in (write.subject, write.object))
-    return (object_, relation, subject) if turned else (subject, relation, object_)
-
-
 def _asserted(sorts: Sorts, state: State, write: Related) -> State:
-    subject, relation, object_ = _canonical(sorts, state, write)
+    subject, relation, object_ = canonical(sorts, state, write)
     if isinstance(subject, Anything) or isinstance(object_, Anything):
         return state
     axioms = sorts.axioms
@@ -186,7 +74,7 @@ def _asserted(sorts: Sorts, state: State, write: Related) -> State:
 
 
 def _retracted(sorts: Sorts, state: State, write: Related) -> State:
-    subject, relation, object_ = _canonical(sorts, state, write)
+    subject, relation, object_ = canonical(sorts, state, write)
     facts: dict[Condition, bool] = {}
     alone = dict(state.alone)
     for source, turned in sorts.axioms.sources.get(relation, ((relation, False),)):
@@ -203,154 +91,3 @@ def _retracted(sorts: Sorts, state: State, write: Related) -> State:
             if side in alone:
                 alone[side] -= {other}
     return state.replaced(facts={**state.facts, **facts}, alone=alone)
-
-
-def _touched(sorts: Sorts, state: State, write: Related) -> State:
-    """Take away every fact that the writing of a relation may have made untrue."""
-    subject, relation, object_ = _canonical(sorts, state, write)
-    kin = sorts.axioms.kin.get(relation, frozenset({relation}))
-    adds = _added(sorts, (subject, relation, object_)) if write.value is not False else ()
-    takes = _taken(sorts, (subject, relation, object_), write.value)
-    facts = {
-        fact: true
-        for fact, true in state.facts.items()
-        if not (_hit(sorts, state, fact, true, adds, takes) if isinstance(fact, Holds) else _reads(sorts, fact, kin))
-    }
-    alone = {side: _widened(sorts, state, side, others, adds) for side, others in state.alone.items()}
-    return state.replaced(facts=facts, alone={side: others for side, others in alone.items() if others is not None})
-
-
-Pattern: TypeAlias = tuple[Term, str, Term]
-
-
-def _added(sorts: Sorts, fact: Pattern) -> tuple[Pattern, ...]:
-    """Return the facts that an assertion may make true."""
-    subject, relation, object_ = fact
-    return tuple(
-        _anywhere(sorts, (object_, above, subject) if turned else (subject, above, object_))
-        for above, turned in sorts.axioms.implied.get(relation, ((relation, False),))
-    )
-
-
-def _taken(sorts: Sorts, fact: Pattern, value: bool | None) -> tuple[Pattern, ...]:
-    """Return the facts that an assertion, by replacing others, or a retraction may make untrue."""
-    axioms, (subject, relation, object_) = sorts.axioms, fact
-    lost: list[Pattern] = []
-    if value is not True:
-        lost += [
-            (object_, source, subject) if turned else (subject, source, object_)
-            for source, turned in axioms.sources.get(relation, ((relation, False),))
-        ]
-    if value is not False:
-        for start, above, end in _added(sorts, fact):
-            for source, turned in axioms.sources.get(above, ((above, False),)):
-                if above in axioms.single_object:
-                    lost.append((Anything(), source, start) if turned else (start, source, Anything()))
-                if above in axioms.single_subject:
-                    lost.append((end, source, Anything()) if turned else (Anything(), source, end))
-    return tuple(dict.fromkeys(pattern for each in lost for pattern in _added(sorts, each)))
-
-
-def _anywhere(sorts: Sorts, pattern: Pattern) -> Pattern:
-    """A relation that may hold by a chain of facts may change between any two individuals."""
-    return (Anything(), pattern[1], Anything()) if pattern[1] in sorts.axioms.loose else pattern
-
-
-def _hit(
-    sorts: Sorts, state: State, fact: Holds, true: bool, adds: tuple[Pattern, ...], takes: tuple[Pattern, ...]
-) -> bool:
-    return any(_matches(sorts, state, fact, pattern) for pattern in (takes if true else adds))
-
-
-def _matches(sorts: Sorts, state: State, fact: Holds, pattern: Pattern) -> bool:
-    subject, relation, object_ = pattern
-    return (
-        fact.relation == relation
-        and _may_be(sorts, state, fact.subject, subject)
-        and _may_be(sorts, state, fact.object, object_)
-    )
-
-
-def _may_be(sorts: Sorts, state: State, one: Term, other: Term) -> bool:
-    if isinstance(one, Anything) or isinstance(other, Anything):
-        return True
-    return not sorts.differ(state, one, other)
-
-
-def _widened(
-    sorts: Sorts, state: State, side: Side, others: frozenset[Thing], adds: tuple[Pattern, ...]
-) -> frozenset[Thing] | None:
-    """Return who may be on the other side when these facts may be true too; None for anybody."""
-    relation, thing, is_subject = side
-    for subject, above, object_ in adds:
-        near, far = (subject, object_) if is_subject else (object_, subject)
-        if above == relation and _may_be(sorts, state, thing, near):
-            if isinstance(far, Anything) or (isinstance(far, Variable) and far.name.startswith("?")):
-                return None
-            others |= {far}
-    return others
-
-
-def _without_value(sorts: Sorts, state: State, write: Valued) -> State:
-    facts = {
-        fact: true
-        for fact, true in state.facts.items()
-        if not _reads_value(sorts, state, fact, write) or _agrees(sorts, state, fact, true, write)
-    }
-    return state if len(facts) == len(state.facts) else state.replaced(facts=facts)
-
-
-def _agrees(sorts: Sorts, state: State, fact: Condition, true: bool, write: Valued) -> bool:
-    """Whether what is known of a value is so after the write too."""
-    if isinstance(fact, HasProperty):
-        return true and not write.cleared
-    if not isinstance(fact, Compare) or not isinstance(fact.left, PropertyOf) or write.value is None:
-        return False
-    if not isinstance(fact.left.of, Variable | Individual) or fact.left.property != write.property:
-        return False
-    probe = Variable("?value")
-    compared = Compare(probe, fact.operator, fact.right)
-    value = State(facts={Compare(probe, "==", write.value): True})
-    return truth(sorts, value, compared) is true
-
-
-def _reads_value(sorts: Sorts, state: State, fact: Condition, write: Valued) -> bool:
-    subject = replaced(write.subject, state.same)
-    for of, iri in _values_read(fact):
-        term = sorts.vocabulary.properties.get(iri)
-        if term is None or term.computed_by is not None:
-            return True
-        if iri == write.property and (of is None or _may_be(sorts, state, of, subject)):
-            return True
-    return _reads_all(fact)
-
-
-def _reads(sorts: Sorts, fact: Condition, relations: frozenset[str]) -> bool:
-    """Whether a condition that is no single relation depends on any of these."""
-    computed = (sorts.vocabulary.properties.get(iri) for _, iri in _values_read(fact))
-    if any(term is None or term.computed_by is not None for term in computed):
-        return True
-    return _reads_all(fact) or not relations.isdisjoint(_relations_read(fact))
-
-
-@lru_cache(maxsize=4096)
-def _values_read(fact: Condition) -> tuple[tuple[Thing | None, str], ...]:
-    bound = {each.variable for each in walk(fact) if isinstance(each, Exists | Forall)}
-    found: list[tuple[Thing | None, str]] = []
-    for each in walk(fact):
-        match each:
-            case HasProperty(subject=of, property=iri) | PropertyOf(of=of, property=iri):
-                plain = isinstance(of, Individual) or (isinstance(of, Variable) and of.name not in bound)
-                found.append((of if plain and isinstance(of, Variable | Individual) else None, iri))
-    return tuple(found)
-
-
-@lru_cache(maxsize=4096)
-def _relations_read(fact: Condition) -> frozenset[str]:
-    return frozenset(each.relation for each in walk(fact) if isinstance(each, Holds))
-
-
-@lru_cache(maxsize=4096)
-def _reads_all(fact: Condition) -> bool:
-    """Whether a condition calls Python, which may read anything."""
-    return not isinstance(fact, Same | IsA) and any(isinstance(each, Invoke) for each in walk(fact))
