@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import platform
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, requires, version
 
-from skillc_runtime.planning.fast_downward import installed
+from skillc_runtime.planning import fast_downward
+from skillc_runtime.planning.aries import solver as aries
 from skillc_runtime.simulation.rendering import RenderingError, check_rendering
 
 
@@ -28,7 +30,7 @@ def findings() -> list[Finding]:
         Finding("python", True, platform.python_version(), platform.platform(), required=True),
         Finding("skillc", True, version("skillc"), "", required=True),
         *(_package(name) for name in _required()),
-        _planner(),
+        *_planners(),
         _rendering(),
         _video(),
     ]
@@ -47,10 +49,18 @@ def _package(name: str) -> Finding:
         return Finding(name, False, "", f"install it: pip install {name}", required=True)
 
 
-def _planner() -> Finding:
-    if installed():
-        return Finding("Fast Downward", True, version("up-fast-downward"), "plans are proved optimal")
-    return Finding("Fast Downward", False, "", "the built-in A* plans small scenes; pip install 'skillc[planner]'")
+def _planners() -> Iterator[Finding]:
+    if fast_downward.installed():
+        can = "plans: the least work, proved"
+        yield Finding("Fast Downward", True, version("up-fast-downward"), can)
+    else:
+        yield Finding("Fast Downward", False, "", "plans for larger scenes; pip install 'skillc[planner]'")
+    yield Finding("built-in A*", True, version("skillc"), "plans for small scenes: the least work, proved")
+    if aries.installed():
+        yield Finding("aries", True, version("up-aries"), "schedules that are over early (--minimise makespan)")
+    else:
+        missing = "better schedules than those of the plan with the least work; pip install 'skillc[temporal]'"
+        yield Finding("aries", False, "", missing)
 
 
 def _rendering() -> Finding:

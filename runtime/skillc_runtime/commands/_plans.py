@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from typing import TypeAlias, assert_never
+from collections.abc import Iterator
+from typing import Literal, TypeAlias, assert_never
 
 from skillc_compiler.library.conditions import Condition
 from skillc_runtime.commands._mission import Mission
@@ -15,15 +16,19 @@ from skillc_runtime.planning.solve import solve
 from skillc_runtime.plans.quickest import quickest
 
 Answer: TypeAlias = PlanResult | Scheduled
+Measure: TypeAlias = Literal["work", "proven work", "makespan"]
+
+NAMED = 3
+"""So many of the things that were left out are named to people."""
 
 
-def answer(mission: Mission, goal: Condition, minimise: str, planners: Planners, deadline_s: float) -> Answer:
-    """Plan for a goal: with little work, or to be over early."""
+def answer(mission: Mission, goal: Condition, measure: Measure, planners: Planners, deadline_s: float) -> Answer:
+    """Plan for a goal: with little work, also proven to be the least of the whole scene, or to be over early."""
     library, state = mission.library, mission.assignment.state
     try:
-        if minimise == "makespan":
+        if measure == "makespan":
             return quickest(library, state, goal, planners, deadline_s)
-        return solve(library, state, goal, planners.for_work, deadline_s)
+        return solve(library, state, goal, planners.for_work, deadline_s, prove=measure == "proven work")
     except GoalError as error:
         return Unsolvable(str(error))
 
@@ -34,7 +39,7 @@ def as_text(answer: Answer, mission: Mission) -> str:
         case Solved(plan=plan, planner=planner):
             lines = [f"{number}  {_call(step, mission)}" for number, step in enumerate(plan.steps, 1)]
             total = f"{len(plan.steps)} steps, {plan.duration_s:g} s expected, {_quality(answer)} ({planner})"
-            return "\n".join([*lines, total])
+            return "\n".join([*lines, total, *_left_out(answer, mission)])
         case Scheduled():
             return _schedule_text(answer, mission)
         case Unsolvable(why=why):
@@ -50,7 +55,7 @@ def _schedule_text(answer: Scheduled, mission: Mission) -> str:
     lines = [f"{each.start_s:7.1f} s  {each.duration_s:6.1f} s  {_call(each.step, mission)}" for each in timed]
     over = f"{len(timed)} steps, over after {answer.schedule.makespan_s:g} s with {answer.plan.duration_s:g} s of work"
     lines.append(f"{over}, {_quality(answer)} ({answer.planner})")
-    lines.append(f"times: {answer.times}")
+    lines += [f"times: {answer.times}", *_left_out(answer, mission)]
     return "\n".join(lines if answer.note is None else [*lines, f"note: {answer.note}"])
 
 
@@ -58,7 +63,20 @@ def _quality(answer: Solved | Scheduled) -> str:
     if answer.optimal == "proven":
         return "proved optimal"
     known = "" if answer.at_least_s is None else f", any plan takes at least {answer.at_least_s:g} s"
+    if answer.optimal == "optimal for the filtered problem":
+        return f"optimal for the part of the scene that was planned with{known}"
     return f"best found, not proved optimal{known}"
+
+
+def _left_out(answer: Solved | Scheduled, mission: Mission) -> Iterator[str]:
+    """Yield what of the scene a plan was made without, unless that could never have made a difference."""
+    short = mission.assignment.state.vocabulary.short
+    told = "yet no better plan needs them" if answer.optimal == "proven" else "a better plan may need them"
+    for each in answer.left_out:
+        if not each.harmless:
+            more = len(each.what) - NAMED
+            names = ", ".join(short(iri) for iri in each.what[:NAMED]) + (f" and {more} more" if more > 0 else "")
+            yield f"planned without {names}: {each.why}; {told}"
 
 
 def as_json(answer: Answer, mission: Mission) -> str:
@@ -92,7 +110,9 @@ def _solved(answer: Solved | Scheduled, steps: list[dict[str, object]]) -> dict[
         "status": "solved",
         "plan": steps,
         "plan_optimal": answer.optimal == "proven",
+        "optimal": answer.optimal,
         "at_least_s": answer.at_least_s,
+        "left_out": [{"what": each.what, "why": each.why, "harmless": each.harmless} for each in answer.left_out],
     }
 
 

@@ -25,6 +25,7 @@ SECONDS = click.FloatRange(min=0.1)
 @click.option("--library", type=click.Path(path_type=Path), help="The skills to plan with, if not the shipped ones.")
 @_keeping.options
 @_planners.options
+@click.option("--prove", is_flag=True, help="Take in more of a large scene until the plan is proved optimal.")
 @click.option("--deadline", type=SECONDS, default=30.0, show_default=True, help="Seconds the planner may take.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
 def command(
@@ -36,6 +37,7 @@ def command(
     reset: bool,
     minimise: str,
     plan_cache: bool,
+    prove: bool,
     deadline: float,
     as_json: bool,
 ) -> None:
@@ -48,11 +50,14 @@ def command(
         raise click.UsageError("a TASK has its own scene, goal and library; leave the options out")
     if task is None and ((scene or store) is None or goal is None):
         raise click.UsageError("say either a TASK or --scene FILE (or --store) with --goal TEXT")
+    if prove and minimise != "work":
+        raise click.UsageError("--prove goes with --minimise work; by makespan an answer says what is known")
     keeping = _keeping.keeping(store, reset)
     mission = _mission.of_task(task, keeping) if task else _mission.of_scene(scene, goal, None, library, keeping)
     assignment = mission.assignment
     if not isinstance(assignment.aim, Reach):
         raise click.UsageError(f"the task `{assignment.name}` says itself what to do; run it with `skillc run`")
-    answer = _plans.answer(mission, assignment.aim.goal, minimise, _planners.planners(plan_cache), deadline)
+    measure: _plans.Measure = "makespan" if minimise == "makespan" else "proven work" if prove else "work"
+    answer = _plans.answer(mission, assignment.aim.goal, measure, _planners.planners(plan_cache), deadline)
     click.echo(_plans.as_json(answer, mission) if as_json else _plans.as_text(answer, mission))
     sys.exit(3 if isinstance(answer, Unsolvable | GaveUp) else 0)

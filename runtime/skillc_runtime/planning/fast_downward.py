@@ -9,14 +9,23 @@ import time
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from skillc_compiler.library.pddl.formulas import FALSE
 from skillc_compiler.library.pddl.prepare import prepared
 from skillc_compiler.library.pddl.problem import Problem
 from skillc_compiler.library.pddl.text import domain_text, problem_text
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
-from skillc_runtime.planning.process import Ended, Limits, NotStarted, OutOfTime, Run, Running, machine_limits, wait
+from skillc_runtime.planning.process import (
+    Ended,
+    Limits,
+    NotStarted,
+    OutOfTime,
+    Run,
+    Running,
+    machine_limits,
+    wait,
+    workplace,
+)
 from skillc_runtime.planning.steps import PlanTextError, plan_of
 
 HEAD_START_S = 0.2
@@ -74,7 +83,7 @@ class FastDownward:
             return Unsolvable("no skill can change what the goal asks for")
         end = time.monotonic() + deadline_s
         try:
-            with TemporaryDirectory(prefix="skillc-plan-", ignore_cleanup_errors=True) as folder:
+            with workplace() as folder:
                 return self._plan(prepared(problem), Path(folder), end)
         except OSError as error:
             return GaveUp(f"Fast Downward has no place to work in: {error.filename}: {error.strerror}")

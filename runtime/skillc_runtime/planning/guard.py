@@ -1,8 +1,9 @@
 """A small program that runs another one within limits, and ends all it started when that ends, or when its parent does.
 
-Called as a file, without the package: `python -I -S guard.py PARENT MEMORY FILE COMMAND ..`; PARENT is the process that
-must live on, MEMORY and FILE the most bytes of address space and of a file. It ends as the command ended, by the same
-signal or with the same code, or with NOT_STARTED and the reason as its last line.
+Called as a file, without the package: `python -I -S guard.py PARENT MEMORY FILE FOLDER COMMAND ..`. PARENT is the
+process that must live on, MEMORY and FILE the most bytes of address space and of a file, FOLDER what is to be removed
+when the parent is gone, or nothing. It ends as the command ended, by the same signal or with the same code, or with
+NOT_STARTED and the reason as its last line.
 """
 
 from __future__ import annotations
@@ -23,9 +24,9 @@ LOOK_S = 0.1
 _PR_SET_PDEATHSIG, _PR_SET_CHILD_SUBREAPER = 1, 36
 
 
-def main(parent: int, memory: int, file: int, command: list[str]) -> None:
+def main(parent: int, memory: int, file: int, folder: str, command: list[str]) -> None:
     """Run the command; does not return."""
-    _stop_when_orphaned(parent)
+    _stop_when_orphaned(parent, folder)
     if sys.platform == "linux":
         _prctl(_PR_SET_CHILD_SUBREAPER, 1)
     pid = os.fork()
@@ -36,9 +37,12 @@ def main(parent: int, memory: int, file: int, command: list[str]) -> None:
     _end_as(status)
 
 
-def _stop_when_orphaned(parent: int) -> None:
+def _stop_when_orphaned(parent: int, folder: str) -> None:
     def look(_number: int, _frame: FrameType | None) -> None:
         if os.getppid() != parent:
+            _end_descendants()
+            if folder:
+                _remove(folder)
             _stop(_number, _frame)
 
     signal.signal(signal.SIGTERM, _stop)
@@ -49,6 +53,12 @@ def _stop_when_orphaned(parent: int) -> None:
 def _stop(_number: int, _frame: FrameType | None) -> None:
     _end_descendants()
     os.killpg(0, signal.SIGKILL)
+
+
+def _remove(folder: str) -> None:
+    import shutil
+
+    shutil.rmtree(folder, ignore_errors=True)
 
 
 def _become(command: list[str], memory: int, file: int) -> None:
@@ -114,4 +124,4 @@ def _end_as(status: int) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3]), sys.argv[4:])
+    main(int(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3]), sys.argv[4], sys.argv[5:])

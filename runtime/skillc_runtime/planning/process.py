@@ -11,6 +11,7 @@ import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from types import TracebackType
 from typing import TypeAlias
 
@@ -25,6 +26,8 @@ SWEEP_S = 1.0
 TAIL_BYTES = 2**16
 """So much of what a program says is read; it may say more than memory holds."""
 
+_PREFIX = "skillc-plan-"
+
 
 @dataclass(frozen=True, slots=True)
 class Limits:
@@ -32,6 +35,15 @@ class Limits:
 
     memory_bytes: int
     file_bytes: int
+
+
+def workplace() -> TemporaryDirectory[str]:
+    """Return a temporary folder for programs, which is removed after a `with`; also when this process is killed."""
+    return TemporaryDirectory(prefix=_PREFIX, ignore_cleanup_errors=True)
+
+
+def _is_workplace(folder: Path) -> bool:
+    return folder.name.startswith(_PREFIX)
 
 
 def machine_limits() -> Limits:
@@ -88,7 +100,7 @@ class Running:
         """Start a program in a folder; it talks into the file `said` there. OSError when the folder is not usable."""
         self._said, self._cut_short = folder / said, False
         guarded = (sys.executable, "-I", "-S", guard.__file__, str(os.getpid()))
-        limited = (str(limits.memory_bytes), str(limits.file_bytes))
+        limited = (str(limits.memory_bytes), str(limits.file_bytes), str(folder) if _is_workplace(folder) else "")
         with self._said.open("wb") as output, (stdin or Path(os.devnull)).open("rb") as source:
             self._process = subprocess.Popen(
                 (*guarded, *limited, *command),

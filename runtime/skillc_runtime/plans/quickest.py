@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.pddl.devices import devices
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.planning.busy import work_of
 from skillc_runtime.planning.choose import Planners
 from skillc_runtime.planning.narrowing import NARROW
-from skillc_runtime.planning.plan import GaveUp, Plan, Planner, Solved, Step, Unsolvable
+from skillc_runtime.planning.plan import GaveUp, Plan, Solved, Step, Unsolvable
 from skillc_runtime.planning.problem import Posed, pose_problem
 from skillc_runtime.planning.schedule import Schedule, Scheduled, Scheduler
 from skillc_runtime.planning.solve import DEADLINE_S, solve
 from skillc_runtime.planning.validate import PlanError, validate
+from skillc_runtime.plans.least import TOLERANCE_S, at_least_s
 from skillc_runtime.plans.rehearsal import rehearse
 from skillc_runtime.plans.scheduling import scheduled
 from skillc_runtime.world.state import WorldState
@@ -26,8 +25,7 @@ BY_LINKS = "each step begins as soon as those are over that it waits for"
 SHARE = 0.5
 """The plan with the least work gets this share of the time, one that is over earlier what is left."""
 BOUND_S = 4.0
-"""Finding out how long a device must be at work takes no longer than this."""
-TOLERANCE_S = 1e-6
+"""Finding out how long any plan takes may take as long as this."""
 
 ScheduleResult: TypeAlias = Scheduled | Unsolvable | GaveUp
 
@@ -69,8 +67,9 @@ def quickest(
     question = replace(question, library=posed.library)
     first = _by_links(least, question) if isinstance(least, Solved) else least
     if isinstance(first, Scheduled):
-        at_least_s = 0.0 if posed.narrowed else _at_least_s(posed, first.schedule, planners.for_work[0], question)
-        first = _rated(replace(first, left_out=posed.left_out), at_least_s)
+        seconds = min(BOUND_S, question.left_s)
+        least_s = at_least_s(posed, first.schedule, planners.for_work[0], seconds)
+        first = _rated(replace(first, left_out=posed.left_out), least_s)
         if first.optimal == "proven":
             return first
     return _better(first, planners.for_makespan, posed, question)
@@ -101,9 +100,9 @@ def _better(
         return _noted(first, f"{scheduler.name} returned a schedule that does not work: {error}")
     if isinstance(first, Scheduled) and tight.makespan_s >= first.schedule.makespan_s - TOLERANCE_S:
         return _noted(first, f"{scheduler.name} found none that is over earlier")
-    at_least_s = first.at_least_s if isinstance(first, Scheduled) else None
+    least_s = first.at_least_s if isinstance(first, Scheduled) else None
     found = Scheduled(tight, plan, "best found", scheduler.name, scheduler.name, left_out=posed.left_out)
-    return _rated(found, at_least_s or 0.0)
+    return _rated(found, least_s or 0.0)
 
 
 def _noted(answer: Scheduled | GaveUp, note: str) -> Scheduled | GaveUp:
@@ -132,32 +131,7 @@ def _tightened(schedule: Schedule, question: Question) -> tuple[Plan, Schedule]:
     return plan, tight
 
 
-def _rated(answer: Scheduled, at_least_s: float) -> Scheduled:
-    if answer.schedule.makespan_s <= at_least_s + TOLERANCE_S:
+def _rated(answer: Scheduled, least_s: float) -> Scheduled:
+    if answer.schedule.makespan_s <= least_s + TOLERANCE_S:
         return replace(answer, optimal="proven")
-    return replace(answer, at_least_s=at_least_s or None)
-
-
-def _at_least_s(posed: Posed, schedule: Schedule, planner: Planner, question: Question) -> float:
-    """Return a time that every plan takes, in seconds: that which the busiest device must be at work."""
-    end, bound = time.monotonic() + min(BOUND_S, question.left_s), 0.0
-    names = {iri: name for name, iri in posed.problem.names.items()}
-    for device, busy_s in _work_s(schedule, question.library):
-        if busy_s <= bound:  # it need not work longer than it does here
-            break
-        answer = planner.plan(work_of(posed.problem, names[device]), max(end - time.monotonic(), 0.0))
-        if isinstance(answer, Solved):
-            known = answer.plan.duration_s if answer.optimal == "proven" else answer.at_least_s
-            bound = max(bound, known or 0.0)
-    return bound
-
-
-def _work_s(schedule: Schedule, library: SkillLibrary) -> Iterator[tuple[str, float]]:
-    """Yield the devices (IRIs) that a schedule locks and for how long, the busiest first."""
-    locked, found = devices(library), dict[str, float]()
-    for each in schedule.steps:
-        for name in locked[each.step.skill]:
-            if name in each.step.arguments:
-                device = each.step.arguments[name]
-                found[device] = found.get(device, 0.0) + each.duration_s
-    yield from sorted(found.items(), key=lambda each: (-each[1], each[0]))
+    return replace(answer, at_least_s=least_s or None)

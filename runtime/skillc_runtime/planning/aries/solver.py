@@ -9,13 +9,22 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 from itertools import count
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from skillc_compiler.library.pddl.problem import Problem
 from skillc_runtime.planning.aries.flat import FlatProblem, NotTemporal, flattened
 from skillc_runtime.planning.aries.messages import action_name, problem_message
 from skillc_runtime.planning.plan import GaveUp
-from skillc_runtime.planning.process import Ended, Limits, NotStarted, OutOfTime, Run, Running, machine_limits, wait
+from skillc_runtime.planning.process import (
+    Ended,
+    Limits,
+    NotStarted,
+    OutOfTime,
+    Run,
+    Running,
+    machine_limits,
+    wait,
+    workplace,
+)
 from skillc_runtime.planning.schedule import Schedule, TimedStep
 from skillc_runtime.planning.steps import PlanTextError, step_of
 
@@ -62,7 +71,7 @@ class Aries:
         end = time.monotonic() + deadline_s
         try:
             flat = flattened(problem)
-            with TemporaryDirectory(prefix="skillc-plan-", ignore_cleanup_errors=True) as folder:
+            with workplace() as folder:
                 (Path(folder) / "problem.upp").write_bytes(problem_message(flat))
                 return self._deeper_and_deeper(flat, Path(folder), end)
         except NotTemporal as why:

@@ -1,0 +1,49 @@
+"""A time that every plan takes: by the critical path, and by how long single devices must be at work."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+
+from skillc_compiler.library.pddl.devices import devices
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.planning.busy import work_of
+from skillc_runtime.planning.critical import critical_path_s
+from skillc_runtime.planning.plan import Planner, Solved
+from skillc_runtime.planning.problem import Posed
+from skillc_runtime.planning.schedule import Schedule
+
+TOLERANCE_S = 1e-6
+MOST_OBJECTS = 60
+"""The critical path of a larger problem is not looked for: all actions for all objects would be gone through."""
+
+
+def at_least_s(posed: Posed, schedule: Schedule, planner: Planner, deadline_s: float) -> float:
+    """Return a time in seconds that every plan takes; looking for a better bound ends where a schedule meets it.
+
+    Of a problem that leaves out what may make a difference nothing is known: 0.
+    """
+    if posed.narrowed:
+        return 0.0
+    end, problem = time.monotonic() + deadline_s, posed.problem
+    bound = critical_path_s(problem) if len(problem.objects) <= MOST_OBJECTS else 0.0
+    names = {iri: name for name, iri in problem.names.items()}
+    for device, busy_s in _work_s(schedule, posed.library):
+        if busy_s <= bound or schedule.makespan_s <= bound + TOLERANCE_S:
+            break  # no device need work longer than it does here
+        answer = planner.plan(work_of(problem, names[device]), max(end - time.monotonic(), 0.0))
+        if isinstance(answer, Solved):
+            known = answer.plan.duration_s if answer.optimal == "proven" else answer.at_least_s
+            bound = max(bound, known or 0.0)
+    return bound
+
+
+def _work_s(schedule: Schedule, library: SkillLibrary) -> Iterator[tuple[str, float]]:
+    """Yield the devices (IRIs) that a schedule locks and for how long, the busiest first."""
+    locked, found = devices(library), dict[str, float]()
+    for each in schedule.steps:
+        for name in locked[each.step.skill]:
+            if name in each.step.arguments:
+                device = each.step.arguments[name]
+                found[device] = found.get(device, 0.0) + each.duration_s
+    yield from sorted(found.items(), key=lambda each: (-each[1], each[0]))

@@ -1,0 +1,1 @@
+"""Planners, foreign and own: what they answer, and what happens when they fail."""

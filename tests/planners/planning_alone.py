@@ -1,0 +1,11 @@
+"""A process that plans: `python planning_alone.py SEARCH-PROGRAM TRANSLATOR`; prints what came out."""
+
+import sys
+
+from planning.samples import CLEANED, LAB, WIPING
+from skillc_runtime.planning.fast_downward import FastDownward, Programs
+from skillc_runtime.planning.problem import pose_problem
+
+search, translate = sys.argv[1:]
+problem = pose_problem(WIPING, LAB, CLEANED).problem
+print(FastDownward(Programs((translate,), search, (search,))).plan(problem, 60.0))

@@ -1,0 +1,65 @@
+"""Planners that crash, print garbage, never end, fill the disk or eat the memory: a reason, no orphan, no file left."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from planners.programs import CRASH, ENDLESS, FILL, GARBAGE, HANG, HOG, SMALL, ends, program, started
+from planning.samples import CLEANED, LAB, WIPING
+from skillc_runtime.planning.aries.solver import Aries
+from skillc_runtime.planning.fast_downward import FastDownward, Programs
+from skillc_runtime.planning.plan import GaveUp
+from skillc_runtime.planning.problem import pose_problem
+
+PROBLEM = pose_problem(WIPING, LAB, CLEANED).problem
+TRANSLATED = 'touch task.sas; echo "Translator axioms: 0"'
+SECONDS = 1.5
+
+
+def translating(folder: Path, script: str) -> object:
+    """Plan with a translator that behaves badly."""
+    return FastDownward(Programs((program(folder, "translate", script),), "", ("",)), SMALL).plan(PROBLEM, SECONDS)
+
+
+def searching(folder: Path, script: str) -> object:
+    """Plan with two search programs that behave badly."""
+    bad = program(folder, "search", script)
+    programs = Programs((program(folder, "translate", TRANSLATED),), bad, (bad,))
+    return FastDownward(programs, SMALL).plan(PROBLEM, SECONDS)
+
+
+def scheduling(folder: Path, script: str) -> object:
+    """Look for a schedule with a program that behaves badly."""
+    return Aries(program(folder, "aries", script), SMALL).schedule(PROBLEM, SECONDS)
+
+
+PLACES = (translating, searching, scheduling)
+BROKEN = {
+    CRASH: "ended by signal 11",
+    GARBAGE: "",
+    HANG: "time was up",
+    ENDLESS: "",
+    FILL: "",
+    HOG: "MemoryError",
+    "exit 0": "",
+}
+
+
+@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("script", BROKEN)
+def test_a_bad_program_is_a_planner_that_gives_up_and_leaves_nothing(
+    script: str, place: Callable[[Path, str], object], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "work").mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "work"))
+    answer = place(tmp_path, script)
+    assert isinstance(answer, GaveUp), answer
+    assert BROKEN[script] in answer.why
+    assert len(answer.why) < 400
+    assert not list((tmp_path / "work").iterdir())
+    pids = started(tmp_path)
+    assert bool(pids) == (script == HANG)
+    assert all(ends(pid) for pid in pids)

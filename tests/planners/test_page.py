@@ -1,0 +1,20 @@
+"""The page about planning, done as it says."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from docs.pages import ROOT, Reader
+from skillc_runtime.planning.fast_downward import installed
+
+
+@pytest.mark.skipif(installed() is None, reason="the page speaks of planners that are extras")
+def test_the_page_is_true(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    reader = Reader(monkeypatch, everything=False)
+    reader.follow(ROOT / "docs/planning.md")
+    assert reader.done == 2
+    assert list((tmp_path / "cache/skillc/plans").iterdir())
