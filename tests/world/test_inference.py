@@ -55,7 +55,7 @@ def test_what_is_of_another_class_is_named_as_the_nearest() -> None:
 
 def test_what_many_would_do_for_is_near_to_none() -> None:
     crowd = SCENE.changed([individual(f"place-{n}", "Location") for n in range(9)])
-    for state, count in ((SCENE, 1), (crowd, 0)):
+    for state, count in ((SCENE, 2), (crowd, 0)):
         answer = infer(WANTED, PICK, {**BINDINGS, "object": iri("robot")}, state)
         assert isinstance(answer, NoneFound) and len(answer.nearest) == count
 

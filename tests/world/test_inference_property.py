@@ -155,7 +155,7 @@ def near_misses(classes_of: dict[str, str], asked: tuple[Requirement, ...], stat
 
 def _few(dropped: Requirement | None, about: tuple[str, ...], answers: list[dict[str, str]]) -> list[Near]:
     different = sorted({tuple(one[name] for name in about) for one in answers}) if about else []
-    return [(dropped, about, different[0])] if 0 < len(different) <= FEW else []
+    return [(dropped, about, each) for each in different] if len(different) <= FEW else []
 
 
 def _class_of(each: Parameter) -> str:

@@ -155,7 +155,9 @@ def _failed(call: Call) -> Iterator[str]:
         yield f"an earlier start ended at {earlier.ended:.1f} s: {earlier.status} {earlier.message}".rstrip()
     if call.failure is None:
         return
-    yield f"{'halted' if call.status == 'halted' else 'failed'}: {call.failure.message} ({call.failure.source})"
+    refused = [each for each in _others(call) if each.reason == call.failure.message]
+    why = "no implementation is left" if refused else f"{call.failure.message} ({call.failure.source})"
+    yield f"{'halted' if call.status == 'halted' else 'failed'}: {why}"
     yield from _indented(_causes(call.failure.causes))
     yield from _indented(_chain(call.chain[1:], call.failure.message))
     if call.facts:
@@ -185,7 +187,8 @@ def _parameter(call: Call, name: str) -> Iterator[str]:
     if name in call.bindings:
         yield from _indented(_bound(call, name), 4)
     elif name in call.unset:
-        yield from _indented((f"{name} has no value:", *together.from_iterable(map(_refusal, call.rejected))), 4)
+        yield f"    {name} has no value:"
+        yield from _indented(together.from_iterable(map(_refusal, call.rejected)), 6)
 
 
 def _indented(lines: Iterable[str], spaces: int = 2) -> Iterator[str]:

@@ -16,7 +16,7 @@ from skillc_runtime.world.nearest import NearMiss
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
 
-NEAREST = 2
+NEAREST = 3
 """So many near misses are named in words."""
 
 

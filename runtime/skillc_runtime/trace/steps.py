@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from math import inf
 
@@ -79,7 +80,7 @@ def _bindings(call: Record) -> dict[str, str]:
 
 
 def _planned(step: PlanStep, names: Mapping[str, str], status: str) -> Call:
-    arguments = {name: names.get(iri, iri) for name, iri in step.arguments.items()}
+    arguments = {name: names.get(iri, re.split("[#/]", iri)[-1]) for name, iri in step.arguments.items()}
     return Call(number="", skill=step.skill, status=status, source=step.source, bindings=arguments)
 
 

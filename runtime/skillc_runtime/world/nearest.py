@@ -38,7 +38,7 @@ class NearMiss:
 def nearest(
     variables: Mapping[str, str], requirements: Sequence[Requirement], bindings: Bindings, state: WorldState
 ) -> tuple[NearMiss, ...]:
-    """Return for each requirement, then for each parameter's class, the first that would do without it, if any.
+    """Return for each requirement, then for each parameter's class, those that would do without it, if they are few.
 
     EvaluationError as in `evaluate`.
     """
@@ -52,11 +52,9 @@ def _but_one(
         mentioned = free_variables(dropped.condition)
         about = tuple(name for name in variables if name in mentioned)
         kept = [each.condition for each in (*requirements[:place], *requirements[place + 1 :])]
-        found = _first_of_few(about, variables, kept, bindings, state)
-        if found is not None:
-            yield NearMiss(
-                found, dropped, about, explain(dropped.condition, state, {**bindings, **found}, state.vocabulary)
-            )
+        for found in _few(about, variables, kept, bindings, state):
+            reason = explain(dropped.condition, state, {**bindings, **found}, state.vocabulary)
+            yield NearMiss(found, dropped, about, reason)
 
 
 def _of_another(
@@ -67,23 +65,22 @@ def _of_another(
     linked = frozenset[str]().union(*map(free_variables, conditions))
     for name, cls in variables.items():
         about = (name,) if name in linked else ()
-        found = _first_of_few(about, {**variables, name: THING}, conditions, bindings, state)
-        if found is not None:
+        for found in _few(about, {**variables, name: THING}, conditions, bindings, state):
             reason = explain(IsA(Variable(name), cls), state, found, state.vocabulary)
             yield NearMiss(found, None, about, reason)
 
 
-def _first_of_few(
+def _few(
     about: tuple[str, ...],
     variables: Mapping[str, str],
     conditions: Sequence[Condition],
     bindings: Bindings,
     state: WorldState,
-) -> dict[str, str] | None:
-    """Return the first answer where few differ in what the parameters `about` are."""
+) -> list[dict[str, str]]:
+    """Return answers that differ in what the parameters `about` are, in IRI order; none where there are many."""
     different: dict[tuple[str, ...], dict[str, str]] = {}
     for answer in solutions(variables, conditions, bindings, state, MOST_TRIED if about else 0):
         different.setdefault(tuple(answer[name] for name in about), answer)
         if len(different) > FEW:
-            return None
-    return different[min(different)] if different else None
+            return []
+    return [different[each] for each in sorted(different)]
