@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TypeAlias, assert_never
 
 from skillc_runtime.world.values import Value
 
@@ -59,3 +59,16 @@ class ClearProperty:
 
 
 Change: TypeAlias = AddIndividual | RemoveIndividual | AddRelation | RemoveRelation | SetProperty | ClearProperty
+
+
+def about(change: Change) -> tuple[str, ...]:
+    """Return the individuals that a change names: whatever else it retracts is a fact about one of them."""
+    match change:
+        case AddRelation(subject, _, object_) | RemoveRelation(subject, _, object_):
+            return subject, object_
+        case AddIndividual(individual, _) | RemoveIndividual(individual):
+            return (individual,)
+        case SetProperty(individual, _, _) | ClearProperty(individual, _):
+            return (individual,)
+        case _:
+            assert_never(change)

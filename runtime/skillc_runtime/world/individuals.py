@@ -9,7 +9,7 @@ import msgspec
 import pyoxigraph as ox
 
 from skillc_compiler.library.vocabulary import THING, ClassTerm, Vocabulary
-from skillc_compiler.turtle.statements import Node, Statement
+from skillc_compiler.turtle.statements import Node, Parsed, Statement
 from skillc_compiler.turtle.terms import RDF, RDF_TYPE
 from skillc_runtime.world.terms import HAS_TEMPLATE, TEMPLATE
 
@@ -27,6 +27,12 @@ ANNOTATIONS = (
 CLASS_DECLARATIONS = (f"{OWL}Class", f"{OWL}class")  # SkiROS2's scenes write the second
 SUBCLASS = f"{RDFS}subClassOf"
 NAMED_INDIVIDUAL, ANNOTATION = f"{OWL}NamedIndividual", f"{OWL}AnnotationProperty"
+
+
+def with_own_prefixes(vocabulary: Vocabulary, parsed: Sequence[Parsed]) -> Vocabulary:
+    """Return the vocabulary with the prefixes that the documents declare beside it; the first document's win."""
+    prefixes = {name: base for document in reversed(parsed) for name, base in document.prefixes.items() if name}
+    return msgspec.structs.replace(vocabulary, prefixes={**prefixes, **vocabulary.prefixes})
 
 
 def with_own_classes(vocabulary: Vocabulary, said: Sequence[Statement]) -> Vocabulary:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from threading import RLock
 
+from skillc_runtime.world.between import between
 from skillc_runtime.world.changes import (
     AddIndividual,
     AddRelation,
@@ -12,13 +15,18 @@ from skillc_runtime.world.changes import (
     RemoveIndividual,
     RemoveRelation,
     SetProperty,
+    about,
 )
 from skillc_runtime.world.event import ChangeEvent, Listener
 from skillc_runtime.world.rules import broken, unknown
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.store.store import Nowhere, Store
+from skillc_runtime.world.transaction import OpenTransaction
 
-__all__ = ["ChangeEvent", "Listener", "WorldError", "WorldModel"]
+__all__ = ["UNDOABLE", "ChangeEvent", "Listener", "WorldError", "WorldModel"]
+
+UNDOABLE = 100
+"""So many of the last writes can be taken back."""
 
 
 class WorldError(ValueError):
@@ -35,6 +43,8 @@ class WorldModel:
         self._sequence = sequence
         self._listeners: list[Listener] = []
         self._lock = RLock()
+        self._gathering = False
+        self._past: deque[ChangeEvent] = deque(maxlen=UNDOABLE)
 
     def snapshot(self) -> WorldState:
         """Return the current version, which never changes."""
@@ -52,13 +62,49 @@ class WorldModel:
         store cannot keep the changes, and then the world stays as it was.
         """
         with self._lock:
-            made = tuple(changes)
-            event = self._checked(made, origin)
-            while not self._store.append(event, self._sequence):
-                self.follow()
-                event = self._checked(made, origin)
-            self._state = event.after
-            self._sequence += 1
+            if self._gathering:
+                raise WorldError("a transaction is open: write to it")
+            event = self._written(tuple(changes), origin)
+        self._tell(event)
+        return event
+
+    @contextmanager
+    def transaction(self, origin: str = "") -> Iterator[OpenTransaction]:
+        """Gather writes and commit them all when the block ends; none when it raises, nor when they are refused.
+
+        Other threads wait with their writes for its end, and go on reading. WorldError for one within another.
+        """
+        with self._lock:
+            if self._gathering:
+                raise WorldError("a transaction is open already: write to it")
+            self._gathering = True
+            try:
+                gathered = OpenTransaction(self._state)
+                yield gathered
+            finally:
+                self._gathering = False
+            event = self._written(tuple(gathered.changes), origin) if gathered.changes else None
+        if event is not None:
+            self._tell(event)
+
+    def undo(self, origin: str = "undo") -> ChangeEvent:
+        """Take back the last write that is not taken back yet, as a write of its own.
+
+        WorldError when there is none: nothing was written here, others wrote since, or it is more than UNDOABLE ago.
+        """
+        with self._lock:
+            if self._gathering:
+                raise WorldError("a transaction is open: end it first")
+            self.follow()
+            if not self._past:
+                raise WorldError("there is nothing to take back: nothing was written here since others wrote")
+            last = self._past[-1]
+            named = {individual for change in last.changes for individual in about(change)}
+            event = self._checked(between(self._state, last.before, named), origin)
+            if not self._store.append(event, self._sequence):
+                raise WorldError("others wrote to the world meanwhile: nothing was taken back")
+            self._advance(event)
+            self._past.pop()
         self._tell(event)
         return event
 
@@ -70,8 +116,22 @@ class WorldModel:
                 before, self._sequence = self._state, transaction.sequence
                 self._state = before.changed(transaction.changes)
                 events.append(ChangeEvent(transaction.changes, transaction.origin, before, self._state))
+                self._past.clear()
         for event in events:
             self._tell(event)
+
+    def _written(self, changes: tuple[Change, ...], origin: str) -> ChangeEvent:
+        event = self._checked(changes, origin)
+        while not self._store.append(event, self._sequence):
+            self.follow()
+            event = self._checked(changes, origin)
+        self._advance(event)
+        self._past.append(event)
+        return event
+
+    def _advance(self, event: ChangeEvent) -> None:
+        self._state = event.after
+        self._sequence += 1
 
     def _checked(self, made: tuple[Change, ...], origin: str) -> ChangeEvent:
         """Return what the changes would make of the current version; WorldError when that is refused."""

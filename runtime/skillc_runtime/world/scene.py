@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import msgspec
 import pyoxigraph as ox
 
 from skillc_compiler.library.vocabulary import Vocabulary
@@ -17,7 +16,7 @@ from skillc_ontology.catalogue import vocabulary_files
 from skillc_runtime.world.breaches import breaches
 from skillc_runtime.world.documents import Document, SceneError, parse, resolved, unreadable
 from skillc_runtime.world.flaws import flaws
-from skillc_runtime.world.individuals import facts, iri_of, with_own_classes
+from skillc_runtime.world.individuals import facts, iri_of, with_own_classes, with_own_prefixes
 from skillc_runtime.world.names import suggest
 from skillc_runtime.world.quick import quick_world
 from skillc_runtime.world.reading import Reader
@@ -47,7 +46,7 @@ class Scene:
 def load_scene(path: Path, vocabulary: Vocabulary) -> WorldState:
     """Return the world of a scene file and of the packaged data sheets; SceneError with all that is wrong."""
     own = Document.read(path)
-    return _quickly(own, [own, *_sheets()], vocabulary) or _sound(_read(own, vocabulary))
+    return _quickly(own, [own, *sheets()], vocabulary) or _sound(_read(own, vocabulary))
 
 
 def world_of(documents: Sequence[Document], vocabulary: Vocabulary) -> WorldState:
@@ -60,6 +59,16 @@ def read_scene(path: Path, vocabulary: Vocabulary) -> Scene:
     return _read(Document.read(path), vocabulary)
 
 
+def load_sheets(vocabulary: Vocabulary) -> WorldState:
+    """Return the world of the packaged data sheets alone, to which scenes add."""
+    return world_of(sheets(), vocabulary)
+
+
+def sheets() -> list[Document]:
+    """Return the packaged vocabularies and data sheets."""
+    return [Document(name, text) for name, text in vocabulary_files()]
+
+
 def scene_of(documents: Iterable[Document], vocabulary: Vocabulary) -> Scene:
     """Read Turtle documents.
 
@@ -68,9 +77,7 @@ def scene_of(documents: Iterable[Document], vocabulary: Vocabulary) -> Scene:
     """
     parsed = [parse(document, vocabulary.prefixes) for document in documents]
     said = [resolved(each, vocabulary.aliases) for document in parsed for each in document.statements]
-    prefixes = {name: base for document in reversed(parsed) for name, base in document.prefixes.items() if name}
-    vocabulary = msgspec.structs.replace(vocabulary, prefixes={**prefixes, **vocabulary.prefixes})
-    vocabulary = with_own_classes(vocabulary, said)
+    vocabulary = with_own_classes(with_own_prefixes(vocabulary, parsed), said)
     syntax = [problem for document in parsed for problem in document.problems]
     terms = list(_misused(said, vocabulary))
     return _understood(facts(said, vocabulary), vocabulary, [*syntax, *terms], _doubtful(parsed))
@@ -89,16 +96,12 @@ def _read(own: Document, vocabulary: Vocabulary) -> Scene:
     except NoRoom as error:
         reason = f"something may be wrong with it, and to find what takes a smaller file: {error}"
         raise SceneError([unreadable(own.path, reason)]) from error
-    scene = scene_of([own, *_sheets()], vocabulary)
+    scene = scene_of([own, *sheets()], vocabulary)
     if scene.problems or any(each.lines.path == own.path for each in scene.said):
         return scene
     place = Place(own.path, 1, 1, 1, 1)
     nothing = Problem(place, "empty-scene", "there is nothing in this scene", "name a thing: `:x a CLASS .`")
     return Scene(scene.state, (nothing,), scene.said, scene.doubtful)
-
-
-def _sheets() -> list[Document]:
-    return [Document(name, text) for name, text in vocabulary_files()]
 
 
 def _understood(

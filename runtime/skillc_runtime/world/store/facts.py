@@ -9,13 +9,7 @@ import pyoxigraph as ox
 
 from skillc_compiler.library.vocabulary import NumberType, PropertyTerm, Vocabulary
 from skillc_compiler.turtle.terms import RDF_TYPE
-from skillc_runtime.world.changes import (
-    AddIndividual,
-    AddRelation,
-    Change,
-    RemoveIndividual,
-    RemoveRelation,
-)
+from skillc_runtime.world.changes import about
 from skillc_runtime.world.event import ChangeEvent
 from skillc_runtime.world.individuals import OWL, RDFS
 from skillc_runtime.world.state import WorldState
@@ -43,7 +37,7 @@ def difference(event: ChangeEvent) -> Difference:
     if not event.before.individuals:
         declared = declarations(event.before.vocabulary, event.after.vocabulary)
         return Difference((), tuple(sorted({*declared, *all_facts(event.after)}, key=str)))
-    touched = frozenset(individual for change in event.changes for individual in _named_in(change))
+    touched = frozenset(individual for change in event.changes for individual in about(change))
     before, after = set(_facts_about(touched, event.before)), set(_facts_about(touched, event.after))
     return Difference(tuple(sorted(before - after, key=str)), tuple(sorted(after - before, key=str)))
 
@@ -102,13 +96,3 @@ def _node(iri: str) -> ox.NamedNode:
         return ox.NamedNode(iri)
     except ValueError as error:
         raise StoreError(f"no store can keep `{iri}`: it is no IRI") from error
-
-
-def _named_in(change: Change) -> tuple[str, ...]:
-    match change:
-        case AddRelation(subject, _, object_) | RemoveRelation(subject, _, object_):
-            return subject, object_
-        case AddIndividual(individual, _) | RemoveIndividual(individual):
-            return (individual,)
-        case _:
-            return (change.individual,)

@@ -1,0 +1,104 @@
+"""Looking at individuals: terms by name, values with units, where facts come from."""
+
+from __future__ import annotations
+
+import pytest
+
+from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_runtime.world.called import NoSuchName
+from skillc_runtime.world.changes import AddRelation, RemoveRelation
+from skillc_runtime.world.contexts import Context, Contexts
+from skillc_runtime.world.element import Quantity, element, find, search
+from skillc_runtime.world.state import WorldState
+from world.lab import SCENE, VOCABULARY, assign, fact, individual, iri
+
+
+def test_an_element_shows_what_is_known_of_it() -> None:
+    box, robot = element(SCENE, "t:box"), element(SCENE, iri("robot"))
+    assert (str(box), box.types, box.is_a("t:Product"), box.is_a("t:Eraser")) == (
+        "t:box",
+        (iri("Product"),),
+        True,
+        False,
+    )
+    assert box.quantities == (Quantity(iri("label"), ("red", "heavy"), ""), Quantity(iri("weight"), 3, "kg"))
+    assert str(box.quantity("t:weight")) == "3 kg" and box.quantity("t:label") == box.quantities[0]
+    assert element(SCENE, "t:arm").quantity("t:isClean") is None
+    assert str(element(SCENE, "t:table").quantity("t:load")) == "1"
+    assert [str(each) for each in robot.objects("t:within-it")] == ["t:arm", "t:gripper"]
+    assert robot.relations == ((iri("at"), iri("table")), (iri("hasA"), iri("arm")))
+    assert [str(each) for each in box.subjects("t:contain")] == ["t:table"]
+
+
+def names(found: tuple[object, ...]) -> list[str]:
+    return list(map(str, found))
+
+
+def test_individuals_are_found_by_class_relation_and_value() -> None:
+    assert names(find(SCENE, "t:Location")) == ["t:shelf", "t:table"]
+    assert names(find(SCENE, related={"t:contain": "t:box", "t:beside": "t:shelf"})) == ["t:table"]
+    assert names(find(SCENE, "t:Product", having={"t:weight": 3.0})) == ["t:box"]
+    assert names(find(SCENE, having={"t:label": "red"})) == ["t:box"]
+    assert names(find(SCENE, "t:Location", related={"t:contain": "t:box"}, having={"t:label": "red"})) == []
+    assert names(search(SCENE, "HEAVY product")) == ["t:box"] and names(search(SCENE, "heavy arm")) == []
+
+
+UNKNOWN = [
+    (lambda: element(SCENE, "t:boxx"), "there is no individual t:boxx; did you mean t:box?"),
+    (lambda: element(SCENE, "t:qqq"), "there is t:arm, t:board"),
+    (lambda: find(SCENE, "t:Locatoin"), "there is no term t:Locatoin; did you mean t:Location?"),
+    (lambda: find(SCENE, related={"t:weight": "t:box"}), "t:weight is no relation"),
+    (lambda: find(SCENE, having={"t:contain": 3.0}), "t:contain is no property"),
+    (lambda: element(SCENE, "q:box"), "there is no prefix `q`"),
+]
+
+
+@pytest.mark.parametrize(("look", "words"), UNKNOWN)
+def test_names_of_nothing_are_told(look: object, words: str) -> None:
+    with pytest.raises(NoSuchName) as caught:
+        look()  # type: ignore[operator]
+    assert words in str(caught.value)
+
+
+SHEETS = WorldState.empty(VOCABULARY).changed(
+    [individual("arm", "Arm"), individual("gripper", "WsgGripper"), fact("arm", "hasGripper", "gripper")]
+)
+LATER = SCENE.changed([fact("table", "contain", "eraser"), assign("box", "weight", 5.0), individual("box", "Eraser")])
+
+
+def test_facts_come_from_sheets_scene_run_or_axioms() -> None:
+    contexts = Contexts(SHEETS, SCENE)
+    facts = {
+        ("arm", "hasGripper", "gripper"): Context.ROBOT,
+        ("shelf", "beside", "table"): Context.SCENE,
+        ("table", "beside", "shelf"): Context.INFERRED,
+        ("table", "contain", "eraser"): Context.RUN,
+        ("robot", "near", "gripper"): Context.INFERRED,
+        ("shelf", "contain", "eraser"): None,
+    }
+    found = {each: contexts.of_relation(LATER, *map(iri, each)) for each in facts}
+    assert found == facts
+    classes = {"CompliantArm": Context.SCENE, "Arm": Context.INFERRED, "Product": None}
+    assert {each: contexts.of_class(LATER, iri("arm"), iri(each)) for each in classes} == classes
+    assert contexts.of_class(LATER, iri("gripper"), iri("WsgGripper")) is Context.ROBOT
+    assert contexts.of_class(LATER, iri("box"), iri("Eraser")) is Context.RUN
+    assert contexts.of_value(LATER, iri("box"), iri("weight"), 5.0) is Context.RUN
+    assert contexts.of_value(LATER, iri("box"), iri("weight"), 3) is None
+    assert contexts.of_value(LATER, iri("box"), iri("label"), "red") is Context.SCENE
+
+
+def test_every_fact_comes_from_one_place() -> None:
+    contexts = Contexts(SHEETS, SCENE)
+    by_context = {each: set(contexts.relations(LATER, each)) for each in Context}
+    expected = {(s, r, o) for r in LATER.facts for s, o in LATER.pairs(r)}
+    expected |= {(one, RDF_TYPE, cls) for one, classes in LATER.classes.items() for cls in classes}
+    assert all(by_context.values()) and sum(map(len, by_context.values())) == len(expected)
+    assert set().union(*by_context.values()) == expected
+    assert (iri("table"), iri("contain"), iri("eraser")) in by_context[Context.RUN]
+
+
+def test_a_fact_of_the_scene_that_comes_back_is_one_of_the_scene() -> None:
+    gone = SCENE.changed([RemoveRelation(iri("table"), iri("contain"), iri("box"))])
+    back = gone.changed([AddRelation(iri("table"), iri("contain"), iri("box"))])
+    contexts, contain = Contexts(SHEETS, SCENE), (iri("table"), iri("contain"), iri("box"))
+    assert contexts.of_relation(gone, *contain) is None and contexts.of_relation(back, *contain) is Context.SCENE
