@@ -41,4 +41,5 @@ def _ages(paths: Iterable[Path]) -> Iterable[tuple[float, Path]]:
     """Yield files with the time of their last change; others may remove some in the meantime."""
     for path in paths:
         with contextlib.suppress(FileNotFoundError):
-            yield path.stat().st_mtime, path
+            if path.is_file():
+                yield path.stat().st_mtime, path

@@ -10,6 +10,7 @@ from typing import TypeAlias
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.planning.choose import Planners
+from skillc_runtime.planning.initial import TooManyValues
 from skillc_runtime.planning.narrowing import NARROW
 from skillc_runtime.planning.plan import GaveUp, Plan, Solved, Step, Unsolvable
 from skillc_runtime.planning.problem import Posed, pose_problem
@@ -63,7 +64,10 @@ def quickest(
     least = solve(library, state, goal, planners.for_work, SHARE * deadline_s, without)
     if isinstance(least, Unsolvable):
         return least
-    posed = pose_problem(library, state, goal, without, NARROW)
+    try:
+        posed = pose_problem(library, state, goal, without, NARROW)
+    except TooManyValues as why:
+        return GaveUp(str(why))
     question = replace(question, library=posed.library)
     first = _by_links(least, question) if isinstance(least, Solved) else least
     if isinstance(first, Scheduled):

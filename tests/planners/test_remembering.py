@@ -1,0 +1,163 @@
+"""Plans that were found before are taken again: for the same problem, whole, by several at once."""
+
+from __future__ import annotations
+
+import json
+import multiprocessing
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from planners.test_rehearsal import BOTH, GOOD, WORLD
+from plans import depot
+from skillc_compiler.library.pddl.problem import Problem
+from skillc_runtime.commands import _shelf
+from skillc_runtime.commands._shelf import FolderShelf
+from skillc_runtime.commands.main import skillc
+from skillc_runtime.planning.astar import AStar
+from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
+from skillc_runtime.planning.problem import pose_problem
+from skillc_runtime.planning.remembering import RememberingPlanner, RememberingScheduler
+from skillc_runtime.planning.schedule import Schedule
+
+PROBLEM = pose_problem(depot.library(), WORLD, BOTH).problem
+OTHER = pose_problem(depot.library(), WORLD, depot.goal("lab:c contain lab:crate", WORLD)).problem
+ANSWER = AStar().plan(PROBLEM, 20.0)
+
+
+@dataclass
+class Counting:
+    """A planner and scheduler that counts how often it is asked, and answers as if its time had been up if it is to."""
+
+    answer: PlanResult = ANSWER
+    name: str = "counting"
+    asked: list[float] = field(default_factory=list)
+
+    def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
+        """Return the answer."""
+        self.asked.append(deadline_s)
+        return self.answer
+
+    def schedule(self, problem: Problem, deadline_s: float) -> Schedule | GaveUp:
+        """Return a schedule."""
+        self.asked.append(deadline_s)
+        return GOOD
+
+
+def test_the_same_problem_is_not_solved_twice(tmp_path: Path) -> None:
+    planner = Counting()
+    first = RememberingPlanner(planner, FolderShelf(tmp_path), "one 1.0")
+    assert isinstance(ANSWER, Solved)
+    assert [first.plan(PROBLEM, 10.0) for _ in range(3)] == [ANSWER] * 3
+    assert len(planner.asked) == 1
+    assert RememberingPlanner(planner, FolderShelf(tmp_path), "one 1.0").plan(PROBLEM, 99.0) == ANSWER
+    assert len(planner.asked) == 1
+    first.plan(OTHER, 10.0)
+    RememberingPlanner(planner, FolderShelf(tmp_path), "one 1.1").plan(PROBLEM, 10.0)
+    renamed = replace(PROBLEM, names={name: iri + "x" for name, iri in PROBLEM.names.items()})
+    first.plan(renamed, 10.0)
+    assert len(planner.asked) == 4, "another problem, another version, other things"
+
+
+def test_schedules_are_remembered_too(tmp_path: Path) -> None:
+    scheduler = Counting()
+    remembering = RememberingScheduler(scheduler, FolderShelf(tmp_path), "one 1.0")
+    assert [remembering.schedule(PROBLEM, 10.0) for _ in range(2)] == [GOOD] * 2
+    assert len(scheduler.asked) == 1
+
+
+def test_who_has_more_time_than_a_plan_that_was_cut_short_asks_again(tmp_path: Path) -> None:
+    assert isinstance(ANSWER, Solved)
+    planner = Counting(replace(ANSWER, optimal="best found"))
+    remembering = RememberingPlanner(planner, FolderShelf(tmp_path), "one 1.0")
+    for seconds in (0.0, 0.0, 10.0, 99.0, 5.0):
+        remembering.plan(PROBLEM, seconds)
+    assert planner.asked == [0.0, 10.0], "the second was not cut short, so it is good for all"
+
+
+@pytest.mark.parametrize("answer", [GaveUp("no"), Unsolvable("no")])
+def test_only_plans_are_remembered(tmp_path: Path, answer: PlanResult) -> None:
+    planner = Counting(answer)
+    remembering = RememberingPlanner(planner, FolderShelf(tmp_path), "one 1.0")
+    assert [remembering.plan(PROBLEM, 10.0) for _ in range(2)] == [answer] * 2
+    assert len(planner.asked) == 2
+
+
+def damaged(content: bytes) -> tuple[bytes, ...]:
+    return (b"", content[:-1], content[: len(content) // 2], content[::-1], b"x" + content, b"{}", b"\xff" * 100)
+
+
+def test_what_is_damaged_counts_as_missing_and_is_replaced(tmp_path: Path) -> None:
+    planner = Counting()
+    remembering = RememberingPlanner(planner, FolderShelf(tmp_path), "one 1.0")
+    remembering.plan(PROBLEM, 10.0)
+    (file,) = tmp_path.iterdir()
+    whole = file.read_bytes()
+    for number, content in enumerate(damaged(whole), 2):
+        file.write_bytes(content)
+        assert remembering.plan(PROBLEM, 10.0) == ANSWER
+        assert len(planner.asked) == number
+        assert file.read_bytes() == whole
+    assert len(planner.asked) == 8
+
+
+class Plain:
+    """A shelf with one thing on it, which is not what it should be."""
+
+    def get(self, key: str) -> bytes | None:
+        """Return something else."""
+        return b'{"solved": {"plan": 3}, "deadline_s": "soon"}'
+
+    def put(self, key: str, content: bytes) -> None:
+        """Forget it."""
+
+
+def test_what_is_whole_but_something_else_counts_as_missing() -> None:
+    planner = Counting()
+    assert RememberingPlanner(planner, Plain(), "one 1.0").plan(PROBLEM, 10.0) == ANSWER
+    assert len(planner.asked) == 1
+
+
+def test_a_shelf_that_cannot_be_used_only_costs_time(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("in the way")
+    planner = Counting()
+    remembering = RememberingPlanner(planner, FolderShelf(tmp_path / "file"), "one 1.0")
+    assert [remembering.plan(PROBLEM, 10.0) for _ in range(2)] == [ANSWER] * 2
+    assert len(planner.asked) == 2
+
+
+def test_the_oldest_are_thrown_away(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(_shelf, "MOST", 5)
+    shelf = FolderShelf(tmp_path)
+    (tmp_path / "somebody's folder").mkdir()
+    for number in range(20):
+        shelf.put(str(number), b"content")
+    assert len(list(tmp_path.iterdir())) == 6
+    assert shelf.get("19") == b"content"
+
+
+def _use(folder: Path) -> int:
+    """Plan often on a shelf that others use, of which all but a few answers are thrown away; return the wrong ones."""
+    _shelf.MOST = 2
+    remembering = RememberingPlanner(Counting(), FolderShelf(folder), "one 1.0")
+    wrong = 0
+    for _ in range(40):
+        wrong += remembering.plan(PROBLEM, 10.0) != ANSWER
+        FolderShelf(folder).put("other", b"something")
+    return wrong
+
+
+def test_several_processes_share_a_shelf(tmp_path: Path) -> None:
+    with multiprocessing.get_context("fork").Pool(4) as pool:
+        assert pool.map(_use, [tmp_path] * 4) == [0] * 4
+
+
+def test_the_command_takes_plans_again_unless_told_not_to(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    command = ["plan", "clean_table", "--json"]
+    assert CliRunner().invoke(skillc, [*command, "--no-plan-cache"]).exit_code == 0
+    assert not (tmp_path / "skillc/plans").exists()
+    first, second = (json.loads(CliRunner().invoke(skillc, command).stdout) for _ in range(2))
+    assert first == second and first["status"] == "solved"
