@@ -28,6 +28,7 @@ from skillc_runtime.world.individuals import (
 )
 from skillc_runtime.world.literals import LiteralError, read
 from skillc_runtime.world.mandatory import incomplete
+from skillc_runtime.world.own_classes import are_placed
 from skillc_runtime.world.placing import misplaced
 from skillc_runtime.world.plausible import implausible
 from skillc_runtime.world.room import Watch
@@ -115,6 +116,8 @@ def _own(said: _Said, vocabulary: Vocabulary) -> Vocabulary:
     declared = {name for name, cls in types if cls in CLASS_DECLARATIONS}
     extended = msgspec.structs.replace(vocabulary, prefixes={**said.prefixes, **vocabulary.prefixes})
     extended = with_classes(extended, declared - {""}, said.named[SUBCLASS])
+    if not are_placed(extended.classes.keys() - vocabulary.classes.keys(), extended):
+        raise _OutOfOrder
     classes = {cls for _, cls in types}
     if any(map(is_misspelt, classes | said.named.keys() | said.literal.keys())):
         raise _OutOfOrder

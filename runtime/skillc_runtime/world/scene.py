@@ -18,6 +18,7 @@ from skillc_runtime.world.documents import Document, SceneError, parse, resolved
 from skillc_runtime.world.flaws import flaws
 from skillc_runtime.world.individuals import facts, iri_of, with_own_classes, with_own_prefixes
 from skillc_runtime.world.names import suggest
+from skillc_runtime.world.own_classes import misplaced_classes, of_lost_classes
 from skillc_runtime.world.quick import quick_world
 from skillc_runtime.world.reading import Reader
 from skillc_runtime.world.room import CAREFULLY, NoRoom, make_sure
@@ -77,10 +78,15 @@ def scene_of(documents: Iterable[Document], vocabulary: Vocabulary) -> Scene:
     """
     parsed = [parse(document, vocabulary.prefixes) for document in documents]
     said = [resolved(each, vocabulary.aliases) for document in parsed for each in document.statements]
-    vocabulary = with_own_classes(with_own_prefixes(vocabulary, parsed), said)
+    vocabulary = with_own_prefixes(vocabulary, parsed)
+    known = vocabulary.classes.keys()
+    vocabulary = with_own_classes(vocabulary, said)
     syntax = [problem for document in parsed for problem in document.problems]
-    terms = list(_misused(said, vocabulary))
-    return _understood(facts(said, vocabulary), vocabulary, [*syntax, *terms], _doubtful(parsed))
+    own = frozenset(vocabulary.classes.keys() - known)
+    terms = [*_misused(said, vocabulary), *misplaced_classes(said, own, vocabulary)]
+    lost = of_lost_classes(said, own, vocabulary)
+    clear = tuple(each for each in facts(said, vocabulary) if iri_of(each.subject) not in lost)
+    return _understood(clear, vocabulary, [*syntax, *terms], _doubtful(parsed) | lost)
 
 
 def _quickly(own: Document, documents: Sequence[Document], vocabulary: Vocabulary) -> WorldState | None:
