@@ -45,10 +45,10 @@ def write_and_tidy_up(tell: Connection, place: Path) -> None:
 def write_to_a_full_disk(tell: Connection, place: Path) -> None:
     """Write until the disk is full, which a limit on file sizes stands for; tell how often and why it ended."""
     model = model_of(DiskStore(place))
-    for number in range(50):
+    for number in range(9):
         model.commit([assign("box", "weight", float(number))])
     endless = resource.RLIM_INFINITY
-    resource.setrlimit(resource.RLIMIT_FSIZE, ((place / JOURNAL).stat().st_size + 2000, endless))
+    resource.setrlimit(resource.RLIMIT_FSIZE, ((place / JOURNAL).stat().st_size + 1200, endless))
     before, made = model.snapshot(), 0
     try:
         while True:

@@ -26,9 +26,9 @@ uvicorn.run(SparqlEndpoint(graph=Dataset(), enable_update=True), port=int(sys.ar
 
 
 @contextmanager
-def oxigraph() -> Iterator[str]:
-    """Start Oxigraph behind a plain HTTP server in this process; yield its address."""
-    store, one_at_a_time = ox.Store(), threading.Lock()
+def oxigraph(kept: ox.Store | None = None, port: int = 0) -> Iterator[str]:
+    """Start Oxigraph behind a plain HTTP server in this process, with what was kept; yield its address."""
+    store, one_at_a_time = ox.Store() if kept is None else kept, threading.Lock()
 
     class Handler(BaseHTTPRequestHandler):
         protocol_version, wbufsize = "HTTP/1.1", -1
@@ -60,14 +60,14 @@ def oxigraph() -> Iterator[str]:
         def log_message(self, format: str, *args: object) -> None:
             return
 
-    with serving(Handler) as address:
+    with serving(Handler, port) as address:
         yield address
 
 
 @contextmanager
-def serving(handler: type[BaseHTTPRequestHandler]) -> Iterator[str]:
-    """Answer requests on a free port in threads of this process; yield the address."""
-    server = ThreadingHTTPServer(("127.0.0.1", 0), handler)
+def serving(handler: type[BaseHTTPRequestHandler], port: int = 0) -> Iterator[str]:
+    """Answer requests on a port, 0 for a free one, in threads of this process; yield the address."""
+    server = ThreadingHTTPServer(("127.0.0.1", port), handler)
     server.daemon_threads = True
     thread = threading.Thread(target=server.serve_forever, args=(0.02,))
     thread.start()

@@ -3,8 +3,11 @@
 import threading
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import TimeoutError as FutureTimeout
 from random import Random
+from urllib.parse import urlsplit
 
+import pyoxigraph as ox
 import pytest
 
 from skillc_runtime.world.event import ChangeEvent
@@ -103,6 +106,21 @@ def test_among_random_faults_nothing_is_lost_or_done_twice(server: str, proxy: P
     assert [each for each in written if each in set(told[0])] == told[0]
     assert facts_of(models[0].snapshot()) == facts_of(models[1].snapshot())
     assert facts_of(model_of(store_at(server)).snapshot()) == facts_of(models[0].snapshot())
+
+
+def test_a_write_waits_for_a_server_that_is_started_anew() -> None:
+    kept = ox.Store()
+    with oxigraph(kept) as address:
+        store = store_at(address)
+        model = model_of(store)
+        store.close()
+    with ThreadPoolExecutor() as threads:
+        writing = threads.submit(model.commit, [assign("box", "weight", 8.0)], "meanwhile")
+        with pytest.raises(FutureTimeout):
+            writing.result(0.15)
+        with oxigraph(kept, urlsplit(address).port or 0):
+            assert writing.result().origin == "meanwhile"
+            assert [each.origin for each in store.since(1)] == ["meanwhile"]
 
 
 def test_a_server_that_is_not_there_is_told() -> None:

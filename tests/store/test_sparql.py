@@ -1,5 +1,6 @@
 """Stores on SPARQL servers that are really there: kept, shared, filled anew."""
 
+import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from random import Random
@@ -10,11 +11,13 @@ from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.store.http import HttpEndpoint
 from skillc_runtime.world.store.opening import open_store
 from skillc_runtime.world.store.store import StoreError
+from store.actors import write
+from store.processes import Actor
 from store.servers import SERVERS
 from store.worlds import commits, facts_of, model_of
 from world.lab import SCENE, assign, iri
 
-THREADS, WRITES = 3, 8
+THREADS, WRITES = 3, 4
 
 
 @pytest.fixture(params=sorted(SERVERS), scope="module")
@@ -54,6 +57,25 @@ def test_those_who_write_at_once_agree_on_one_order(empty: str) -> None:
     assert heard[0] == heard[1] == heard[2] and len(heard[0]) == THREADS * WRITES
     assert len({facts_of(model.snapshot()) for model in models}) == 1
     assert facts_of(model_of(open_store(empty)).snapshot()) == facts_of(models[0].snapshot())
+
+
+def test_processes_share_a_server_and_one_that_is_killed_leaves_nothing_half_done(empty: str) -> None:
+    store = open_store(empty)
+    model = model_of(store)
+    filled = store.read().sequence
+    doomed, other = Actor(write, empty, 1, 1000, "doomed"), Actor(write, empty, 2, WRITES, "other")
+    acknowledged = [doomed.hear() for _ in range(3)]
+    time.sleep(Random(6).random() * 0.05)
+    doomed.kill()
+    acknowledged += doomed.told()
+    others = other.told()
+    assert other.process.exitcode == 0 and len(others) == WRITES
+    origins = [each.origin for each in store.since(filled)]
+    assert [each for each in origins if each.startswith("other")] == others
+    made = [each for each in origins if each.startswith("doomed")]
+    assert made[: len(acknowledged)] == acknowledged and len(made) <= len(acknowledged) + 1
+    model.follow()
+    assert facts_of(model.snapshot()) == facts_of(model_of(open_store(empty)).snapshot())
 
 
 def _write(model: WorldModel, number: int) -> None:
