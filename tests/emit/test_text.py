@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import traceback
 
 import msgspec
 import pytest
@@ -67,6 +68,12 @@ def test_a_domain_that_is_not_pddl_is_our_mistake_and_told() -> None:
         read_back(text.replace("(:predicates", "(:predicate"), {"drive", "pick", "wipe"})
     with pytest.raises(DomainRefused, match="lost an action"):
         read_back(text, {"drive", "pick", "wipe", "fly"})
+
+
+def test_reading_back_leaves_tracebacks_long() -> None:
+    with pytest.raises(DomainRefused) as refused:
+        read_back("(define", set())
+    assert traceback.extract_tb(refused.value.__traceback__)
 
 
 def test_a_library_without_planned_skills_is_a_domain_without_actions() -> None:

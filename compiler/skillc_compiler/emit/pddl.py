@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 from skillc_compiler.library.pddl.planning import planning_domain
 from skillc_compiler.library.pddl.pruning import pruned
 from skillc_compiler.library.pddl.text import domain_text, temporal_text
@@ -24,15 +26,19 @@ def read_back(text: str, actions: set[str]) -> None:
     """Read the domain with the `pddl` package; DomainRefused unless it is whole and has these actions.
 
     That package wants :numeric-fluents beside static cost functions, Fast Downward refuses them: only it is shown them.
+    It shortens the tracebacks of the whole process and, where it fails, leaves them short.
     """
     from lark.exceptions import LarkError
     from pddl.exceptions import PDDLParsingError, PDDLValidationError
     from pddl.parser.domain import DomainParser
 
     shown = text.replace(":action-costs)", ":action-costs :numeric-fluents)", 1)
+    limit = getattr(sys, "tracebacklimit", None)
     try:
         read = DomainParser()(shown)
     except (LarkError, PDDLParsingError, PDDLValidationError) as error:
         raise DomainRefused(f"the domain printed for this library is not PDDL: {error}") from error
+    finally:
+        sys.tracebacklimit = limit
     if {action.name for action in read.actions} != actions:
         raise DomainRefused("the domain printed for this library lost an action")
