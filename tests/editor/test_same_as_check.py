@@ -6,9 +6,12 @@ import shutil
 from pathlib import Path
 
 import pytest
+from lsprotocol import types
 
+from skillc_ontology import catalogue
 from skillc_runtime.commands import _checking, _files
 from skillc_runtime.commands._server.libraries import Libraries
+from skillc_runtime.commands._server.problems import by_uri
 
 CASES = Path(__file__).parents[1] / "cases" / "errors"
 
@@ -45,3 +48,34 @@ def test_a_scene_that_there_is_not_is_told(tmp_path: Path) -> None:
     (problem,) = libraries.problems_of_scenes(view.root)
     assert (problem.name, problem.span.line, problem.span.column) == ("unknown-scene", 2, 11)
     assert "ur5e_whiteboard.ttl" in problem.help
+
+
+def test_what_keeps_tasks_from_being_done_is_told_as_by_check(tmp_path: Path) -> None:
+    file = tmp_path / "tasks.skill"
+    file.write_text(
+        'use wiping\nprefix lab: <http://example.org/lab#>\nimport "wiping/wipe.skill"\n'
+        'task go {\n    scene "cell.ttl"\n    goal  lab:Table-1.isClean == true\n}\n'
+        'task look {\n    scene "cell.ttl"\n    do    Wipe(surface: lab:Table-1)\n}\n'
+    )
+    (tmp_path / "cell.ttl").write_text(catalogue.scene("iiwa_table").read_text("utf-8"), "utf-8")
+    checked = _checking.check(_files.find(tmp_path), None)
+    assert {d.name for d in checked} == {"unreachable-goal", "no-answer"}
+    libraries = Libraries((tmp_path,))
+    libraries.write(file.as_uri(), file.read_text("utf-8"))
+    told = libraries.problems_of_scenes(libraries.view(file.as_uri()).root)
+    assert {(d.name, d.span.line, d.span.column, d.message) for d in told} == {
+        (d.name, d.span.line, d.span.column, d.message) for d in checked
+    }
+
+
+def test_columns_in_scenes_are_those_of_check(tmp_path: Path) -> None:
+    file, scene = tmp_path / "tasks.skill", tmp_path / "cell.ttl"
+    file.write_text('task go {\n    scene "cell.ttl"\n    goal  wiping:Board-1 is Thing\n}\n')
+    scene.write_text(
+        "@prefix skiros: <http://rvmi.aau.dk/ontologies/skiros.owl#> .\nskiros:Shelf a skiros:Lokation .\n"
+    )
+    libraries = Libraries((tmp_path,))
+    libraries.write(file.as_uri(), file.read_text("utf-8"))
+    view = libraries.view(file.as_uri())
+    (told,) = by_uri(libraries, view.root, view.analysis, "utf-16")[scene.as_uri()]
+    assert told.range == types.Range(types.Position(1, 15), types.Position(1, 30))

@@ -8,6 +8,7 @@ from functools import cached_property
 
 from skillc_compiler.assist.index import Index, index_of
 from skillc_compiler.assist.visible import Visible, visible_in
+from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.pipeline import NO_SCENES, finish, problems
 from skillc_compiler.program import Program, ReadFile
@@ -50,10 +51,15 @@ class Analysis:
         return self.resolved.value
 
     @cached_property
-    def problems(self) -> tuple[Diagnostic, ...]:
-        """What the author is told, as the compiler tells it, in order of place. Takes longer than all else here."""
+    def compiled(self) -> Outcome[SkillLibrary]:
+        """The compiled library with what the author is told, as by the compiler. Takes longer than all else here."""
         checked = Outcome(self.program, problems(self.files, self.resolved))
-        return finish(checked, _ordered(self.library)).diagnostics
+        return finish(checked, _ordered(self.library))
+
+    @property
+    def problems(self) -> tuple[Diagnostic, ...]:
+        """What the author is told, in order of place."""
+        return self.compiled.diagnostics
 
     @cached_property
     def texts(self) -> Mapping[str, str]:

@@ -15,7 +15,7 @@ from skillc_dsl import parser
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source
 from skillc_runtime.commands._library import vocabulary
-from skillc_runtime.commands._server import files
+from skillc_runtime.commands._server import files, scenes
 from skillc_runtime.commands._server.files import Root
 from skillc_runtime.commands._server.scenes import Populated, Scenes
 
@@ -108,8 +108,9 @@ class Libraries:
             yield root, self.analysis(root)
 
     def problems_of_scenes(self, root: Root) -> tuple[Diagnostic, ...]:
-        """Return what is wrong with the scenes of a library's tasks, as it was understood last."""
-        return self._populated[root].problems if root in self._populated else ()
+        """Return what is wrong with the scenes of a library's tasks, and what keeps the tasks from being done there."""
+        analysis = self.analysis(root)
+        return scenes.problems(self._populated[root], analysis)
 
     def _understood(self, root: Root) -> Analysis:
         """Understand a library, and once more where the scenes of its tasks are not those of the last time."""

@@ -11,6 +11,7 @@ from pygls.uris import from_fs_path
 from skillc_compiler.assist.analysis import Analysis
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
+from skillc_runtime.commands._server import scenes
 from skillc_runtime.commands._server.files import Root
 from skillc_runtime.commands._server.libraries import Libraries
 from skillc_runtime.commands._server.positions import Lines
@@ -20,11 +21,12 @@ _SEVERITY = {"error": types.DiagnosticSeverity.Error, "warning": types.Diagnosti
 
 def by_uri(libraries: Libraries, root: Root, analysis: Analysis, encoding: str) -> dict[str, list[types.Diagnostic]]:
     """Return the problems of every file of a library, with no problems too, and of the scenes of its tasks."""
-    lines = Lines(analysis.texts, encoding)
     found: dict[str, list[types.Diagnostic]] = defaultdict(list)
     for path in analysis.library.sources:
         found[libraries.uri(root, path)] = []
-    for problem in (*analysis.problems, *libraries.problems_of_scenes(root)):
+    around = libraries.problems_of_scenes(root)
+    lines = Lines({**analysis.texts, **scenes.texts(around)}, encoding)
+    for problem in (*analysis.problems, *around):
         found[libraries.uri(root, problem.span.path)].append(told(libraries, root, lines, problem))
     return dict(found)
 
