@@ -29,7 +29,8 @@ FAMILIES: tuple[tuple[str, str], ...] = (
     (
         "ontology",
         "relation-* property-* wrong-type disjoint-* two-values breaks-* unknown-datatype unknown-value computed-*"
-        " contradicting-declaration class-* impossible-*",
+        " contradicting-declaration class-* impossible-* *-vocabulary shipped-term undeclared-term prefix-taken"
+        " missing-import unused-axiom several-inverses several-domains beyond-owl-dl",
     ),
     ("names", "unknown-* ambiguous-* duplicate-[adlnp]* unused-* import-* deprecated-*"),
     (

@@ -19,8 +19,6 @@ class Refused(NamedTuple):
 
 Format: TypeAlias = ox.RdfFormat | Refused
 
-ENDINGS = (".ttl", ".owl", ".rdf", ".xml", ".nt", ".nq", ".trig", ".jsonld")
-"""What the names of files end in that may be ontologies."""
 BY_ENDING = {".trig": ox.RdfFormat.TRIG, ".nq": ox.RdfFormat.N_QUADS, ".jsonld": ox.RdfFormat.JSON_LD}
 PROTEGE = "save it as Turtle or RDF/XML; Protégé and ROBOT do"
 _COMMENTS = r"(?:\s|#[^\n]*\n)*"

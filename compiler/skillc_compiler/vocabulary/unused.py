@@ -41,7 +41,7 @@ def unused(parts: Iterable[Split], graph: Graph) -> Iterator[Diagnostic]:
             "unused-axiom",
             Span(part.ontology.source.path, 1, 1, 1, 2),
             f"{total} axiom{'s' * (total > 1)} of this file {'have' if total > 1 else 'has'} no effect here: {listed}",
-            help="the rest is used; skillc world and check decide nothing by these",
+            help="the rest of the file is used; the reference of the language says what of OWL is",
             severity="warning",
         )
 

@@ -52,6 +52,8 @@ def _inputs(library: LibraryFiles, scene: Path | None) -> Iterator[str | bytes]:
     yield from (os.getcwd(), library.name, str(library.root))  # noqa: PTH109
     for source in (*library.sources, *library.shelf.values()):
         yield from (source.path, str(library.places[source.path]), source.text)
+    for source in library.vocabularies:
+        yield from (source.path, source.text)
     for path in (*scenes_of(library), *([scene] if scene else [])):
         yield from _file(path)
     yield from _python((*library.sources, *library.shelf.values()))

@@ -12,6 +12,7 @@ import click
 import skillc_skills
 from skillc_dsl.encoding import decode
 from skillc_dsl.source import Source
+from skillc_runtime.commands import _ontologies
 
 SHIPPED = Path(skillc_skills.__path__[0])
 _STDIN = Path("stdin.skill")
@@ -21,6 +22,7 @@ _STDIN = Path("stdin.skill")
 class LibraryFiles:
     """A library: `sources` under paths relative to `root`, `shelf` what may be imported besides, by name.
 
+    `vocabularies` are ontologies of the user's: those beside the skills, and those in the folders that were named.
     `places` are the files of all of them on disk.
     """
 
@@ -29,6 +31,7 @@ class LibraryFiles:
     sources: tuple[Source, ...]
     shelf: dict[str, Source]
     places: dict[str, Path]
+    vocabularies: tuple[Source, ...] = ()
 
     def shown(self, path: str) -> str:
         """Return a source's path as a user can open it from here; ontology files are below the ontology."""
@@ -48,7 +51,7 @@ def find(path: Path) -> LibraryFiles:
         if not sources:
             raise click.UsageError(f"there is no .skill file in {path}")
         texts = tuple(_read(file, shown) for shown, file in sources.items())
-        return _library(path.resolve().name, path, texts, sources, {})
+        return _library(path.resolve().name, path, texts, sources, {}, _vocabularies(path))
     if path.is_file():
         if path.suffix != ".skill":
             raise click.UsageError(f"{path} is not a .skill file")
@@ -64,12 +67,13 @@ def of_file(path: Path | None, content: bytes) -> LibraryFiles:
     others = (file for file in sorted(path.parent.glob("*.skill")) if file.name != path.name and file.is_file())
     neighbours = {file.name: (file.name, file) for file in others}
     source = decode(path.name, content)
-    return _library(path.resolve().parent.name, path.parent, (source,), {path.name: path}, neighbours)
+    beside = {file.name: file for file in sorted(path.parent.glob("*")) if _ontologies.is_vocabulary(file)}
+    return _library(path.resolve().parent.name, path.parent, (source,), {path.name: path}, neighbours, beside)
 
 
 def texts(library: LibraryFiles) -> dict[str, Source]:
     """Return every text of the library and its shelf, by the path that diagnostics show."""
-    every = (*library.sources, *library.shelf.values())
+    every = (*library.sources, *library.shelf.values(), *library.vocabularies)
     return {library.shown(s.path): Source(library.shown(s.path), s.text) for s in every}
 
 
@@ -91,10 +95,13 @@ def _library(
     sources: tuple[Source, ...],
     places: Mapping[str, Path],
     neighbours: Mapping[str, tuple[str, Path]],
+    beside: Mapping[str, Path],
 ) -> LibraryFiles:
     shelf = {**_shipped(), **neighbours}
     shelf_sources = {wanted: _read(file, shown) for wanted, (shown, file) in sorted(shelf.items())}
-    return LibraryFiles(name, root, sources, shelf_sources, {**dict(shelf.values()), **places})
+    vocabularies = {**_ontologies.named(), **beside}
+    read = _ontologies.sources(sorted(vocabularies.items()))
+    return LibraryFiles(name, root, sources, shelf_sources, {**vocabularies, **dict(shelf.values()), **places}, read)
 
 
 def _shipped() -> dict[str, tuple[str, Path]]:
@@ -104,11 +111,22 @@ def _shipped() -> dict[str, tuple[str, Path]]:
     return {file.name if file.parent.name == "std" else shown: (shown, file) for file, shown in named}
 
 
+def _vocabularies(folder: Path) -> dict[str, Path]:
+    """Return the vocabularies among the files of a library."""
+    found = sorted(file for file in _files_below(folder) if _ontologies.is_vocabulary(file))
+    return {file.relative_to(folder).as_posix(): file for file in found}
+
+
 def _skill_files(folder: Path) -> Iterator[Path]:
-    """Yield the `.skill` files below a folder; hidden folders and links to folders are not entered."""
+    """Yield the `.skill` files below a folder."""
+    yield from (file for file in _files_below(folder) if file.name.endswith(".skill"))
+
+
+def _files_below(folder: Path) -> Iterator[Path]:
+    """Yield the files below a folder; hidden folders and links to folders are not entered."""
     for place, folders, names in os.walk(folder, onerror=_unreadable):
         folders[:] = [name for name in folders if not name.startswith(".")]
-        yield from (Path(place, name) for name in names if name.endswith(".skill"))
+        yield from (Path(place, name) for name in names)
 
 
 def _unreadable(error: OSError) -> None:

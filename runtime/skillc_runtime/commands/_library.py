@@ -1,4 +1,4 @@
-"""Compiling a skill library for the commands, with the shipped ontology as its vocabulary."""
+"""Compiling a skill library for the commands, with the shipped ontology and the user's as its vocabulary."""
 
 from __future__ import annotations
 
@@ -23,37 +23,60 @@ from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
 from skillc_dsl.parser import parse
 from skillc_dsl.source import Source, Span
 from skillc_ontology import catalogue
+from skillc_runtime.commands import _ontologies
 from skillc_runtime.commands._files import SHIPPED, LibraryFiles, find, texts
 
 Peopled: TypeAlias = Callable[[Program], Mapping[str, Individuals]]
 """The individuals in the scenes of a program's tasks, by task."""
 _MOST_FILES = 2000
-__all__ = ["SHIPPED", "LibraryFiles", "compile_library", "find", "find_task", "task_named", "texts", "vocabulary"]
+_MOST_VOCABULARIES = 4
+__all__ = [
+    "SHIPPED",
+    "LibraryFiles",
+    "compile_library",
+    "find",
+    "find_task",
+    "task_named",
+    "texts",
+    "vocabulary",
+    "vocabulary_with",
+]
 
 
 def compile_library(library: LibraryFiles, peopled: Peopled | None = None) -> Outcome[SkillLibrary]:
-    """Compile, with the shipped ontology as vocabulary; diagnostics show paths as from here.
+    """Compile, with the shipped ontology and the library's own as vocabulary; diagnostics show paths as from here.
 
     `peopled` gives the individuals that the tasks of a program may name; those of other tasks are not checked.
     """
     with no_collection():
+        known = vocabulary_with(library.vocabularies)
         files = read(library.sources, library.shelf, library.name, _parsed)
-        program = resolve(files.value, vocabulary(), library.name, pipeline.NO_SCENES)
+        program = resolve(files.value, known.value, library.name, pipeline.NO_SCENES)
         individuals = peopled(program.value) if peopled else {}
         if individuals:
-            program = resolve(files.value, vocabulary(), library.name, individuals)
+            program = resolve(files.value, known.value, library.name, individuals)
         checked = Outcome(program.value, pipeline.problems(files, program))
         outcome = pipeline.finish(checked, library.sources)
-    return Outcome(outcome.value, tuple(_relocate(d, library) for d in outcome.diagnostics))
+    return Outcome(outcome.value, tuple(_relocate(d, library) for d in (*known.diagnostics, *outcome.diagnostics)))
+
+
+def vocabulary() -> Vocabulary:
+    """Load the shipped ontology, and those in the folders that were named."""
+    return vocabulary_with(_ontologies.sources(sorted(_ontologies.named().items()))).value
+
+
+@lru_cache(_MOST_VOCABULARIES)
+def vocabulary_with(own: tuple[Source, ...]) -> Outcome[Vocabulary]:
+    """Load the shipped ontology with others beside it, and say what is wrong with these."""
+    outcome = load(_shipped(), own)
+    if outcome.diagnostics and not own:
+        raise RuntimeError(f"the shipped ontology is broken: {outcome.diagnostics[0].message}")
+    return outcome
 
 
 @cache
-def vocabulary() -> Vocabulary:
-    """Load the shipped ontology."""
-    outcome = load([Source(path, text) for path, text in catalogue.vocabulary_files()])
-    if outcome.diagnostics:
-        raise RuntimeError(f"the shipped ontology is broken: {outcome.diagnostics[0].message}")
-    return outcome.value
+def _shipped() -> tuple[Source, ...]:
+    return tuple(Source(path, text) for path, text in catalogue.vocabulary_files())
 
 
 def find_task(reference: str) -> tuple[LibraryFiles, str]:

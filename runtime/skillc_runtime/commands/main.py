@@ -11,6 +11,8 @@ from typing import Any
 
 import click
 
+from skillc_runtime.commands import _ontologies
+
 HERE = Path(__file__).parent
 
 
@@ -27,7 +29,7 @@ class Commands(click.Group):
         if cmd_name not in self.list_commands(ctx):
             return None
         command: click.Command = importlib.import_module(f"skillc_runtime.commands.{cmd_name}").command
-        return command
+        return _ontologies.with_option(command) if cmd_name in _ontologies.COMMANDS else command
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]

@@ -12,7 +12,7 @@ from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.turtle.problems import Place, Problem
 from skillc_compiler.turtle.statements import Parsed, Statement
 from skillc_compiler.turtle.terms import RDF_TYPE
-from skillc_ontology.catalogue import vocabulary_files
+from skillc_ontology.catalogue import sheet_files
 from skillc_runtime.world.breaches import breaches
 from skillc_runtime.world.documents import Document, SceneError, parse, resolved, unreadable
 from skillc_runtime.world.flaws import flaws
@@ -66,8 +66,8 @@ def load_sheets(vocabulary: Vocabulary) -> WorldState:
 
 
 def sheets() -> list[Document]:
-    """Return the packaged vocabularies and data sheets."""
-    return [Document(name, text) for name, text in vocabulary_files()]
+    """Return the packaged vocabularies and data sheets, and the data sheets in folders of the user's."""
+    return [Document(name, text) for name, text in sheet_files()]
 
 
 def scene_of(documents: Iterable[Document], vocabulary: Vocabulary) -> Scene:

@@ -11,7 +11,7 @@ from pathlib import Path
 from skillc_dsl.encoding import decode
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _files
+from skillc_runtime.commands import _files, _ontologies
 
 _NOT_ENTERED = ("node_modules", "build", "dist", "out")
 
@@ -47,6 +47,13 @@ def sources(root: Root, buffers: Mapping[Path, str]) -> dict[str, Source]:
     return {path: _source(file, path, buffers) for file, path in ((f, _relative(f, root)) for f in files)}
 
 
+def vocabularies(root: Root) -> tuple[Source, ...]:
+    """Return the vocabularies beside the skills of a library, and those in the folders that were named."""
+    candidates = _below(root) if root.whole else root.folder.glob("*")
+    own = sorted(file for file in candidates if _ontologies.is_vocabulary(file))
+    return _ontologies.sources(sorted({**_ontologies.named(), **{_relative(file, root): file for file in own}}.items()))
+
+
 def place(path: str, root: Root) -> Path:
     """Return the file of a path that a diagnostic shows: of the library, of the shelf, or of the ontology."""
     shelf = _shipped().places
@@ -70,9 +77,13 @@ def _on_disk(root: Root) -> Iterator[Path]:
     if not root.whole:
         yield from root.folder.glob("*.skill")
         return
+    yield from (file for file in _below(root) if file.name.endswith(".skill"))
+
+
+def _below(root: Root) -> Iterator[Path]:
     for folder, folders, names in os.walk(root.folder):
         folders[:] = [name for name in folders if not name.startswith(".") and name not in _NOT_ENTERED]
-        yield from (Path(folder, name) for name in names if name.endswith(".skill"))
+        yield from (Path(folder, name) for name in names)
 
 
 def _relative(file: Path, root: Root) -> str:

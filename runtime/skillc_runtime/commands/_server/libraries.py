@@ -14,7 +14,7 @@ from skillc_compiler.assist.analysis import Analysis, Library, analyse
 from skillc_dsl import parser
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source
-from skillc_runtime.commands._library import vocabulary
+from skillc_runtime.commands._library import vocabulary_with
 from skillc_runtime.commands._server import files, scenes
 from skillc_runtime.commands._server.files import Root
 from skillc_runtime.commands._server.scenes import Populated, Scenes
@@ -42,6 +42,7 @@ class Libraries:
     _uris: dict[Path, str] = field(default_factory=dict)
     _analyses: dict[Root, Analysis] = field(default_factory=dict)
     _sources: dict[Root, dict[str, Source]] = field(default_factory=dict)
+    _vocabularies: dict[Root, tuple[Source, ...]] = field(default_factory=dict)
     _scenes: Scenes = field(default_factory=Scenes)
     _populated: dict[Root, Populated] = field(default_factory=dict)
 
@@ -107,6 +108,12 @@ class Libraries:
         for root in sorted({self.root(file) for file in self.buffers}, key=lambda root: root.folder):
             yield root, self.analysis(root)
 
+    def problems_of_vocabularies(self, root: Root) -> Iterator[Diagnostic]:
+        """Yield what is wrong with the vocabularies that stand in the folder of a library."""
+        for problem in vocabulary_with(self._vocabularies.get(root, ())).diagnostics:
+            if (root.folder / problem.span.path).is_file():
+                yield problem
+
     def problems_of_scenes(self, root: Root) -> tuple[Diagnostic, ...]:
         """Return what is wrong with the scenes of a library's tasks, and what keeps the tasks from being done there."""
         analysis = self.analysis(root)
@@ -116,8 +123,10 @@ class Libraries:
         """Understand a library, and once more where the scenes of its tasks are not those of the last time."""
         if root not in self._sources:
             self._sources[root] = files.sources(root, self.buffers)
+            self._vocabularies[root] = files.vocabularies(root)
         before = self._populated.get(root, Populated({}))
-        library = Library(root.folder.name, dict(self._sources[root]), files.shelf(), vocabulary(), before.individuals)
+        terms = vocabulary_with(self._vocabularies[root]).value
+        library = Library(root.folder.name, dict(self._sources[root]), files.shelf(), terms, before.individuals)
         found = analyse(library, parse)
         self._populated[root] = now = self._scenes.of(found.program, library.vocabulary, root.folder)
         if now.individuals == before.individuals:
