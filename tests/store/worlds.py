@@ -37,7 +37,8 @@ def model_of(store: Store) -> WorldModel:
     """Return the world in a store, which is filled if it is empty."""
     kept = store.read()
     if not kept.triples:
-        store.append(filling(), kept.sequence)
+        if store.append(filling(), kept.sequence):
+            return WorldModel(SCENE, store, kept.sequence + 1)
         kept = store.read()
     return WorldModel(world_of(kept.triples, VOCABULARY, "the store"), store, kept.sequence)
 

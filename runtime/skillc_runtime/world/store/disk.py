@@ -99,6 +99,7 @@ class DiskStore:
             if self._facts.exists():
                 return False
             base.create(self._facts, triples, 1, origin)
+        self._journal.begin(1)
         return True
 
     def _reset(self, alone: bool) -> None:
