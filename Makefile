@@ -4,7 +4,7 @@ UV := .tools/bin/uv
 BIN := .venv/bin
 INSTALL := $(UV) pip install -q --python .venv --constraint constraints.txt
 
-.PHONY: help demo test check sim wheel bench editors accept lock clean
+.PHONY: help demo test check reasoners sim wheel bench editors accept lock clean
 
 help:            ## say what there is
 	@grep -hE '^[a-z]+: .*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/'
@@ -21,6 +21,9 @@ check: .venv/.dev ## style, types, import rules
 	$(BIN)/skillc fmt --check skills_src
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+
+reasoners: .venv/.dev ## what reasoners of OWL find in the ontology and the descriptions (some need Java)
+	$(BIN)/pytest -m reasoner -n 2
 
 sim: .venv/.dev  ## whole tasks on both arms, in simulation
 	$(BIN)/pytest -m sim

@@ -27,7 +27,7 @@ CLASSES = 14
 SKILLS = 12
 KINDS = ("in", "in", "infer", "opt")
 
-pytestmark = needs_java
+pytestmark = [needs_java, pytest.mark.reasoner]
 
 
 class Dice:

@@ -18,6 +18,7 @@ def test_a_feature_becomes_what_is_expected(case: Case) -> None:
     assert set(found) - {"json"} <= set(case.expected)
 
 
+@pytest.mark.reasoner
 @needs_java
 def test_a_reasoner_finds_the_vocabularies_consistent() -> None:
     axioms = [case.library()[0] for case in cases() if case.name.startswith("vocabulary_")]

@@ -24,6 +24,7 @@ BAD_VALUES: dict[str, tuple[Node, Node, Node]] = {
     "a second value": (LAB["Eraser-1"], SKIROS.Weight, Literal(0.5)),
 }
 
+pytestmark = pytest.mark.reasoner
 needs_java = pytest.mark.skipif(shutil.which("java") is None, reason="HermiT runs in Java")
 
 
