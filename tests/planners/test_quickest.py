@@ -2,25 +2,38 @@
 
 from __future__ import annotations
 
-import threading
+import os
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from random import Random
 
+import click
 import pytest
 
 from planners.test_rehearsal import BOTH, GOOD, WORLD, carry, in_order, step
 from plans import depot
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.pddl.problem import Problem
+from skillc_compiler.library.tree import Sequence
+from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, prepare
+from skillc_runtime.commands import _planners
+from skillc_runtime.commands._mission import Mission
+from skillc_runtime.planning import fast_downward
 from skillc_runtime.planning.aries.solver import Aries, installed
 from skillc_runtime.planning.astar import AStar
 from skillc_runtime.planning.busy import work_of
-from skillc_runtime.planning.choose import Planners
+from skillc_runtime.planning.choose import Planners, at_hand
 from skillc_runtime.planning.critical import critical_path_s
+from skillc_runtime.planning.fast_downward import FastDownward
 from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.problem import pose_problem
 from skillc_runtime.planning.schedule import Schedule, Scheduled
+from skillc_runtime.planning.solve import solve
+from skillc_runtime.planning.validate import validate
 from skillc_runtime.plans.quickest import ScheduleResult, quickest
 from skillc_runtime.plans.rehearsal import rehearse
+from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.state import WorldState
 
 LIBRARY = depot.library()
@@ -156,16 +169,48 @@ def test_aries_takes_goals_of_every_kind(text: str) -> None:
 
 
 @needs_aries
+@pytest.mark.skipif(fast_downward.installed() is None, reason="the planner is an extra")
 def test_several_may_ask_at_the_same_time() -> None:
-    assert PROGRAM is not None
-    problem, found = pose_problem(LIBRARY, WORLD, BOTH).problem, []
+    programs = fast_downward.installed()
+    assert programs is not None and PROGRAM is not None
+    problem, scheduler, planner = pose_problem(LIBRARY, WORLD, BOTH).problem, Aries(PROGRAM), FastDownward(programs)
+    with ThreadPoolExecutor(3) as pool:
+        plans = [pool.submit(planner.plan, problem, 30.0) for _ in range(2)]
+        schedule = pool.submit(scheduler.schedule, problem, 30.0).result()
+    assert isinstance(schedule, Schedule) and rehearse(schedule, LIBRARY, WORLD, BOTH)
+    first, second = (each.result() for each in plans)
+    assert isinstance(first, Solved) and first == second
 
-    def plan() -> None:
-        found.append(Aries(PROGRAM or "").schedule(problem, 30.0))
 
-    threads = [threading.Thread(target=plan) for _ in range(3)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert [round(each.makespan_s, 1) for each in found if isinstance(each, Schedule)] == [9.0] * 3
+@needs_aries
+@pytest.mark.parametrize("seed", range(1, 1 + int(os.environ.get("SKILLC_SCHEDULES", "1"))))
+def test_no_schedule_is_worse_than_the_cheapest_plan_or_better_than_the_bounds(seed: int) -> None:
+    random = Random(seed)
+    robots = {name: random.choice("abcd") for name in ("carl", "dora", "emil")[: random.randint(1, 3)]}
+    crates = {name: random.choice("abcd") for name in ("crate", "box")}
+    world = depot.world(robots, crates)
+    goal = depot.goal(" and ".join(f"lab:{random.choice('abcd')} contain lab:{name}" for name in crates), world)
+    answer = quickest(LIBRARY, world, goal, at_hand(), 6.0)
+    cheapest = solve(LIBRARY, world, goal)
+    assert isinstance(answer, Scheduled) and isinstance(cheapest, Solved)
+    assert rehearse(answer.schedule, LIBRARY, world, goal) and validate(answer.plan, LIBRARY, world, goal)
+    assert "does not work" not in (answer.note or "") and "no plan" not in (answer.note or "")
+    assert answer.schedule.makespan_s <= cheapest.plan.duration_s <= answer.plan.duration_s
+    assert answer.schedule.makespan_s >= critical_path_s(pose_problem(LIBRARY, world, goal).problem)
+    assert (answer.schedule.makespan_s == cheapest.plan.duration_s) or len(robots) > 1
+
+
+def test_what_is_to_be_over_early_is_run_like_that() -> None:
+    assignment = Assignment("carry", TWO_AWAY, Reach(BOTH_AWAY, "makespan"))
+    prepared = prepare(assignment, LIBRARY, planners=Planners((Alone(),), Says(QUICK)))
+    assert isinstance(prepared, Prepared) and prepared.planned is not None
+    assert prepared.planned.solved.plan.duration_s == 14.0
+    assert {each.arguments["robot"] for each in prepared.planned.steps} == {depot.iri("carl"), depot.iri("dora")}
+
+
+def test_what_is_not_planned_cannot_be_over_early() -> None:
+    nothing = Sequence(children=(), reactive=False, source=Position(path="x.skill", line=1, column=1))
+    mission = Mission(LIBRARY, Assignment("carry", TWO_AWAY, Perform(nothing)), WorldModel(TWO_AWAY))
+    assert _planners.aimed(mission, "work") is mission
+    with pytest.raises(click.UsageError, match="there is no plan to minimise"):
+        _planners.aimed(mission, "makespan")

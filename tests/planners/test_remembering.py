@@ -143,7 +143,7 @@ def _use(folder: Path) -> int:
     _shelf.MOST = 2
     remembering = RememberingPlanner(Counting(), FolderShelf(folder), "one 1.0")
     wrong = 0
-    for _ in range(40):
+    for _ in range(15):
         wrong += remembering.plan(PROBLEM, 10.0) != ANSWER
         FolderShelf(folder).put("other", b"something")
     return wrong
