@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 
+from skillc_compiler.library.pddl.complement import complemented
 from skillc_compiler.library.pddl.formulas import FALSE
 from skillc_compiler.library.pddl.prepare import prepared
 from skillc_compiler.library.pddl.problem import Problem
@@ -84,7 +85,7 @@ class FastDownward:
         end = time.monotonic() + deadline_s
         try:
             with workplace() as folder:
-                return self._plan(prepared(problem), Path(folder), end)
+                return self._plan(prepared(complemented(problem)), Path(folder), end)
         except OSError as error:
             return GaveUp(f"Fast Downward has no place to work in: {error.filename}: {error.strerror}")
 
