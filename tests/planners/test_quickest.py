@@ -128,7 +128,8 @@ def test_a_schedule_that_meets_a_bound_is_proved() -> None:
 
 def test_bounds_hold() -> None:
     problem = pose_problem(LIBRARY, WORLD, BOTH).problem
-    assert 0.0 < critical_path_s(problem) <= GOOD.makespan_s
+    assert 0.0 < critical_path_s(problem, 20.0) <= GOOD.makespan_s
+    assert critical_path_s(problem, 0.0) == 0.0, "there was no time to look"
     names = {iri: name for name, iri in problem.names.items()}
     for robot in ("carl", "dora"):
         least = AStar().plan(work_of(problem, names[depot.iri(robot)]), 20.0)
@@ -196,7 +197,7 @@ def test_no_schedule_is_worse_than_the_cheapest_plan_or_better_than_the_bounds(s
     assert rehearse(answer.schedule, LIBRARY, world, goal) and validate(answer.plan, LIBRARY, world, goal)
     assert "does not work" not in (answer.note or "") and "no plan" not in (answer.note or "")
     assert answer.schedule.makespan_s <= cheapest.plan.duration_s <= answer.plan.duration_s
-    assert answer.schedule.makespan_s >= critical_path_s(pose_problem(LIBRARY, world, goal).problem)
+    assert answer.schedule.makespan_s >= critical_path_s(pose_problem(LIBRARY, world, goal).problem, 20.0)
     assert (answer.schedule.makespan_s == cheapest.plan.duration_s) or len(robots) > 1
 
 

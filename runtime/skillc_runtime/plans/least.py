@@ -14,8 +14,8 @@ from skillc_runtime.planning.problem import Posed
 from skillc_runtime.planning.schedule import Schedule
 
 TOLERANCE_S = 1e-6
-MOST_OBJECTS = 60
-"""The critical path of a larger problem is not looked for: all actions for all objects would be gone through."""
+SHARE = 0.5
+"""The critical path gets this share of the time, the devices what is left."""
 
 
 def at_least_s(posed: Posed, schedule: Schedule, planner: Planner, deadline_s: float) -> float:
@@ -26,7 +26,7 @@ def at_least_s(posed: Posed, schedule: Schedule, planner: Planner, deadline_s: f
     if posed.narrowed:
         return 0.0
     end, problem = time.monotonic() + deadline_s, posed.problem
-    bound = critical_path_s(problem) if len(problem.objects) <= MOST_OBJECTS else 0.0
+    bound = critical_path_s(problem, SHARE * deadline_s)
     names = {iri: name for name, iri in problem.names.items()}
     for device, busy_s in _work_s(schedule, posed.library):
         if busy_s <= bound or schedule.makespan_s <= bound + TOLERANCE_S:
