@@ -113,14 +113,10 @@ def disjunction(parts: Iterable[Formula]) -> Formula:
 def renamed(formula: Formula, names: Mapping[str, str]) -> Formula:
     """Return the formula with other names for terms."""
     match formula:
-        case Atom(predicate=predicate, terms=terms):
-            return Atom(predicate, tuple(names.get(term, term) for term in terms))
-        case Equal(left=left, right=right):
-            return Equal(names.get(left, left), names.get(right, right))
-        case Negation(body=Atom(predicate=predicate, terms=terms)):
-            return Negation(Atom(predicate, tuple(names.get(term, term) for term in terms)))
-        case Negation(body=Equal(left=left, right=right)):
-            return Negation(Equal(names.get(left, left), names.get(right, right)))
+        case Atom() | Equal():
+            return _renamed(formula, names)
+        case Negation(body=body):
+            return Negation(_renamed(body, names))
         case Conjunction(parts=parts):
             return Conjunction(tuple(renamed(part, names) for part in parts))
         case Disjunction(parts=parts):
@@ -131,6 +127,12 @@ def renamed(formula: Formula, names: Mapping[str, str]) -> Formula:
             return Universal(variable, renamed(body, names))
         case _:
             assert_never(formula)
+
+
+def _renamed(formula: Atom | Equal, names: Mapping[str, str]) -> Atom | Equal:
+    if isinstance(formula, Atom):
+        return Atom(formula.predicate, tuple(names.get(term, term) for term in formula.terms))
+    return Equal(names.get(formula.left, formula.left), names.get(formula.right, formula.right))
 
 
 def conjuncts(formula: Formula) -> tuple[Formula, ...]:
