@@ -35,7 +35,7 @@ PEER: dict[str, tuple[float, str]] = {
     "load s": (0.225, "load a scene of 1000 objects, .22 s"),
     "save s": (0.12, "save a scene of 1000 objects, .12 s"),
 }
-"""Lower bounds for SkiROS2 in one process without ROS, measured on another day, in scenes with three facts an object."""
+"""Lower bounds for SkiROS2 in one process without ROS, measured on another day; three facts an object there."""
 PEER_SIZE = 1_400
 
 

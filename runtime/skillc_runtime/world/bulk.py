@@ -10,6 +10,7 @@ from typing import TypeAlias
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_runtime.world.axioms import Axioms
 from skillc_runtime.world.links import NONE, Links
+from skillc_runtime.world.members import Members
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.table import Table
 from skillc_runtime.world.values import Value
@@ -133,7 +134,7 @@ def _reached(start: str, following: _Sets) -> set[str]:
     return seen
 
 
-def _members(classes: _Sets) -> _Sets:
+def _members(classes: _Sets) -> dict[str, Members]:
     """Return the individuals of each class; those of the same classes are taken together."""
     alike: dict[frozenset[str], list[str]] = defaultdict(list)
     for individual, of in classes.items():
@@ -143,5 +144,5 @@ def _members(classes: _Sets) -> _Sets:
         for cls in of:
             groups[cls].append(of)
     distinct = {tuple(group) for group in groups.values()}
-    united = {group: frozenset().union(*(alike[of] for of in group)) for group in distinct}
+    united = {group: Members(frozenset().union(*(alike[of] for of in group))) for group in distinct}
     return {cls: united[tuple(group)] for cls, group in groups.items()}

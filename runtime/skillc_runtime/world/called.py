@@ -30,7 +30,7 @@ def called(name: str, vocabulary: Vocabulary) -> str:
 def individual_of(name: str, state: WorldState) -> str:
     """Return the IRI of an individual that there is; NoSuchName says which are called alike."""
     iri = called(name, state.vocabulary)
-    if iri in state.individuals:
+    if state.exists(iri):
         return iri
     short = state.vocabulary.short
     by_name = {local_name(each): short(each) for each in sorted(state.individuals)}

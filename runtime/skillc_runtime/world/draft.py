@@ -16,6 +16,7 @@ from skillc_runtime.world.changes import (
 )
 from skillc_runtime.world.closure import Closure
 from skillc_runtime.world.links import NONE
+from skillc_runtime.world.members import Members
 from skillc_runtime.world.values import Value
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ class Draft:
         self._closure = Closure(state.axioms, state.asserted, state.facts)
         self._direct: dict[str, frozenset[str]] = {}
         self._classes: dict[str, frozenset[str]] = {}
-        self._members: dict[str, set[str]] = {}
+        self._members: dict[str, dict[str, bool]] = {}
         self._values: dict[str, dict[str, Value | None]] = {}
 
     def make(self, change: Change) -> None:
@@ -65,7 +66,7 @@ class Draft:
             state,
             direct=state.direct.updated(self._direct),
             classes=state.classes.updated(self._classes),
-            members={**state.members, **{cls: frozenset(members) for cls, members in self._members.items()}},
+            members={**state.members, **{cls: self._members_of(cls) for cls in self._members}},
         )
 
     def _add_relation(self, subject: str, relation: str, object_: str) -> None:
@@ -90,16 +91,14 @@ class Draft:
             former = self._state.classes.get(individual)
         present = self._state.axioms.superclasses(types) if types else NONE
         for cls in former - present:
-            self._members_of(cls).discard(individual)
+            self._members.setdefault(cls, {})[individual] = False
         for cls in present - former:
-            self._members_of(cls).add(individual)
+            self._members.setdefault(cls, {})[individual] = True
         self._direct[individual] = types or NONE
         self._classes[individual] = present
 
-    def _members_of(self, cls: str) -> set[str]:
-        if cls not in self._members:
-            self._members[cls] = set(self._state.instances(cls))
-        return self._members[cls]
+    def _members_of(self, cls: str) -> Members:
+        return self._state.members.get(cls, Members()).updated(self._members[cls])
 
     def _remove_individual(self, individual: str) -> None:
         for relation in self._state.vocabulary.relations:

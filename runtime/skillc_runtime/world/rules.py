@@ -132,7 +132,7 @@ def _classes(state: WorldState, individual: str, types: tuple[str, ...]) -> Iter
 def _relation(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[Breach]:
     short = state.vocabulary.short
     fact = f"{short(subject)} {short(relation)} {short(object_)}"
-    absent = [each for each in (subject, object_) if each not in state.individuals]
+    absent = [each for each in (subject, object_) if not state.exists(each)]
     if absent:
         yield Breach("unknown-individual", f"`{fact}`: there is no individual {short(absent[0])}")
         return
@@ -207,7 +207,7 @@ def _types(state: WorldState, individual: str) -> tuple[Fact, ...]:
 def _property(state: WorldState, individual: str, property_: str, value: Value) -> Iterator[Breach]:
     short, term = state.vocabulary.short, state.vocabulary.properties[property_]
     fact = f"{short(individual)}.{short(property_)} = {show(value)}"
-    if individual not in state.individuals:
+    if not state.exists(individual):
         yield Breach("unknown-individual", f"`{fact}`: there is no individual {short(individual)}")
         return
     if term.computed_by is not None:

@@ -10,6 +10,7 @@ from skillc_runtime.world.axioms import Axioms
 from skillc_runtime.world.changes import Change
 from skillc_runtime.world.draft import Draft
 from skillc_runtime.world.links import NONE, Links
+from skillc_runtime.world.members import Members
 from skillc_runtime.world.table import Table
 from skillc_runtime.world.values import Value, has
 
@@ -27,7 +28,7 @@ class WorldState:
     axioms: Axioms
     direct: Table[str, frozenset[str]]
     classes: Table[str, frozenset[str]]
-    members: dict[str, frozenset[str]]
+    members: dict[str, Members]
     asserted: dict[str, Links]
     facts: dict[str, Links]
     stored: dict[str, Table[str, Value | None]]
@@ -42,7 +43,11 @@ class WorldState:
     @property
     def individuals(self) -> frozenset[str]:
         """All individuals."""
-        return self.members.get(THING, NONE)
+        return self.instances(THING)
+
+    def exists(self, individual: str) -> bool:
+        """Whether there is such an individual."""
+        return bool(self.direct.get(individual))
 
     def types(self, individual: str) -> frozenset[str]:
         """Return the classes an individual was declared to be of, without their superclasses."""
@@ -54,7 +59,7 @@ class WorldState:
 
     def instances(self, cls: str) -> frozenset[str]:
         """Return all individuals of a class and its subclasses."""
-        return self.members.get(cls, NONE)
+        return self.members[cls].all() if cls in self.members else NONE
 
     def holds(self, subject: str, relation: str, object_: str) -> bool:
         """Whether the relation holds; KeyError for one the vocabulary lacks."""

@@ -44,7 +44,7 @@ class Templates:
             known = ", ".join(map(self.vocabulary.short, sorted(self.patterns))) or "none"
             raise NoSuchName(f"there is no template {self.vocabulary.short(wanted)}; there is {known}")
         named = self._named(wanted, individual)
-        taken = [each for each in named.values() if each in state.individuals]
+        taken = [each for each in named.values() if state.exists(each)]
         if taken:
             raise ValueError(f"there is a {self.vocabulary.short(taken[0])} already")
         made = [_renamed(change, named) for each in named for change in self.patterns[each]]
