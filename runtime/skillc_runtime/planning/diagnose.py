@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import Assign, Condition
 from skillc_compiler.library.pddl.domain import Action
-from skillc_compiler.library.pddl.formulas import FALSE, Atom, Formula, conjunction, conjuncts
+from skillc_compiler.library.pddl.formulas import FALSE, Atom, Conjunction, Disjunction, Formula, conjunction, conjuncts
 from skillc_compiler.library.reading import terms_read
 from skillc_compiler.library.skills import Skill
 from skillc_runtime.planning.grounding import Grounding, TimeIsUp
@@ -52,6 +52,13 @@ class _Diagnosis:
             yield "each part of the goal can be reached, but not all of them together"
 
     def _unreachable(self, part: Formula, depth: int) -> str:
+        if isinstance(part, Disjunction) and len(part.parts) > 1:
+            listed = (self._unreachable(each, depth) for each in part.parts[:LISTED])
+            more = len(part.parts) - LISTED
+            return "; and ".join(dict.fromkeys(listed)) + (f"; and {more} more cases" if more > 0 else "")
+        if isinstance(part, Conjunction):
+            lost = (each for each in part.parts if not self._grounding.possible(each))
+            return "; ".join(self._unreachable(each, depth) for each in lost)
         shown = self._words.formula(part)
         actions = self._domain.actions if isinstance(part, Atom) and depth else ()
         reasons = [reason for action in actions for reason in self._failures(action, part, depth)]

@@ -86,7 +86,7 @@ class Grounding:
         while grown:
             grown = False
             for action in self._problem.domain.actions:
-                for ground in tuple(self._instances(action)):
+                for ground in tuple(self._instances(action, found)):
                     found[ground.words] = ground
                     grown |= self._reach(ground)
         return tuple(found[words] for words in sorted(found))
@@ -170,16 +170,19 @@ class Grounding:
             return TRUE if atom in self._static else FALSE
         return atom
 
-    def _instances(self, action: Action) -> Iterator[GroundAction]:
+    def _instances(self, action: Action, known: Mapping[tuple[str, ...], GroundAction]) -> Iterator[GroundAction]:
         condition = conjunction((action.precondition, action.hold))
         for values in self._bindings(action, conjuncts(condition), {}):
             if time.monotonic() > self._end:
                 raise TimeIsUp
+            words = (action.name, *(values[each.name] for each in action.parameters))
+            if words in known:
+                yield known[words]
+                continue
             precondition = self.reduced(condition, values)
             if self.possible(precondition):
-                names = tuple(values[each.name] for each in action.parameters)
                 effects = tuple(each for change in action.effects for each in self._effects(change, values))
-                yield GroundAction((action.name, *names), precondition, effects, self._units(action, values))
+                yield GroundAction(words, precondition, effects, self._units(action, values))
 
     def possible(self, formula: Formula) -> bool:
         """Whether a reduced formula can be true of reachable atoms, deletions ignored."""

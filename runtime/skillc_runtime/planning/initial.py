@@ -98,7 +98,7 @@ class Initial:
     def _choices(self, parameters: Sequence[Typed], reader: str) -> Iterator[tuple[str, ...]]:
         members = [self._members[each.type] for each in parameters]
         if prod(map(len, members)) > MOST_VALUES:
-            sizes = " x ".join(str(len(each)) for each in members)
+            sizes = " x ".join(str(len(each)) for each in members if len(each) > 1)
             raise TooManyValues(f"{reader} would have to be worked out for {sizes} things")
         return product(*members)
 

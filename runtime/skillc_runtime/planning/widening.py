@@ -108,7 +108,7 @@ def _labelled(solved: Solved, posed: Posed, means: Means, state: WorldState, end
 def _out_of_reach(posed: Posed, means: Means, state: WorldState, end: float) -> str | None:
     """Return why the whole scene has no plan, None if it may have one."""
     relaxed = relaxed_scene(posed, state)
-    if relaxed is None or not isinstance(means.search(relaxed, min(BOUND_S, _left(end))), Unsolvable):
+    if relaxed is None or not isinstance(means.search(relaxed, STAGE_SHARE * _left(end)), Unsolvable):
         return None
     return means.explain(replace(posed, problem=relaxed))
 
