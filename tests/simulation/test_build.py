@@ -140,17 +140,18 @@ def test_a_range_of_friction_is_read_without_the_single_value_and_the_other_way_
 def test_facts_that_contradict_a_model_are_refused() -> None:
     facts = read_scene(world("iiwa_table").changed([SetProperty(ERASER, SIZE[0], 0.2)]))
     with pytest.raises(SheetError, match=r"the face of .*Eraser-1 is"):
-        build(facts, draw(facts.surfaces, 0))
+        build(facts, draw(facts, 0))
 
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_reality_differs_within_the_ranges_of_the_facts(scene: str) -> None:
-    (surface,) = read_scene(world(scene)).surfaces
-    drawn = [draw([surface], seed).of(SURFACE[scene]) for seed in range(200)]
+    facts = read_scene(world(scene))
+    (surface,) = facts.surfaces
+    drawn = [draw(facts, seed).of(SURFACE[scene]) for seed in range(200)]
     offsets = np.array([one.offset_m for one in drawn])
     tilts = np.array([one.tilt_rad for one in drawn])
     frictions = np.array([one.friction for one in drawn])
     assert 0.9 * surface.offset_range_m < np.abs(offsets).max() <= surface.offset_range_m
     assert 0.9 * surface.tilt_range_rad < np.abs(tilts).max() <= surface.tilt_range_rad
     assert surface.friction[0] <= frictions.min() < frictions.max() <= surface.friction[1]
-    assert draw([surface], 7) == draw([surface], 7)
+    assert draw(facts, 7) == draw(facts, 7)

@@ -10,9 +10,11 @@ import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.robots.arm import ArmLimits, ArmState, Command, JointPosition, Torque
+from skillc_runtime.simulation import noise
 from skillc_runtime.simulation.facts import ArmFacts
 from skillc_runtime.simulation.hand import Hand
 from skillc_runtime.simulation.names import part
+from skillc_runtime.simulation.variation import Variation
 from skillc_runtime.simulation.wrist import Wrist
 
 MASS_MATRIX_PERIOD_S = 0.01
@@ -38,7 +40,14 @@ class SimulatedArm:
     """
 
     def __init__(
-        self, facts: ArmFacts, name: str, gripper: str | None, model: Any, data: Any, steps_per_command: int = 1
+        self,
+        facts: ArmFacts,
+        name: str,
+        gripper: str | None,
+        model: Any,
+        data: Any,
+        reality: Variation,
+        steps_per_command: int = 1,
     ) -> None:
         self._model, self._data, self._interface = model, data, facts.interface
         joints = [j for j in range(model.njnt) if model.joint(j).name.startswith(part(name, ""))]
@@ -66,12 +75,13 @@ class SimulatedArm:
         self._weight, self._load, self._carrying = np.zeros(3), np.zeros(6), np.zeros(count)
         self._lift, self._moment = self._load[:3], self._load[3:]
         self._flange = _in_body(model.site(part(name, "flange")))
-        self._wrist = _wrist(facts, gripper, model, data)
+        self._wrist = _wrist(facts, gripper, model, data, reality.seed)
+        self._speed_noise = noise.of_joints(facts, reality.seed)
         self._configure(NO_PAYLOAD, self.fixed_tool)
         self._increment, self._steps_left, self._steps_per_command = np.zeros(count), 0, steps_per_command
-        self._q[:] = facts.home
+        self._q[:] = start = reality.start(facts)
         if self._interface == "position":
-            self._control[:] = facts.home
+            self._control[:] = start
 
     @property
     def interface(self) -> Literal["torque", "position"]:
@@ -93,6 +103,8 @@ class SimulatedArm:
         if self._data.time >= self._next_mass_time:
             self._update_mass_matrix()
         here.q[:], here.dq[:], here.bias[:] = self._q, self._dq, self._bias
+        if self._speed_noise is not None:
+            np.add(here.dq, self._speed_noise.row(), out=here.dq)
         if self.payload.mass_kg > 0.0:
             np.add(here.bias, self._payload_torque(), out=here.bias)
         if self._wrist is not None:
@@ -180,10 +192,10 @@ def _view(array: Array) -> Array:
     return view
 
 
-def _wrist(facts: ArmFacts, gripper: str | None, model: Any, data: Any) -> Wrist | None:
+def _wrist(facts: ArmFacts, gripper: str | None, model: Any, data: Any, seed: int) -> Wrist | None:
     if not facts.force_torque or gripper is None:
         return None
-    return Wrist(model, data, gripper, facts.sheet.number("forceTorqueTime"))
+    return Wrist(model, data, gripper, facts.sheet.number("forceTorqueTime"), noise.of_wrist(facts, seed))
 
 
 def _actuator_of(joint: int, model: Any) -> int:

@@ -10,9 +10,9 @@ import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose, quaternion_of
 from skillc_runtime.simulation.devices import add_arm, add_tool
-from skillc_runtime.simulation.facts import BaseFacts, SceneFacts
-from skillc_runtime.simulation.names import base_body, box_geom, part, weld
-from skillc_runtime.simulation.variation import Variation
+from skillc_runtime.simulation.facts import BaseFacts, SceneFacts, SurfaceFacts
+from skillc_runtime.simulation.names import base_body, box_geom, obstacle, part, weld
+from skillc_runtime.simulation.variation import SurfaceVariation, Variation
 
 CARRIES, WORKS = 1, 2
 """Contact bits of what carries tools and of what works on surfaces; handles and finger pads have 4 and 8."""
@@ -37,14 +37,14 @@ def build(scene: SceneFacts, variation: Variation, timestep_s: float = 0.001) ->
         _add_box(spec, scene.names[piece.individual], piece.pose, piece.size, FURNITURE_FRICTION, WOOD)
     for surface in scene.surfaces:
         true = variation.of(surface.individual)
-        pose = true.true_pose(surface.pose)
-        _add_box(spec, scene.names[surface.individual], pose, surface.size, true.friction, BOARD)
+        if true.present:
+            _add_surface(spec, scene.names[surface.individual], surface, true)
     mounts = {base.individual: _add_base(spec, scene, base) for base in scene.bases}
     for arm in scene.arms:
         body, frame = mounts.get(arm.robot or "", (spec.worldbody, Pose(np.zeros(3), np.eye(3))))
         add_arm(spec, scene.names, arm, body, frame.inverse() @ arm.base)
     for tool in scene.tools:
-        add_tool(spec, scene.names, tool)
+        add_tool(spec, scene.names, tool, variation.pad_stiffness(tool))
     _add_welds(spec, scene)
     return spec.compile()
 
@@ -84,6 +84,16 @@ def _add_box(spec: Any, name: str, top: Pose, size: Array, friction: float, rgba
     geom = body.add_geom(name=box_geom(name), type=mujoco.mjtGeom.mjGEOM_BOX, size=size / 2)
     geom.pos, geom.rgba = [0.0, 0.0, -size[2] / 2], list(rgba)
     _carry(geom, friction)
+
+
+def _add_surface(spec: Any, name: str, surface: SurfaceFacts, true: SurfaceVariation) -> None:
+    """Add a surface where it really is, with what lies on it."""
+    pose = true.true_pose(surface.pose)
+    _add_box(spec, name, pose, surface.size, true.friction, BOARD)
+    if true.obstacle is not None:
+        size = np.array(true.obstacle.size)
+        top = pose @ Pose(np.array([*true.obstacle.place, size[2]]), np.eye(3))
+        _add_box(spec, obstacle(name), top, size, true.friction, STEEL)
 
 
 def _add_base(spec: Any, scene: SceneFacts, base: BaseFacts) -> tuple[Any, Pose]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import mujoco
@@ -32,14 +33,21 @@ class SimulatedCell:
     again.
     """
 
-    def __init__(self, world: WorldModel, seed: int = 0, timestep_s: float = 0.001, steps_per_command: int = 1) -> None:
-        """Build the cell; controllers run every `steps_per_command` steps.
+    def __init__(
+        self,
+        world: WorldModel,
+        seed: int = 0,
+        timestep_s: float = 0.001,
+        steps_per_command: int = 1,
+        reality: Callable[[SceneFacts, int], Variation] = draw,
+    ) -> None:
+        """Build the cell; controllers run every `steps_per_command` steps, `reality` draws how it differs from facts.
 
         SheetError, FrameError or ValueError when facts are missing or contradict the models.
         """
         self._world = world
         self.facts: SceneFacts = read_scene(world.snapshot())
-        self.variation: Variation = draw(self.facts.surfaces, seed)
+        self.variation: Variation = reality(self.facts, seed)
         self.model: Any = build(self.facts, self.variation, timestep_s)
         self.data: Any = mujoco.MjData(self.model)
         self._timestep, self._steps_per_command, self._step = timestep_s, steps_per_command, 0
@@ -153,7 +161,8 @@ class SimulatedCell:
         for facts in self.facts.arms:
             gripper = facts.gripper
             palm = None if gripper is None else names[gripper.individual]
-            arm = SimulatedArm(facts, names[facts.individual], palm, self.model, self.data, self._steps_per_command)
+            name, steps = names[facts.individual], self._steps_per_command
+            arm = SimulatedArm(facts, name, palm, self.model, self.data, self.variation, steps)
             arms[facts.individual] = arm
             if gripper is not None:
                 hands[facts.individual] = SimulatedGripper(gripper, names, self.facts.tools, arm, self.model, self.data)

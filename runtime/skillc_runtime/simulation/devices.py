@@ -39,14 +39,14 @@ def add_arm(spec: Any, names: Mapping[str, str], arm: ArmFacts, mount: Any, base
         _add_gripper(spec, names, arm, arm.gripper)
 
 
-def add_tool(spec: Any, names: Mapping[str, str], tool: ToolFacts) -> None:
-    """Add a tool, free to move, with its mass, the foundation of its working face, and sensors of the truth."""
+def add_tool(spec: Any, names: Mapping[str, str], tool: ToolFacts, pad_stiffness: float) -> None:
+    """Add a tool, free to move, with its mass, sensors of the truth, and under its working face a pad in N/m."""
     name, model = names[tool.individual], mujoco.MjSpec.from_file(str(tool.model))
     _check_face(model, name, tool)
     scale = tool.mass_kg / sum(body.mass for body in model.bodies)
     for body in model.bodies[1:]:
         body.mass, body.inertia = body.mass * scale, body.inertia * scale
-    _set_foundation(model, tool)
+    _set_foundation(model, tool, pad_stiffness)
     root = model.worldbody.first_body()
     root.add_freejoint(name="free")
     face = working_face(tool.size)
@@ -93,12 +93,12 @@ def _check_face(model: Any, name: str, tool: ToolFacts) -> None:
         raise SheetError(f"the face of {name} is {believed} m in the world model and {modelled} m in {tool.model.name}")
 
 
-def _set_foundation(model: Any, tool: ToolFacts) -> None:
+def _set_foundation(model: Any, tool: ToolFacts, stiffness: float) -> None:
     """Set the springs under the working face, an elastic foundation: K_z = k, K_rx = k b^2/12, K_ry = k a^2/12.
 
     a, b: extent of the face along x and y; the dampers follow in the same way.
     """
-    stiffness, damping = tool.sheet.number("padStiffness"), tool.sheet.number("padDamping")
+    damping = tool.sheet.number("padDamping")
     a, b = tool.size[:2]
     for joint, lever in (("press", 1.0), ("tilt_x", b * b / 12), ("tilt_y", a * a / 12)):
         found = model.joint(joint)

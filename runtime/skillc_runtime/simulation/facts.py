@@ -14,6 +14,7 @@ from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.terms import (
     ARM_DEVICE,
     COMPLIANT_CONTROLLER,
+    FORCE_NOISE,
     FORCE_TORQUE_SENSOR,
     FRICTION,
     FRICTION_HIGH,
@@ -22,13 +23,17 @@ from skillc_runtime.world.terms import (
     HAS_ARM,
     HAS_GRIPPER,
     HAS_SENSOR,
+    JOINT_SPEED_NOISE,
     MOBILE_ROBOT,
     OFFSET_RANGE,
     POSITION_CONTROLLED_ARM,
+    POSTURE_RANGE,
+    STIFFNESS_RANGE,
     SURFACE,
     TILT_RANGE,
     TOOL,
     TORQUE_CONTROLLED_ARM,
+    TORQUE_NOISE,
     WEIGHT,
 )
 
@@ -46,7 +51,11 @@ class GripperFacts:
 
 @dataclass(frozen=True, slots=True)
 class ArmFacts:
-    """An arm: its base in the world, home posture (nv,) rad, name of its compliant controller, and its sheet."""
+    """An arm: its base in the world, home posture (nv,) rad, name of its compliant controller, and its sheet.
+
+    Each joint may start `posture_range_rad` off home. Standard deviations of what is measured: joint speed rad/s, force
+    N and torque N m at the wrist.
+    """
 
     individual: str
     robot: str | None
@@ -58,6 +67,10 @@ class ArmFacts:
     controller: str
     gripper: GripperFacts | None
     sheet: Sheet
+    posture_range_rad: float = 0.0
+    joint_speed_noise: float = 0.0
+    force_noise_n: float = 0.0
+    torque_noise_n_m: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +88,10 @@ class BaseFacts:
 
 @dataclass(frozen=True, slots=True)
 class ToolFacts:
-    """A tool: the frame in the middle of its block in the world, size (3,) m of the block, mass kg, its sheet."""
+    """A tool: the frame in the middle of its block in the world, size (3,) m of the block, mass kg, its sheet.
+
+    Its working face may be stiffer or softer than its sheet says by the share `stiffness_range`.
+    """
 
     individual: str
     model: Path
@@ -83,6 +99,7 @@ class ToolFacts:
     size: Array
     mass_kg: float
     sheet: Sheet
+    stiffness_range: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,7 +153,7 @@ def read_scene(state: WorldState) -> SceneFacts:
 def _arm(state: WorldState, arm: str) -> ArmFacts:
     sheet = sheet_of(state, arm)
     robots = sorted(state.subjects(HAS_ARM, arm))
-    sensors = state.objects(arm, HAS_SENSOR)
+    sensors = sorted(each for each in state.objects(arm, HAS_SENSOR) if state.is_a(each, FORCE_TORQUE_SENSOR))
     grippers = sorted(state.objects(arm, HAS_GRIPPER))
     return ArmFacts(
         individual=arm,
@@ -145,10 +162,14 @@ def _arm(state: WorldState, arm: str) -> ArmFacts:
         model=model_path(sheet.text("model")),
         interface=_interface(state, arm),
         home=sheet.posture("home"),
-        force_torque=any(state.is_a(sensor, FORCE_TORQUE_SENSOR) for sensor in sensors),
+        force_torque=bool(sensors),
         controller=text(state, arm, COMPLIANT_CONTROLLER),
         gripper=_gripper(state, grippers[0]) if grippers else None,
         sheet=sheet,
+        posture_range_rad=number(state, arm, POSTURE_RANGE, default=0.0),
+        joint_speed_noise=number(state, arm, JOINT_SPEED_NOISE, default=0.0),
+        force_noise_n=number(state, sensors[0], FORCE_NOISE, default=0.0) if sensors else 0.0,
+        torque_noise_n_m=number(state, sensors[0], TORQUE_NOISE, default=0.0) if sensors else 0.0,
     )
 
 
@@ -186,6 +207,7 @@ def _tool(state: WorldState, tool: str) -> ToolFacts:
         size=size(state, tool),
         mass_kg=number(state, tool, WEIGHT),
         sheet=sheet,
+        stiffness_range=number(state, tool, STIFFNESS_RANGE, default=0.0),
     )
 
 

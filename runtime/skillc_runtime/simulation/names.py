@@ -18,6 +18,11 @@ def box_geom(individual: str) -> str:
     return f"{individual}/box"
 
 
+def obstacle(surface: str) -> str:
+    """Return the name of what lies on a surface unknown to the world model."""
+    return f"{surface}/obstacle"
+
+
 def weld(gripper: str, tool: str) -> str:
     """Return the name of the equality that keeps a grasped tool in a gripper."""
     return f"{gripper}/holds/{tool}"

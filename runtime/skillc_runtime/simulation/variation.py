@@ -2,24 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from zlib import crc32
 
 import numpy as np
 
-from skillc_runtime.motion.pose import Pose, exp
-from skillc_runtime.simulation.facts import SurfaceFacts
+from skillc_runtime.motion.pose import Array, Pose, exp
+from skillc_runtime.simulation.facts import ArmFacts, SceneFacts, SurfaceFacts, ToolFacts
+
+OBSTACLE_M = (0.03, 0.03, 0.012)
+"""A magnet that somebody left on a surface."""
+
+OBSTACLE_SHARE = 0.5
+"""An obstacle lies within this share of the surface, in the middle."""
+
+
+@dataclass(frozen=True, slots=True)
+class Obstacle:
+    """A box on a surface: its place (2,) m along the surface's x and y, and its size (3,) m."""
+
+    place: tuple[float, float]
+    size: tuple[float, float, float] = OBSTACLE_M
 
 
 @dataclass(frozen=True, slots=True)
 class SurfaceVariation:
-    """One surface: m along its believed normal, rad about its believed x and y, sliding friction."""
+    """One surface: m along its believed normal, rad about its believed x and y, sliding friction.
+
+    `present` is false for one that is not there at all; `obstacle` is what lies on it unknown to the world model.
+    """
 
     surface: str
     offset_m: float
     tilt_rad: tuple[float, float]
     friction: float
+    present: bool = True
+    obstacle: Obstacle | None = None
 
     def true_pose(self, believed: Pose) -> Pose:
         """Return where the surface really is."""
@@ -29,10 +48,16 @@ class SurfaceVariation:
 
 @dataclass(frozen=True, slots=True)
 class Variation:
-    """All differences of one simulated run."""
+    """All differences of one simulated run.
+
+    `start_rad`: how far each joint of an arm is from its home at the start; `pad_share`: how much stiffer or softer the
+    working face of a tool is than its sheet says; both by IRI.
+    """
 
     seed: int
     surfaces: tuple[SurfaceVariation, ...]
+    start_rad: Mapping[str, tuple[float, ...]]
+    pad_share: Mapping[str, float]
 
     def of(self, surface: str) -> SurfaceVariation:
         """Return the difference of one surface; KeyError when it has none."""
@@ -41,14 +66,43 @@ class Variation:
                 return one
         raise KeyError(surface)
 
+    def start(self, arm: ArmFacts) -> Array:
+        """Return the joints (nv,) rad in which an arm starts."""
+        return np.asarray(arm.home + self.start_rad[arm.individual], dtype=np.float64)
 
-def draw(surfaces: Sequence[SurfaceFacts], seed: int) -> Variation:
-    """Draw the differences, uniform within each surface's ranges; a surface's draw does not depend on the others."""
-    return Variation(seed, tuple(_draw(surface, seed) for surface in surfaces))
+    def pad_stiffness(self, tool: ToolFacts) -> float:
+        """Return how stiff the working face of a tool really is, N/m."""
+        return tool.sheet.number("padStiffness") * (1.0 + self.pad_share[tool.individual])
+
+
+def draw(scene: SceneFacts, seed: int) -> Variation:
+    """Draw the differences, uniform within the ranges of the facts; no thing's draw depends on the others."""
+    return Variation(
+        seed,
+        tuple(_draw(surface, seed) for surface in scene.surfaces),
+        {arm.individual: _posture(arm, seed) for arm in scene.arms},
+        {tool.individual: _pad(tool, seed) for tool in scene.tools},
+    )
+
+
+def without_surfaces(variation: Variation) -> Variation:
+    """Return the same reality, where no surface is there."""
+    return replace(variation, surfaces=tuple(replace(one, present=False) for one in variation.surfaces))
+
+
+def with_obstacles(variation: Variation, scene: SceneFacts) -> Variation:
+    """Return the same reality, with an obstacle somewhere on each surface."""
+    littered = (replace(variation.of(s.individual), obstacle=_obstacle(s, variation.seed)) for s in scene.surfaces)
+    return replace(variation, surfaces=tuple(littered))
+
+
+def chance_of(individual: str, seed: int, *purpose: int) -> np.random.Generator:
+    """Return a source of chance for one thing in one run, the same whenever it is asked for."""
+    return np.random.default_rng([seed, crc32(individual.encode()), *purpose])
 
 
 def _draw(surface: SurfaceFacts, seed: int) -> SurfaceVariation:
-    chance = np.random.default_rng([seed, crc32(surface.individual.encode())])
+    chance = chance_of(surface.individual, seed)
     offset, tilt_x, tilt_y = chance.uniform(-1.0, 1.0, 3)
     return SurfaceVariation(
         surface=surface.individual,
@@ -56,3 +110,18 @@ def _draw(surface: SurfaceFacts, seed: int) -> SurfaceVariation:
         tilt_rad=(float(tilt_x) * surface.tilt_range_rad, float(tilt_y) * surface.tilt_range_rad),
         friction=float(chance.uniform(*surface.friction)),
     )
+
+
+def _posture(arm: ArmFacts, seed: int) -> tuple[float, ...]:
+    off = chance_of(arm.individual, seed).uniform(-1.0, 1.0, arm.home.size) * arm.posture_range_rad
+    return tuple(off.tolist())
+
+
+def _pad(tool: ToolFacts, seed: int) -> float:
+    return float(chance_of(tool.individual, seed).uniform(-1.0, 1.0)) * tool.stiffness_range
+
+
+def _obstacle(surface: SurfaceFacts, seed: int) -> Obstacle:
+    share = chance_of(surface.individual, seed, 1).uniform(-OBSTACLE_SHARE / 2, OBSTACLE_SHARE / 2, 2)
+    x, y = (share * surface.size[:2]).tolist()
+    return Obstacle((x, y))

@@ -10,6 +10,7 @@ import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose, skew
 from skillc_runtime.simulation.names import part, wrist_sensor
+from skillc_runtime.simulation.noise import Noise
 
 
 class Wrist:
@@ -21,11 +22,13 @@ class Wrist:
     but for the inertia of turning. All of it is one constant matrix until something is grasped: w = G [f; t; s].
     """
 
-    def __init__(self, model: Any, data: Any, gripper: str, time_constant_s: float) -> None:
+    def __init__(self, model: Any, data: Any, gripper: str, time_constant_s: float, noise: Noise | None = None) -> None:
+        """Find the sensor of a gripper; `noise` is that of force, torque and acceleration (9,)."""
         first = model.sensor(wrist_sensor(gripper, "force")).adr[0]
         self._raw = data.sensordata[first : first + 9]
         self._share = 1.0 - math.exp(-model.opt.timestep / time_constant_s) if time_constant_s > 0 else 1.0
         self._filtered, self._started = np.zeros(9), False
+        self._noise = noise
         self._hand_mass, self._hand_centre = _hand(model, part(gripper, "palm"))
         self._gain, self._wrench, self._change = np.zeros((6, 9)), np.zeros(6), np.zeros(9)
         self._halves = self._wrench.reshape(2, 3)
@@ -43,6 +46,8 @@ class Wrist:
         """Take in the reading of one simulation step; the first one fills the filter."""
         if self._started:
             np.subtract(self._raw, self._filtered, out=self._change)
+            if self._noise is not None:
+                self._change += self._noise.row()
             self._change *= self._share
             self._filtered += self._change
         else:
