@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -14,6 +16,7 @@ if TYPE_CHECKING:
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
+WONDER_S = 2.0
 MEASURES = ("work", "makespan")
 
 
@@ -38,6 +41,19 @@ def planners(plan_cache: bool) -> Planners:
     from skillc_runtime.planning.choose import at_hand
 
     return at_hand(user_shelf() if plan_cache else None)
+
+
+@contextmanager
+def patience(deadline_s: float) -> Iterator[None]:
+    """Say on stderr that planning goes on, once it has taken so long that somebody may wonder."""
+    text = f"planning, for {deadline_s:g} s at most .."
+    talk = threading.Timer(WONDER_S, lambda: click.echo(text, err=True))
+    talk.daemon = True
+    talk.start()
+    try:
+        yield
+    finally:
+        talk.cancel()
 
 
 def aimed(mission: Mission, minimise: str) -> Mission:

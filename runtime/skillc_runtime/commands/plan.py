@@ -58,6 +58,7 @@ def command(
     if not isinstance(assignment.aim, Reach):
         raise click.UsageError(f"the task `{assignment.name}` says itself what to do; run it with `skillc run`")
     measure: _plans.Measure = "makespan" if minimise == "makespan" else "proven work" if prove else "work"
-    answer = _plans.answer(mission, assignment.aim.goal, measure, _planners.planners(plan_cache), deadline)
+    with _planners.patience(deadline):
+        answer = _plans.answer(mission, assignment.aim.goal, measure, _planners.planners(plan_cache), deadline)
     click.echo(_plans.as_json(answer, mission) if as_json else _plans.as_text(answer, mission))
     sys.exit(3 if isinstance(answer, Unsolvable | GaveUp) else 0)

@@ -33,6 +33,10 @@ class AStar:
 
     name = "built-in A*"
 
+    def __init__(self, advice: str = "") -> None:
+        """Give advice to who gets no answer."""
+        self._advice = f"; {advice}" if advice else ""
+
     def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
         """Solve a problem; a plan it returns is proven to be the shortest."""
         end = time.monotonic() + deadline_s
@@ -40,7 +44,7 @@ class AStar:
         try:
             actions, goal = grounding.actions, grounding.goal()
         except TimeIsUp:
-            return _gave_up("its time was up before it knew all actions")
+            return self._gave_up("its time was up before it knew all actions")
         if not grounding.possible(goal):
             return Unsolvable("the goal cannot be reached even if nothing were ever undone")
         numbers = {atom: number for number, atom in enumerate(sorted(grounding.reachable, key=_order))}
@@ -54,12 +58,11 @@ class AStar:
         if isinstance(found, _Exhausted):
             return Unsolvable("no sequence of skills reaches the goal")
         if isinstance(found, _TimeUp):
-            return _gave_up(f"its time was up after {found.states} states")
+            return self._gave_up(f"its time was up after {found.states} states")
         return Solved(plan_of(problem, (actions[index].words for index in found)), "proven", self.name)
 
-
-def _gave_up(why: str) -> GaveUp:
-    return GaveUp(f"the built-in planner gave up: {why}; the extra `planner` installs a stronger one")
+    def _gave_up(self, why: str) -> GaveUp:
+        return GaveUp(f"the built-in planner gave up: {why}{self._advice}")
 
 
 @dataclass(frozen=True, slots=True)

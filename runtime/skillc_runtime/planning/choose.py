@@ -15,6 +15,8 @@ from skillc_runtime.planning.process import machine_limits
 from skillc_runtime.planning.remembering import RememberingPlanner, RememberingScheduler, Shelf
 from skillc_runtime.planning.schedule import Scheduler
 
+ADVICE = "the extra `planner` installs a stronger one"
+
 
 @dataclass(frozen=True, slots=True)
 class Planners:
@@ -26,7 +28,8 @@ class Planners:
 
 def at_hand(shelf: Shelf | None = None) -> Planners:
     """Return the planners of this installation; what they answer is kept on the shelf and found there again."""
-    return Planners((*_fast_downward(shelf), AStar()), _aries(shelf))
+    strong = _fast_downward(shelf)
+    return Planners((*strong, AStar()) if strong else (AStar(ADVICE),), _aries(shelf))
 
 
 def available() -> tuple[Planner, ...]:
