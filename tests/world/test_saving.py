@@ -108,5 +108,7 @@ def test_a_file_is_replaced_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
 def test_what_no_scene_can_say_is_refused() -> None:
     with pytest.raises(SaveError, match="it is no IRI"):
         turtle(SCENE.changed([AddIndividual("a b", (iri("Product"),))]), EMPTY)
+    with pytest.raises(SaveError, match="nan is no number"):
+        turtle(SCENE.changed([assign("box", "weight", float("nan"))]), EMPTY)
     with pytest.raises(SaveError, match="cannot take back what data sheets say"):
         turtle(SCENE.changed([assign("box", "weight", 1.0)]), SCENE)

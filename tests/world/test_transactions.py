@@ -11,6 +11,7 @@ import pytest
 from skillc_runtime.world.between import between
 from skillc_runtime.world.called import NoSuchName
 from skillc_runtime.world.model import UNDOABLE, ChangeEvent, WorldError, WorldModel
+from store.test_model import two
 from store.worlds import commits
 from world.lab import SCENE, assign, fact, individual, iri
 from world.sameness import everything
@@ -106,6 +107,18 @@ def test_changes_between_two_versions_lead_from_one_to_the_other(seed: int) -> N
     found = between(one.after, other.after)
     assert everything(one.after.changed(found)) == everything(other.after)
     assert between(one.after, one.after) == () and found == between(one.after, other.after)
+
+
+def test_what_others_wrote_since_is_not_taken_back() -> None:
+    one, other, _ = two()
+    one.commit([assign("box", "weight", 1.0)])
+    other.commit([assign("box", "weight", 2.0)])
+    with pytest.raises(WorldError, match="others wrote"):
+        one.undo()
+    assert one.snapshot().value(iri("box"), iri("weight")) == 2.0
+    other.undo()
+    one.follow()
+    assert one.snapshot().value(iri("box"), iri("weight")) == 1.0
 
 
 def test_a_class_and_what_was_implied_are_taken_back() -> None:
