@@ -11,7 +11,7 @@ from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.individuals import iri_of
 from skillc_runtime.world.reading import Written
-from skillc_runtime.world.rules import Breach, Fact, broken
+from skillc_runtime.world.rules import Breach, Fact, broken, fault
 from skillc_runtime.world.state import WorldState
 
 RIVALS = frozenset({"functional-relation", "asymmetric-relation", "disjoint-classes"})
@@ -19,16 +19,35 @@ RIVALS = frozenset({"functional-relation", "asymmetric-relation", "disjoint-clas
 
 
 def breaches(state: WorldState, written: Sequence[Written]) -> Iterator[Problem]:
-    """Yield a problem for each breach; `state` is the world after all that is written."""
+    """Yield a problem for each breach; `state` is the world after all that is written.
+
+    Of statements that cannot be true together, one that is wrong by itself is told for that alone.
+    """
     places = {fact: statement for change, statement in reversed(written) if (fact := _fact(change)) is not None}
     told: set[tuple[str, frozenset[Fact]]] = set()
     for change, statement in written:
-        for breach in broken(state, change):
+        for breach in _broken(state, change):
             facts = _together(breach, _fact(change))
-            if breach.axiom in RIVALS and (breach.axiom, facts) in told:
-                continue
-            told.add((breach.axiom, facts))
+            if breach.axiom in RIVALS:
+                if (breach.axiom, facts) in told or any(_is_wrong(state, each) for each in facts):
+                    continue
+                told.add((breach.axiom, facts))
             yield _problem(state, breach, statement, [places[fact] for fact in facts if fact in places], places)
+
+
+def _broken(state: WorldState, change: Change) -> Iterator[Breach]:
+    """Yield what is wrong with a change: where a rival took its place, rather what is wrong with it by itself."""
+    for breach in broken(state, change):
+        match change:
+            case AddRelation(subject, relation, object_) if breach.axiom == "functional-relation":
+                yield fault(state, (subject, relation, object_)) or breach
+            case _:
+                yield breach
+
+
+def _is_wrong(state: WorldState, fact: Fact) -> bool:
+    """Whether a fact is wrong by itself."""
+    return fact[1] in state.vocabulary.relations and fault(state, fact) is not None
 
 
 def _together(breach: Breach, own: Fact | None) -> frozenset[Fact]:

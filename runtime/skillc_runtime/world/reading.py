@@ -111,8 +111,9 @@ class Reader:
             both = f"{show(value)} and {show(other)}"
             message = f"{self._short(subject)} has two values of {self._short(property_)}: {both}"
             notes = (Note(place.object_place, "the other one"),)
-            problem = Problem(second.object_place, "functional-property", message, "keep one of them", notes)
-            self.problems.append(problem)
+            point = _decimal(place, second)
+            help_ = f"write `{point.text}`: decimals take a point" if point else "keep one of them"
+            self.problems.append(Problem(second.object_place, "functional-property", message, help_, notes, point))
 
     def _no_class(self, each: Statement, subject: str) -> None:
         if subject in self._untyped or subject in self._doubtful:
@@ -175,3 +176,13 @@ class Reader:
 
 def _text(node: object) -> str:
     return "something without a name" if isinstance(node, ox.BlankNode) else str(node)
+
+
+def _decimal(first: Statement, second: Statement) -> Edit | None:
+    """Return the edit that makes one number of two whole ones with but a comma between them."""
+    whole, digits = (each.object.value if isinstance(each.object, ox.Literal) else "" for each in (first, second))
+    if first.object_at.end + 1 != second.object_at.start or not (whole.lstrip("+-").isdigit() and digits.isdigit()):
+        return None
+    start, end = first.object_place, second.object_place
+    place = Place(start.path, start.line, start.column, end.end_line, end.end_column)
+    return Edit(place, f"{whole}.{digits}", "write a decimal point")

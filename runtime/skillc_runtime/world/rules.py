@@ -140,9 +140,17 @@ def _relation(state: WorldState, subject: str, relation: str, object_: str) -> I
         reason, rivals = _rival(state, subject, relation, object_)
         yield Breach("functional-relation", f"`{fact}`: {reason}", rivals=rivals)
         return
-    for kind in (_irreflexive, _asymmetric, _misfits):
-        found = list(kind(state, subject, relation, object_))
-        yield from (replace(breach, message=f"`{fact}`: {breach.message}") for breach in found[:1])
+    own = fault(state, (subject, relation, object_))
+    opposite = list(_asymmetric(state, subject, relation, object_))[:1]
+    yield from (own,) if own else (replace(breach, message=f"`{fact}`: {breach.message}") for breach in opposite)
+
+
+def fault(state: WorldState, fact: Fact) -> Breach | None:
+    """Return what is wrong with a relation between individuals by itself, whatever else is said."""
+    short = state.vocabulary.short
+    written = " ".join(map(short, fact))
+    found = (breach for kind in (_irreflexive, _misfits) for breach in kind(state, *fact))
+    return next((replace(breach, message=f"`{written}`: {breach.message}") for breach in found), None)
 
 
 def _irreflexive(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[Breach]:
