@@ -63,3 +63,13 @@ def test_a_bad_program_is_a_planner_that_gives_up_and_leaves_nothing(
     pids = started(tmp_path)
     assert bool(pids) == (script == HANG)
     assert all(ends(pid) for pid in pids)
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_without_a_place_to_work_in_a_planner_gives_up(
+    place: Callable[[Path, str], object], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "missing"))
+    answer = place(tmp_path, "exit 0")
+    assert isinstance(answer, GaveUp) and "has no place to work in" in answer.why
+    assert not started(tmp_path)
