@@ -1,0 +1,164 @@
+"""Problems, plans and memory over 10 to 10,000 places and as many parts; the goal speaks of three of them.
+
+Run it as `python benchmarks/planning.py`; it prints seconds, and how often the smallest scene's the largest one's are.
+How they grow is drawn in `planning.png` in the folder `build/benchmarks`, or in the one given.
+"""
+
+from __future__ import annotations
+
+import resource
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+
+import msgspec
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
+from planning.samples import CLEAN, CLEANED, DRIVE, LAB, PICK, library, post, skill
+from skillc_compiler.library.conditions import And, Holds, Individual, Not
+from skillc_runtime.planning.bound import relaxed_scene
+from skillc_runtime.planning.choose import available
+from skillc_runtime.planning.narrowing import NARROW
+from skillc_runtime.planning.plan import Solved
+from skillc_runtime.planning.problem import pose_problem
+from skillc_runtime.planning.solve import solve
+from skillc_runtime.world.state import WorldState
+from world.lab import assign, fact, holds, individual, iri, parameter, requirement
+
+SIZES = (10, 30, 100, 300, 500, 1_000, 3_000, 10_000)
+PLACE = skill(
+    "Place",
+    (
+        parameter("object", "Product", "in"),
+        parameter("to", "Location", "in"),
+        parameter("robot", "Robot"),
+        parameter("arm", "Arm"),
+        parameter("gripper", "Gripper"),
+    ),
+    (
+        requirement("mounted", holds("robot", "hasA", "arm")),
+        requirement("has hand", holds("arm", "hasGripper", "gripper")),
+        requirement("here", holds("robot", "at", "to")),
+        requirement("held", holds("gripper", "contain", "object")),
+    ),
+    (post(holds("to", "contain", "object")), post(Not(holds("gripper", "contain", "object")))),
+    10.0,
+)
+SKILLS = library(DRIVE, PICK, PLACE, CLEAN)
+GOAL = And((CLEANED, *(Holds(Individual(iri("wall")), iri("contain"), Individual(iri(f"part-{n}"))) for n in (1, 2))))
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Seconds and mebibytes for one scene, from one process.
+
+    The first plan is that for the near problem, posed and solved; the proof is that no plan of the scene is shorter.
+    """
+
+    triples: int
+    load: float
+    whole_problem: float
+    near_problem: float
+    first_plan: float
+    proof: float
+    memory_mib: float
+    planner_mib: float
+
+
+def scene(parts: int) -> WorldState:
+    """Return a world with so many parts, each in a place of its own."""
+    individuals = [individual(f"place-{n}", "Location") for n in range(parts)]
+    individuals += [individual(f"part-{n}", "Product") for n in range(parts)]
+    contents = [fact(f"place-{n}", "contain", f"part-{n}") for n in range(parts)]
+    weights = [assign(f"part-{n}", "weight", 0.1) for n in range(parts)]
+    return LAB.changed([*individuals, *contents, *weights])
+
+
+def timed(work: Callable[[], object]) -> float:
+    """Return the seconds on the clock that a call takes, the best of three."""
+
+    def once() -> float:
+        start = time.perf_counter()
+        work()
+        return time.perf_counter() - start
+
+    return min(once() for _ in range(3))
+
+
+def measured(parts: int) -> Measured:
+    """Measure one scene."""
+    start = time.perf_counter()
+    state = scene(parts)
+    load = time.perf_counter() - start
+    near = pose_problem(SKILLS, state, GOAL, (), NARROW)
+    result = solve(SKILLS, state, GOAL)
+    assert isinstance(result, Solved) and result.optimal == "proven", result
+    bound = relaxed_scene(near, state)
+    return Measured(
+        triples=len(state.individuals) + sum(len(tuple(links.pairs())) for links in state.asserted.values()),
+        load=load,
+        whole_problem=timed(lambda: pose_problem(SKILLS, state, GOAL)),
+        near_problem=timed(lambda: pose_problem(SKILLS, state, GOAL, (), NARROW)),
+        first_plan=timed(lambda: first_plan(state)),
+        proof=timed(lambda: available()[0].plan(bound, 30.0)) if bound else 0.0,
+        memory_mib=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
+        planner_mib=resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024,
+    )
+
+
+def first_plan(state: WorldState) -> None:
+    """Pose the near problem and solve it with the first planner."""
+    answer = available()[0].plan(pose_problem(SKILLS, state, GOAL, (), NARROW).problem, 30.0)
+    assert isinstance(answer, Solved)
+
+
+def main(folder: Path) -> None:
+    """Measure every size in a process of its own, print a table, plot the growth."""
+    found = {size: msgspec.json.decode(_apart(size), type=Measured) for size in SIZES}
+    names = [each.name for each in fields(Measured)]
+    print(f"{'things of a kind':>16}" + "".join(f"{name:>15}" for name in names))
+    for size, each in found.items():
+        print(f"{size:16}" + "".join(f"{value:15.3f}" for value in asdict(each).values()))
+    small, large = asdict(found[SIZES[0]]), asdict(found[SIZES[-1]])
+    growth = {name: large[name] / small[name] for name in names if small[name]}
+    print(f"{'growth':>16}" + "".join(f"{growth[name]:15.1f}" if name in growth else f"{'-':>15}" for name in names))
+    folder.mkdir(parents=True, exist_ok=True)
+    _plot(found, names, folder / "planning.png")
+
+
+def _apart(size: int) -> bytes:
+    return subprocess.run((sys.executable, __file__, "--one", str(size)), check=True, capture_output=True).stdout
+
+
+def _plot(found: dict[int, Measured], names: list[str], file: Path) -> None:
+    from matplotlib import use
+
+    use("Agg")
+    from matplotlib import pyplot
+
+    figure, (seconds, memory) = pyplot.subplots(1, 2, figsize=(11, 4.5), layout="constrained")
+    for name in names:
+        axes = memory if name.endswith("mib") else seconds
+        if name != "triples":
+            axes.loglog(list(found), [asdict(each)[name] for each in found.values()], "o-", label=name)
+    seconds.axhline(1.0, color="grey", linestyle=":", label="1 s")
+    memory.axhline(1024.0, color="grey", linestyle=":", label="1 GiB")
+    for axes, unit in ((seconds, "seconds"), (memory, "MiB")):
+        axes.set(xlabel="places, and as many parts", ylabel=unit)
+        axes.legend()
+        axes.grid(alpha=0.3)
+    figure.savefig(file, dpi=120)
+    print(f"how it grows: {file}")
+
+
+if __name__ == "__main__":
+    match sys.argv[1:]:
+        case ["--one", size]:
+            sys.stdout.buffer.write(msgspec.json.encode(measured(int(size))))
+        case [folder]:
+            main(Path(folder))
+        case _:
+            main(Path("build/benchmarks"))
