@@ -70,6 +70,14 @@ def test_terms_of_a_named_folder_and_of_files_beside_the_skills_are_known(librar
     assert {each["path"] for each in json.loads(named.stdout)} >= {"stock/cora.owl", "stock/cell.owl"}
 
 
+def test_what_was_compiled_into_the_library_is_no_vocabulary_of_it(library: Path) -> None:
+    assert run("compile", library, "--ontology", "stock", "-o", library / "build").exit_code == 0
+    assert (library / "build" / "skills.ttl").is_file()
+    again = run("check", library, "--ontology", "stock", "--format", "json", "--no-cache")
+    assert errors(again) == []
+    assert not [each for each in json.loads(again.stdout) if "build" in each["path"]]
+
+
 def test_the_environment_names_folders_too_and_the_option_leaves_no_trace(
     library: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from pathlib import PurePosixPath
+from typing import TYPE_CHECKING
 
-from skillc_compiler.library.skills import SkillLibrary
+if TYPE_CHECKING:
+    from skillc_compiler.library.skills import SkillLibrary
 
 MARK = "Made by skillc from the library"
 COMMENTS = {".pddl": "; {}\n", ".ttl": "# {}\n", ".xml": "<!-- {} -->\n", ".md": "<!-- {} -->\n"}

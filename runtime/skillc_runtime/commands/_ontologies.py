@@ -9,6 +9,7 @@ from pathlib import Path
 
 import click
 
+from skillc_compiler.emit.headers import is_ours
 from skillc_dsl.encoding import decode
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
@@ -43,13 +44,17 @@ def named() -> dict[str, Path]:
 
 
 def is_vocabulary(path: Path) -> bool:
-    """Whether a file beside skills is a vocabulary: it says that it is an owl:Ontology, which scenes do not."""
+    """Whether a file beside skills is a vocabulary: it says that it is an owl:Ontology, which scenes do not.
+
+    What skillc itself made of the library is none.
+    """
     if path.suffix not in catalogue.ENDINGS:
         return False
     try:
-        return bool(_VOCABULARY.search(path.read_bytes().decode("utf-8", errors="replace")))
+        text = path.read_bytes().decode("utf-8", errors="replace")
     except OSError:
         return False
+    return bool(_VOCABULARY.search(text)) and not is_ours(text)
 
 
 def sources(files: Iterable[tuple[str, Path]]) -> tuple[Source, ...]:
