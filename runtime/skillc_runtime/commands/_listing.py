@@ -3,49 +3,45 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable, Mapping
 
-from skillc_ontology.catalogue import vocabulary_files
 from skillc_runtime.world.contents import contents
 from skillc_runtime.world.documents import Document
 from skillc_runtime.world.listing import Entry, listing
 from skillc_runtime.world.query import Cell, query
-from skillc_runtime.world.scene import world_of
+from skillc_runtime.world.scene import sheets, world_of
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.store.facts import all_facts
 from skillc_runtime.world.values import show
 
 
-def listed(scene: Document, state: WorldState, everything: bool, as_json: bool) -> str:
-    """Return what is known of the individuals that a scene itself speaks of, or of everything.
+def labels_of(scene: Document) -> dict[str, str]:
+    """Return the labels of a scene's individuals and of those that ship with skillc."""
+    return {**contents(sheets()).labels, **contents([scene]).labels}
 
-    As text it is a paragraph for each individual, as JSON a list of objects.
-    """
-    own = contents([scene])
-    labels = {**contents(_shipped()).labels, **own.labels}
-    entries = listing(state, state.individuals if everything else state.individuals & own.subjects)
+
+def listed(state: WorldState, labels: Mapping[str, str], individuals: Iterable[str], as_json: bool) -> str:
+    """Return what is written of individuals: as text a paragraph for each, as JSON a list of objects."""
+    entries = listing(state, individuals)
     if as_json:
-        return json.dumps([_object(entry, labels.get(entry.individual), state) for entry in entries], indent=2)
-    return "\n\n".join(_paragraph(entry, labels.get(entry.individual), state) for entry in entries)
+        return json.dumps([as_object(entry, labels.get(entry.individual), state) for entry in entries], indent=2)
+    return "\n\n".join(paragraph(entry, labels.get(entry.individual), state) for entry in entries)
 
 
 def kept(place: str, state: WorldState) -> Document:
     """Return as a document what a world that a store keeps says beside the shipped ontology."""
-    shipped = frozenset(all_facts(world_of(_shipped(), state.vocabulary)))
+    shipped = frozenset(all_facts(world_of(sheets(), state.vocabulary)))
     return Document(place, "".join(sorted(f"{fact} .\n" for fact in all_facts(state) if fact not in shipped)))
 
 
 def answer(scene: Document, sparql: str, state: WorldState, as_json: bool) -> str:
     """Answer a query over the scene and the shipped ontology, as a table or as a list of objects."""
-    result = query([scene, *_shipped()], sparql, state.vocabulary)
+    result = query([scene, *sheets()], sparql, state.vocabulary)
     if as_json:
         return json.dumps([dict(zip(result.columns, row, strict=True)) for row in result.rows], indent=2)
     rows = [result.columns, *(tuple(map(_text, row)) for row in result.rows)]
     widths = [max(len(row[i]) for row in rows) for i in range(len(result.columns))]
     return "\n".join("  ".join(text.ljust(w) for text, w in zip(row, widths, strict=True)).rstrip() for row in rows)
-
-
-def _shipped() -> list[Document]:
-    return [Document(name, text) for name, text in vocabulary_files()]
 
 
 def _text(cell: Cell) -> str:
@@ -54,7 +50,8 @@ def _text(cell: Cell) -> str:
     return "" if cell is None else str(cell)
 
 
-def _paragraph(entry: Entry, label: str | None, state: WorldState) -> str:
+def paragraph(entry: Entry, label: str | None, state: WorldState) -> str:
+    """Return what is written of an individual, one statement to a line."""
     short = state.vocabulary.short
     called = "" if label is None else f'  "{label}"'
     lines = [f"{short(entry.individual)}{called}  a {', '.join(map(short, entry.types))}"]
@@ -63,7 +60,8 @@ def _paragraph(entry: Entry, label: str | None, state: WorldState) -> str:
     return "\n".join(lines)
 
 
-def _object(entry: Entry, label: str | None, state: WorldState) -> dict[str, object]:
+def as_object(entry: Entry, label: str | None, state: WorldState) -> dict[str, object]:
+    """Return what is written of an individual, for JSON."""
     short = state.vocabulary.short
     related: dict[str, list[str]] = {}
     for relation, other in entry.relations:

@@ -1,0 +1,91 @@
+"""A scene as a picture: what holds what, in boxes below each other; other relations stand in the boxes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from skillc_compiler.picture.boxes import Box, Look
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.terms import SKILLC, SKIROS
+from skillc_runtime.world.values import show
+
+HOLDS = f"{SKILLC}holdsDeep"
+"""Above all relations by which one thing holds another."""
+RPARTS = "http://www.inf.ufrgs.br/phi-group/ontologies/RParts.owl#"
+CORA = "http://www.inf.ufrgs.br/phi-group/ontologies/cora.owl#"
+LOOKS: tuple[tuple[str, Look, str], ...] = (
+    (f"{SKIROS}Scene", "heading", "◆"),
+    (f"{CORA}Robot", "call", "R"),
+    (f"{RPARTS}ArmDevice", "call", "A"),
+    (f"{RPARTS}EndEffector", "call", "G"),
+    (f"{RPARTS}Sensor", "call", "S"),
+    (f"{SKIROS}TransformationPose", "time", "+"),
+    (f"{SKIROS}Location", "flow", "▢"),
+    (f"{SKILLC}Surface", "code", "▤"),
+    (f"{SKIROS}Manipulatable", "guard", "●"),
+)
+"""How individuals of a class look; the first that fits counts."""
+OTHER: tuple[Look, str] = ("heading", "·")
+PROPERTIES = (f"{SKILLC}deviceState", "https://w3id.org/skillc/wiping#isClean", f"{SKIROS}ContainerState")
+"""Values that say in which state something is."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Scene:
+    state: WorldState
+    own: frozenset[str]
+    labels: dict[str, str]
+    holding: tuple[str, ...]
+
+
+def picture(state: WorldState, own: frozenset[str], labels: dict[str, str], title: str) -> Box:
+    """Return the picture of a scene's own individuals under a title."""
+    above = state.vocabulary.super_relations
+    scene = _Scene(state, own, labels, tuple(sorted(iri for iri in above if HOLDS in above[iri] and iri != HOLDS)))
+    held: dict[str, list[str]] = {}
+    for one in sorted(own):
+        holder = _holder(scene, one)
+        if holder is not None:
+            held.setdefault(holder, []).append(one)
+    inside = {one for members in held.values() for one in members}
+    seen: set[str] = set()
+    boxes = [_box(scene, one, held, seen) for one in sorted(own - inside)]
+    boxes += [_box(scene, one, held, seen) for one in sorted(own) if one not in seen]
+    return Box("heading", "◇", title, (f"{len(own)} individuals",), tuple(boxes))
+
+
+def _holder(scene: _Scene, one: str) -> str | None:
+    """Return what holds something: the first of those nearest to it."""
+    holders = {h for relation in scene.holding for h in scene.state.subjects(relation, one)} & scene.own - {one}
+    return min(holders, default=None)
+
+
+def _box(scene: _Scene, one: str, held: dict[str, list[str]], seen: set[str]) -> Box:
+    seen.add(one)
+    look, symbol = _look(scene.state, one)
+    short = scene.state.vocabulary.short
+    types = ", ".join(map(short, sorted(scene.state.types(one))))
+    lines = [f"{scene.labels[one]}, {types}" if one in scene.labels else types, *_relations(scene, one, held)]
+    children = tuple(_box(scene, each, held, seen) for each in held.get(one, ()) if each not in seen)
+    return Box(look, symbol, short(one), tuple(lines), children)
+
+
+def _relations(scene: _Scene, one: str, held: dict[str, list[str]]) -> Iterable[str]:
+    """Yield the relations that the boxes below do not show, and in which state something is."""
+    state, short = scene.state, scene.state.vocabulary.short
+    below = held.get(one, ())
+    for relation, links in sorted(state.asserted.items()):
+        others = sorted(links.forward.get(one))
+        shown = [short(other) for other in others if relation not in scene.holding or other not in below]
+        if shown:
+            yield f"{short(relation)} {', '.join(shown)}"
+    for property_ in PROPERTIES:
+        value = state.value(one, property_) if property_ in state.stored else None
+        if value is not None:
+            yield f"{short(property_)} {show(value)}"
+
+
+def _look(state: WorldState, one: str) -> tuple[Look, str]:
+    fitting = ((look, symbol) for cls, look, symbol in LOOKS if state.is_a(one, cls))
+    return next(fitting, OTHER)

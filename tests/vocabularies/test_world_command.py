@@ -1,0 +1,109 @@
+"""`skillc world`: searching, showing, comparing, drawing and editing scenes."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from click.testing import CliRunner, Result
+
+from skillc_ontology import catalogue
+from skillc_runtime.commands.main import skillc
+
+
+@pytest.fixture
+def scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return Path(shutil.copy(catalogue.scene("iiwa_table"), "cell.ttl"))
+
+
+def world(*arguments: str | Path) -> Result:
+    result = CliRunner().invoke(skillc, ["world", *map(str, arguments)])
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
+    return result
+
+
+def test_words_are_searched_in_names_labels_and_classes(scene: Path) -> None:
+    def found(words: str) -> list[str]:
+        return [each["individual"] for each in json.loads(world(scene, "--search", words, "--json").stdout)]
+
+    assert found("table top") == ["lab:Table-1"]
+    assert found("THREE-finger") == ["lab:Robotiq-1"]
+    assert found("graspingpose eraser") == ["lab:Eraser-1-grasp"]
+    nothing = world(scene, "--search", "zebra")
+    assert (nothing.exit_code, nothing.stdout) == (1, "") and "`zebra`" in nothing.stderr
+
+
+def test_an_individual_is_shown_with_what_leads_to_it_and_what_follows(scene: Path) -> None:
+    text = world(scene, "--show", "lab:Eraser-1").stdout
+    assert "  from     lab:Cell skiros:contain\n" in text and "  follows  skillc:within lab:Scene-1\n" in text
+    (data,) = json.loads(world(scene, "--show", "lab:Eraser-1", "--json").stdout)
+    assert ["lab:Cell", "skiros:contain"] in data["from"] and "skillc:Tool" in data["also"]
+    wrong = world(scene, "--show", "lab:Erasor-1")
+    assert wrong.exit_code == 1 and "did you mean lab:Eraser-1" in wrong.stderr
+
+
+def test_two_scenes_are_compared(scene: Path) -> None:
+    assert world(scene, "--diff", "iiwa_table").stdout == "no differences\n"
+    assert world(scene, "--edit", "lab:Eraser-1 skiros:Weight 0.2").exit_code == 0
+    assert world("iiwa_table", "--diff", scene).stdout == (
+        "- lab:Eraser-1 skiros:Weight 0.12\n+ lab:Eraser-1 skiros:Weight 0.2\n"
+    )
+    data = json.loads(world("iiwa_table", "--diff", scene, "--json").stdout)
+    assert data["added"] == [{"subject": "lab:Eraser-1", "predicate": "skiros:Weight", "value": "0.2"}]
+
+
+def test_a_scene_is_drawn_with_each_individual_in_one_box(scene: Path) -> None:
+    result = world(scene, "--graph", "out/cell.svg")
+    assert result.stdout == "out/cell.svg\n"
+    picture = ElementTree.parse("out/cell.svg")
+    titles = [each.text for each in picture.iter() if each.get("class") == "title"]
+    listed = [each["individual"] for each in json.loads(world(scene, "--json").stdout)]
+    assert sorted(titles) == sorted(["cell.ttl", *listed]) and len(listed) > 8
+    first = Path("out/cell.svg").read_bytes()
+    world(scene, "--graph", "out/cell.svg")
+    assert Path("out/cell.svg").read_bytes() == first
+    assert world(scene, "--graph", "cell.ttl/x.svg").exit_code == 1
+
+
+def test_all_edits_are_made_and_the_rest_of_the_file_stays(scene: Path) -> None:
+    before = scene.read_text("utf-8")
+    edits = ("lab:Cup-1 a skiros:Product", 'lab:Cup-1 rdfs:label "cup"', "lab:Cup-1 skiros:at lab:Cell")
+    result = world(scene, *(part for edit in edits for part in ("--edit", edit)))
+    assert (result.exit_code, result.stdout, result.stderr) == (0, "", "cell.ttl: 3 edits made\n")
+    assert scene.read_text("utf-8").startswith(before)
+    assert world(scene, "--edit", "lab:Cup-1 skiros:at lab:Cell").stderr == "cell.ttl says so already\n"
+    assert world(scene, "--edit", "not lab:Cup-1").exit_code == 0
+    assert world("iiwa_table", "--diff", scene).stdout == "no differences\n"
+
+
+@pytest.mark.parametrize(
+    ("edit", "reason"),
+    [
+        ("lab:Eraser-1 skiros:at lab:Eraser-1", "irreflexive"),
+        ("lab:Eraser-1 skiros:wieght 0.2", "did you mean `skiros:Weight`"),
+        ("lab:Eraser-1 skiros:Weight", "has no value"),
+        ('lab:Eraser-1 skiros:Weight "heavy"', "skiros:Weight"),
+        ("not lab:Eraser-1 skiros:Weight 7", "does not say"),
+        ("not lab:Cell skillc:holdsDeep lab:Eraser-1", "follows from something else"),
+        ("not lab:Zebra-1", "does not say"),
+        ("lab:Eraser-1 skiros:Weight 0.2 . lab:Cell a skiros:Scene", "not one statement"),
+        ("zoo:Zebra a skiros:Product", "`zoo:` is not declared"),
+        ("not lab:Eraser-1", "nothing has this FrameId"),
+    ],
+)
+def test_an_edit_that_makes_no_sense_changes_nothing(scene: Path, edit: str, reason: str) -> None:
+    before = scene.read_bytes()
+    result = world(scene, "--edit", "lab:Eraser-1 skiros:Weight 0.3", "--edit", edit)
+    assert (result.exit_code, result.stdout) == (1, "") and reason in result.stderr
+    assert scene.read_bytes() == before
+
+
+def test_questions_that_do_not_go_together_are_a_wrong_command_line(scene: Path) -> None:
+    assert world(scene, "--search", "x", "--show", "lab:Cell").exit_code == 2
+    assert world(scene, "--edit", "not lab:Cell", "--store", "kept").exit_code == 2
+    shipped = world("iiwa_table", "--edit", "lab:Eraser-1 skiros:Weight 1")
+    assert shipped.exit_code == 1 and "copy it" in shipped.stderr
