@@ -1,8 +1,9 @@
 """Tells of classes that nothing can be and of relations that hold of nothing, at the statement that makes them so.
 
 Followed are superclasses, disjoint classes, what members need to have, domains, ranges, characteristics, inverses and
-super-relations; a reasoner for OWL finds no more among these. What is impossible only by something else that is told
-is not told again.
+super-relations. All that is told is so; a reasoner for OWL may find more where several of these meet, as where a thing
+that is needed needs the first one back and can have one only. What is impossible only by something else that is told is
+not told again.
 """
 
 from __future__ import annotations

@@ -175,13 +175,29 @@ class Impossible:
 
     def _clash(self, classes: Sequence[str]) -> tuple[str, str] | None:
         """Return two classes above the given ones that have nothing in common, None where there are none."""
-        above = frozenset[str]().union(*(self._vocabulary.ancestors.get(cls, frozenset({cls})) for cls in classes))
+        above = frozenset[str]().union(*(self._above.get(cls, frozenset({cls})) for cls in classes))
         clashing = ((one, sorted(self._apart[one] & above)) for one in sorted(above & self._apart.keys()))
         return next(((one, others[0]) for one, others in clashing if others), None)
 
     def _nothing_in_common(self, pair: tuple[str, str]) -> str:
         one, other = map(self._vocabulary.short, pair)
         return f"it is below `{other}` and below what has nothing in common with it, `{one}`"
+
+    @cached_property
+    def _above(self) -> dict[str, frozenset[str]]:
+        """Each class with all above it, also those in the domain of what its members need."""
+        above = dict(self._vocabulary.ancestors)
+        while True:
+            wider = {cls: self._with_domains(classes, above) for cls, classes in above.items()}
+            if wider == above:
+                return above
+            above = wider
+
+    def _with_domains(self, classes: frozenset[str], above: Mapping[str, frozenset[str]]) -> frozenset[str]:
+        needed = {need.property for cls in classes for need in self._needs.get(cls, ())}
+        starts = (self._ends(iri)[0] for iri in needed if iri in self._vocabulary.relations)
+        single = {choice[0] for sides in starts for choice in sides if len(choice) == 1}
+        return classes.union(single, *(above.get(cls, ()) for cls in single))
 
     @cached_property
     def _apart(self) -> dict[str, frozenset[str]]:
