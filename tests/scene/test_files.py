@@ -13,6 +13,8 @@ from skillc_runtime.world.documents import SceneError
 from skillc_runtime.world.scene import load_scene
 
 TEXT = catalogue.scene("iiwa_table").read_bytes()
+LABEL = b'"rough table"'
+LABEL_LINE = TEXT[: TEXT.index(LABEL)].count(b"\n") + 1
 
 
 def problems(path: Path, content: bytes) -> tuple[Problem, ...]:
@@ -32,7 +34,7 @@ def test_marks_of_editors_do_not_matter(tmp_path: Path, content: bytes) -> None:
 WRONG = [
     (b"", "empty-scene", 1),
     (b"\n# nothing\n", "empty-scene", 1),
-    (TEXT.replace(b'"rough table"', b'"rough t\xe4ble"'), "unreadable-scene", 73),
+    (TEXT.replace(LABEL, b'"rough t\xe4ble"'), "unreadable-scene", LABEL_LINE),
     (TEXT.decode().encode("utf-16"), "unreadable-scene", 1),
     (TEXT.decode().encode("utf-16-le"), "unreadable-scene", 1),
     (b'<?xml version="1.0"?><rdf:RDF/>', "not-turtle", 1),
