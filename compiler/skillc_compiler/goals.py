@@ -28,6 +28,8 @@ from skillc_dsl.parser import parse
 from skillc_dsl.source import Source, Span
 
 LINES_ABOVE = 2
+BETWEEN = frozenset(("==", "!=", "<", "<=", ">", ">=", "is", "has"))
+"""Words that stand between two others in a condition of the language."""
 
 
 def parse_goal(
@@ -75,12 +77,14 @@ def _slips(asked: Setting, text: str, what: Asked) -> tuple[Diagnostic, ...]:
 def _is_pddl(group: Group, names: Names) -> bool:
     """Whether a text in parentheses is PDDL: `(a r b)` is not when `r` is a relation and `a` is none."""
     match group.parts:
-        case [Word(text="not"), inner]:
-            return isinstance(inner, Group)
+        case [Word(text="not"), Group() as inner]:
+            return _is_pddl(inner, names)
+        case [Word(text="exists" | "forall"), Word(text=first), *_]:
+            return not first.endswith(":")
         case [Word(text="and" | "or" | "imply" | "exists" | "forall" | "="), *_]:
             return True
         case [Word(text=first), Word(text=second), Word()]:
-            return names.is_term("relation", first) or not names.is_term("relation", second)
+            return names.is_term("relation", first) or not (second in BETWEEN or names.is_term("relation", second))
         case [Word(), Word()]:
             return True
     return False

@@ -51,6 +51,20 @@ def test_the_kinds_of_goals_are_kept() -> None:
     assert isinstance(goal("(forall (?x ?y - Eraser) (= ?x ?y))").value, Forall)
 
 
+BRACKETED = [
+    ("(lab:Board.isClean == true)", "lab:Board.isClean == true"),
+    ("(not (lab:Board.isClean == true))", "not lab:Board.isClean == true"),
+    ("(exists x: Eraser (lab:Hand contain x))", "exists x: Eraser (lab:Hand contain x)"),
+    ("(not (contain lab:Hand lab:Felt))", "not lab:Hand contain lab:Felt"),
+]
+
+
+@pytest.mark.parametrize(("text", "plain"), BRACKETED)
+def test_a_goal_in_parentheses_need_not_be_pddl(text: str, plain: str) -> None:
+    one, other = goal(text), goal(plain)
+    assert one.value is not None and one.value == other.value
+
+
 WRONG = [
     ("lab:Bord.isClean == true", "unknown-individual", 1, "did you mean `lab:Board`"),
     ("(isClean lab:Bord)", "unknown-individual", 10, "did you mean `lab:Board`"),
