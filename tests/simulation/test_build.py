@@ -2,16 +2,20 @@
 
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from cells import ARM, ERASER, SCENES, SURFACE, cell, vocabulary, world
 
 from skillc_ontology import catalogue
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.simulation import noise
 from skillc_runtime.simulation.build import build
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.facts import read_scene
-from skillc_runtime.simulation.variation import draw
+from skillc_runtime.simulation.names import obstacle
+from skillc_runtime.simulation.variation import OBSTACLE_M, draw, with_obstacles, without_surfaces
 from skillc_runtime.world.changes import Change, ClearProperty, RemoveRelation, SetProperty
 from skillc_runtime.world.frames import pose
 from skillc_runtime.world.model import WorldModel
@@ -66,7 +70,9 @@ def test_the_arm_holds_its_posture_and_the_eraser_lies_still(scene: str) -> None
 def test_the_felt_yields_as_its_data_sheet_says() -> None:
     built = cell("iiwa_table")
     joint = built.model.joint(built.facts.names[ERASER] + "/press")
-    assert joint.stiffness[0] == built.facts.tools[0].sheet.number("padStiffness")
+    (tool,) = built.facts.tools
+    assert joint.stiffness[0] == built.variation.pad_stiffness(tool)
+    assert abs(joint.stiffness[0] / tool.sheet.number("padStiffness") - 1) <= tool.stiffness_range
     weight = 9.81 * built.facts.tools[0].mass_kg
     built.advance(1.0)
     assert built.recording(ERASER).force.size == 0, "nothing is recorded of a tool that nobody holds"
@@ -128,7 +134,7 @@ def test_half_a_range_of_friction_is_refused(given: str, missing: str) -> None:
 
 def test_a_range_of_friction_is_read_without_the_single_value_and_the_other_way_round() -> None:
     surface, state = SURFACE["iiwa_table"], world("iiwa_table")
-    assert read_scene(state.changed([ClearProperty(surface, FRICTION)])).surfaces[0].friction == (0.5, 0.7)
+    assert read_scene(state.changed([ClearProperty(surface, FRICTION)])).surfaces[0].friction == (0.3, 0.8)
     bare = state.changed([ClearProperty(surface, name) for name in RANGES])
     assert read_scene(bare).surfaces[0].friction == (0.6, 0.6)
     with pytest.raises(SheetError, match=r"Table-1 has no number skillc:friction "):
@@ -155,3 +161,47 @@ def test_reality_differs_within_the_ranges_of_the_facts(scene: str) -> None:
     assert 0.9 * surface.tilt_range_rad < np.abs(tilts).max() <= surface.tilt_range_rad
     assert surface.friction[0] <= frictions.min() < frictions.max() <= surface.friction[1]
     assert draw(facts, 7) == draw(facts, 7)
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_arms_start_and_pads_yield_within_the_ranges_of_the_facts(scene: str) -> None:
+    facts = read_scene(world(scene))
+    (arm,), (tool,) = facts.arms, facts.tools
+    drawn = [draw(facts, seed) for seed in range(200)]
+    off = np.abs([one.start(arm) - arm.home for one in drawn])
+    stiffer = np.array([one.pad_stiffness(tool) / tool.sheet.number("padStiffness") - 1 for one in drawn])
+    assert (off.max(axis=0) > 0.9 * arm.posture_range_rad).all() and off.max() <= arm.posture_range_rad
+    assert stiffer.min() < -0.9 * tool.stiffness_range and 0.9 * tool.stiffness_range < stiffer.max()
+    assert np.abs(stiffer).max() <= tool.stiffness_range
+    np.testing.assert_array_equal(cell(scene, 5).arm(arm.individual).q, draw(facts, 5).start(arm))
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_what_an_arm_measures_is_as_noisy_as_the_facts_say_and_the_same_for_the_same_seed(scene: str) -> None:
+    (arm,) = read_scene(world(scene)).arms
+    sources = (noise.of_joints(arm, 3), noise.of_wrist(arm, 3)), (noise.of_joints(arm, 3), noise.of_wrist(arm, 3))
+    wanted = {"iiwa_table": ([0.001] * 7, None), "ur5e_whiteboard": (None, [0.5] * 3 + [0.02] * 3 + [0.0] * 3)}[scene]
+    for one, again, deviation in zip(*sources, wanted, strict=True):
+        assert (one is None) == (deviation is None)
+        if one is not None and again is not None:
+            rows = np.array([one.row().copy() for _ in range(2500)])
+            np.testing.assert_allclose(rows.std(axis=0), deviation, rtol=0.1)
+            np.testing.assert_array_equal(rows, [again.row().copy() for _ in range(2500)])
+
+
+def test_surfaces_may_be_missing_and_may_carry_something() -> None:
+    facts = read_scene(world("iiwa_table"))
+    drawn, name = draw(facts, 2), facts.names[SURFACE["iiwa_table"]]
+    bodies = {
+        model.body(each).name for model in (build(facts, without_surfaces(drawn)),) for each in range(model.nbody)
+    }
+    assert name not in bodies
+    littered = build(facts, with_obstacles(drawn, facts))
+    here, top = littered.body(obstacle(name)).pos, littered.body(name)
+    away = pose_of(top).inverse().at(here)
+    assert away[2] == pytest.approx(OBSTACLE_M[2])
+    assert (np.abs(away[:2]) < facts.surfaces[0].size[:2] / 2).all()
+
+
+def pose_of(body: Any) -> Pose:
+    return Pose.of(body.pos, body.quat)

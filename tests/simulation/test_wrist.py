@@ -2,18 +2,28 @@
 
 import numpy as np
 import pytest
-from cells import ARM, GRIPPER, cell
+from cells import ARM, GRIPPER, LAB, world
 
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.simulation.arm import Payload
 from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.world.changes import SetProperty
+from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.terms import FORCE_NOISE, TORQUE_NOISE
 
 SCENE = "ur5e_whiteboard"
+SENSOR = LAB + "ForceTorque-1"
+
+
+def silent() -> SimulatedCell:
+    """Return a cell in which the sensor has no noise."""
+    state = world(SCENE).changed([SetProperty(SENSOR, noise, 0.0) for noise in (FORCE_NOISE, TORQUE_NOISE)])
+    return SimulatedCell(WorldModel(state))
 
 
 def loaded(force_n: tuple[float, float, float]) -> tuple[SimulatedCell, np.ndarray]:
     """Return a resting cell in which a force in world axes acts at the hand's centre of mass, and that point."""
-    there = cell(SCENE)
+    there = silent()
     palm = there.model.body(there.facts.names[GRIPPER[SCENE]] + "/palm").id
     there.data.xfrc_applied[palm, :3] = force_n
     there.advance(0.5)
@@ -41,7 +51,7 @@ def test_a_hanging_mass_that_nobody_announced_pulls_down_and_an_announced_one_do
 
 
 def test_shaking_the_empty_hand_feels_like_nothing() -> None:
-    there = cell(SCENE)
+    there = silent()
     driver = there.arm(ARM[SCENE])
     there.advance(0.2)
     goal = driver.q + np.array([0.3, 0.2, -0.3, 0.2, 0.3, 0.4])

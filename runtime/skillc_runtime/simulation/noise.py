@@ -27,7 +27,7 @@ class Noise:
             self._chance.standard_normal(out=self._rows)
             self._rows *= self._deviation
             self._next = 0
-        row = self._rows[self._next]
+        row: Array = self._rows[self._next]
         self._next += 1
         return row
 
