@@ -119,6 +119,7 @@ def _relation(vocabulary: Vocabulary, term: RelationTerm) -> str:
         ", ".join(trait for trait, has in traits.items() if has),
         f"inverse of `{local_name(term.inverse)}`" if term.inverse else "",
         f"implies `{_names(term.parents)}`" if term.parents else "",
+        f"computed by `{term.computed_by}`" if term.computed_by else "",
         f"`{vocabulary.short(term.iri)}`",
     )
 

@@ -30,7 +30,8 @@ Good:
 
 ## computed-property: a post sets what follows from other facts
 
-Nobody sets a pose or a normal: they are computed. A measurement may establish them.
+Nobody sets a pose or a normal, or says that one thing is inside another: they are computed. A measurement may
+establish them.
 
 Bad:
 
@@ -117,7 +118,7 @@ from collections.abc import Iterator, Sequence
 
 from skillc_compiler.conflicts import Conflicts, covers
 from skillc_compiler.library.conditions import Assert, Assign, Effect, Holds, Literal, Retract
-from skillc_compiler.library.vocabulary import Vocabulary, local_name
+from skillc_compiler.library.vocabulary import PropertyTerm, RelationTerm, Vocabulary, local_name
 from skillc_compiler.lower.effects import NoEffect, effects
 from skillc_compiler.program import Program, Requirement
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -160,15 +161,18 @@ def _not_literal(part: NoEffect) -> Diagnostic:
 
 
 def _computed(vocabulary: Vocabulary, effect: Effect, post: Requirement) -> Iterator[Diagnostic]:
-    if isinstance(effect, Assign) and effect.property in vocabulary.properties:
-        term = vocabulary.properties[effect.property]
-        if term.computed_by is not None:
-            yield Diagnostic(
-                "computed-property",
-                post.clause.span,
-                f"`{local_name(term.iri)}` follows from other facts and cannot be set",
-                help="mark the post `sensed`, or state the facts it follows from",
-            )
+    term: PropertyTerm | RelationTerm | None
+    if isinstance(effect, Assign):
+        term = vocabulary.properties.get(effect.property)
+    else:
+        term = vocabulary.relations.get(effect.relation)
+    if term is not None and term.computed_by is not None:
+        yield Diagnostic(
+            "computed-property",
+            post.clause.span,
+            f"`{local_name(term.iri)}` follows from other facts and cannot be set",
+            help="mark the post `sensed`, or state the facts it follows from",
+        )
 
 
 def _conflict(

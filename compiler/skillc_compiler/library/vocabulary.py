@@ -73,7 +73,12 @@ class Signature(msgspec.Struct, frozen=True):
 
 
 class RelationTerm(msgspec.Struct, frozen=True, kw_only=True):
-    """An object property with its axioms."""
+    """An object property with its axioms.
+
+    `computed_by` names a Python class "module:class" that tells from other facts whether the relation holds; nothing
+    else follows from it or makes it true. `computed_from` are the relations and properties that decide it: no plan may
+    read it where skills change one of them. Of an empty one it is not known what decides.
+    """
 
     iri: str
     signatures: tuple[Signature, ...]
@@ -85,6 +90,8 @@ class RelationTerm(msgspec.Struct, frozen=True, kw_only=True):
     transitive: bool = False
     asymmetric: bool = False
     irreflexive: bool = False
+    computed_by: str | None = None
+    computed_from: tuple[str, ...] = ()
     comment: str = ""
     source: Position | None = None
 

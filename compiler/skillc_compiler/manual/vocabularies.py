@@ -42,6 +42,29 @@ Good:
     lab:age a owl:DatatypeProperty ;
         rdfs:range xsd:double .
 
+## computed-relation: a computed relation has an axiom
+
+A relation with `skillc:computedBy` holds where the named Python class says so, and nowhere else. Nothing is kept of it,
+so nothing can follow from it: it has a domain and a range, and no axioms.
+
+Bad:
+
+    @prefix lab: <http://example.org/lab#> .
+    @prefix owl: <http://www.w3.org/2002/07/owl#> .
+    @prefix skillc: <https://w3id.org/skillc/core#> .
+
+    lab:isBeside a owl:ObjectProperty, owl:SymmetricProperty ;
+        skillc:computedBy "lab.beside:Beside" .
+
+Good:
+
+    @prefix lab: <http://example.org/lab#> .
+    @prefix owl: <http://www.w3.org/2002/07/owl#> .
+    @prefix skillc: <https://w3id.org/skillc/core#> .
+
+    lab:isBeside a owl:ObjectProperty ;
+        skillc:computedBy "lab.beside:Beside" .
+
 ## unreadable-vocabulary: a file is in a format that is not read, or broken
 
 Read are Turtle, N-Triples, RDF/XML, JSON-LD, TriG and N-Quads, told by what the file says first, not by its ending.

@@ -119,6 +119,8 @@ def _is_beyond(sorts: Sorts, condition: Condition) -> bool:
             case Exists() | Forall() | Invoke() | Arithmetic():
                 return True
             case Holds(relation=relation):
+                if sorts.is_computed(relation):
+                    return True
                 if sorts.axioms.name.get(relation, (relation, False))[0] in sorts.axioms.loose:
                     return True
             case PropertyOf(property=iri):

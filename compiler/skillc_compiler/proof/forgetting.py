@@ -51,6 +51,7 @@ def _touched(sorts: Sorts, state: State, write: Related) -> State:
     """Take away every fact that the writing of a relation may have made untrue."""
     subject, relation, object_ = canonical(sorts, state, write)
     kin = sorts.axioms.kin.get(relation, frozenset({relation}))
+    state = _uncomputed(sorts, state, kin)
     adds = _added(sorts, (subject, relation, object_)) if write.value is not False else ()
     takes = _taken(sorts, (subject, relation, object_), write.value)
     facts = {
@@ -133,7 +134,20 @@ def _widened(
     return others
 
 
+def _uncomputed(sorts: Sorts, state: State, terms: frozenset[str]) -> State:
+    """Take away what is known by computations that one of these relations and properties may decide."""
+    facts = {
+        fact: true
+        for fact, true in state.facts.items()
+        if not any(sorts.is_decided_by(relation, terms) for relation in _relations_read(fact))
+    }
+    alone = {side: others for side, others in state.alone.items() if not sorts.is_decided_by(side[0], terms)}
+    same = len(facts) == len(state.facts) and len(alone) == len(state.alone)
+    return state if same else state.replaced(facts=facts, alone=alone)
+
+
 def _without_value(sorts: Sorts, state: State, write: Valued) -> State:
+    state = _uncomputed(sorts, state, frozenset({write.property}))
     facts = {
         fact: true
         for fact, true in state.facts.items()

@@ -26,6 +26,18 @@ class Sorts:
             return THING
         return thing.name[1:] if thing.name.startswith(SOME) else self.classes.get(thing.name, THING)
 
+    def is_computed(self, relation: str) -> bool:
+        """Whether a relation follows from other facts by a computation."""
+        term = self.vocabulary.relations.get(relation)
+        return term is not None and term.computed_by is not None
+
+    def is_decided_by(self, relation: str, written: frozenset[str]) -> bool:
+        """Whether a computed relation may change with one of these relations and properties."""
+        if not self.is_computed(relation):
+            return False
+        known = self.vocabulary.relations[relation].computed_from
+        return not known or not written.isdisjoint(known)
+
     def is_a(self, state: State, thing: Thing, cls: str) -> bool | None:
         """Whether the individual is of the class."""
         if self.vocabulary.is_a(self.class_of(thing), cls):

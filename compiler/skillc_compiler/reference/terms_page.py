@@ -140,3 +140,5 @@ def _relation(term: RelationTerm, links: Links) -> Iterator[Markup]:
     yield from (Markup("implies {}").format(links.term(iri)) for iri in term.parents)
     if term.inverse:
         yield Markup("inverse of {}").format(links.term(term.inverse))
+    if term.computed_by:
+        yield Markup("computed by <code>{}</code>").format(term.computed_by)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.vocabulary.computed import computed_alone
 from skillc_compiler.vocabulary.contradictions import contradictions
 from skillc_compiler.vocabulary.datatypes import value_types_known
 from skillc_compiler.vocabulary.doubts import doubts
@@ -68,6 +69,7 @@ def _vocabulary(
         *value_types_known(graph, [iri for iri, kind in kinds.items() if kind == PROPERTY], places.terms),
         *circles_told(circles, below, places, SUBCLASS, vocabulary.short),
         *circles_told(others, below, places, SUBPROPERTY, vocabulary.short),
+        *computed_alone(vocabulary),
         *contradictions(graph, vocabulary, places),
         *doubts(graph, vocabulary, places),
     )

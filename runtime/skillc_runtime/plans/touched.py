@@ -82,6 +82,9 @@ def read_by(condition: Condition, individuals: Mapping[str, str], state: WorldSt
     """Yield what decides whether a condition holds; names that stand for no known individual may stand for any."""
     for each in walk(condition):
         match each:
+            case Holds(relation=relation) if relation in state.axioms.computed:
+                known = state.vocabulary.relations[relation].computed_from
+                yield from map(Fact, known) if known else (EVERYTHING,)
             case Holds(subject, relation, object_):
                 yield Fact(relation, _known(subject, individuals), _known(object_, individuals))
             case HasProperty(subject, property_) | PropertyOf(subject, property_):

@@ -47,7 +47,7 @@ def is_fixed(condition: Condition, changing: frozenset[str], vocabulary: Vocabul
     """Whether the condition, once its names are bound, is as true now as at any later time."""
     match condition:
         case Holds(relation=relation):
-            return relation not in changing
+            return relation not in changing and vocabulary.relations[relation].computed_by is None
         case Compare(left=left, right=right):
             return has_fixed_value(left, changing, vocabulary) and has_fixed_value(right, changing, vocabulary)
         case HasProperty(property=property_):

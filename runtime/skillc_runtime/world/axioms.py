@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TypeAlias
 
 from skillc_compiler.library.vocabulary import THING, RelationTerm, Vocabulary
+from skillc_runtime.world.computed import Computed
 
 Directed: TypeAlias = tuple[str, bool]
 """A relation, and whether it is read from object to subject."""
@@ -16,11 +17,16 @@ class Axioms:
     `implied[r]` holds (x, flipped) when r(s, o) makes x(s, o), or x(o, s) if flipped; `sources` is its converse.
     `transitive` also has the relations equivalent to a transitive one. `carriers[x]` are the transitive relations
     whose every consequence also holds in x, which is not transitive itself. `plain` relations have only the facts
-    asserted of them.
+    asserted of them. `computed` relations have none: they hold where their reasoners say so.
     """
 
     def __init__(self, vocabulary: Vocabulary) -> None:
         self._vocabulary = vocabulary
+        self.computed = {
+            iri: Computed(term, term.computed_by)
+            for iri, term in vocabulary.relations.items()
+            if term.computed_by is not None
+        }
         self._superclasses: dict[frozenset[str], frozenset[str]] = {}
         steps = _steps(vocabulary.relations)
         self.implied = {iri: _reach(iri, steps) for iri in vocabulary.relations}

@@ -112,6 +112,10 @@ class _Explainer:
         """Name the facts that share the subject or, when there are none, the object."""
         start, end = (self._term(term, bindings, anything) for term in (subject, object_))
         needed = f"{start} {local_name(relation)} {end}"
+        computed = self._state.axioms.computed.get(relation)
+        pair = _iri(subject, bindings), _iri(object_, bindings)
+        if computed is not None and pair[0] is not None and pair[1] is not None:
+            return f"`{needed}` does not hold: {computed.obstacle(self._state, pair[0], pair[1])}"
         for fixed, other in ((subject, Anything()), (Anything(), object_)):
             facts = sorted(self._pairs(fixed, other, relation, bindings)) if fixed != other else []
             if facts:

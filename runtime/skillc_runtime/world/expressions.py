@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Mapping
-from functools import lru_cache
-from importlib import import_module
 from typing import TypeAlias, assert_never
 
 import numpy as np
@@ -21,6 +19,8 @@ from skillc_compiler.library.conditions import (
 )
 from skillc_compiler.library.vocabulary import local_name
 from skillc_runtime.world.cache import ByIdentity
+from skillc_runtime.world.foreign import EvaluationError as EvaluationError
+from skillc_runtime.world.foreign import called, resolve
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
 
@@ -28,10 +28,6 @@ Bindings: TypeAlias = Mapping[str, "Value | None"]
 """What the names in scope stand for; an unset optional parameter is missing or None."""
 
 Read: TypeAlias = Callable[[WorldState, Bindings], "Value | None"]
-
-
-class EvaluationError(ValueError):
-    """A condition or expression that has no value; the message names what is missing and where."""
 
 
 def value_of(expression: Expression, state: WorldState, bindings: Bindings) -> Value:
@@ -104,26 +100,8 @@ def property_of(state: WorldState, individual: str, property_: str) -> Value | N
 
 def call(target: str, name: str, state: WorldState, *arguments: Value) -> Value | None:
     """Call the Python behind a property or function called `name`; what it raises becomes an EvaluationError."""
-    function = resolve(target)
-    try:
-        result: Value | None = function(state, *arguments)
-    except EvaluationError:
-        raise
-    except Exception as error:  # foreign code: whatever it raises fails the condition, not the run
-        shown = ", ".join(local_name(str(argument)) for argument in arguments)
-        raise EvaluationError(f"{name}({shown}) failed: {type(error).__name__}: {error}") from error
+    result: Value | None = called(resolve(target), name, state, *arguments)
     return tuple(result) if isinstance(result, list) else result
-
-
-@lru_cache(maxsize=1024)
-def resolve(target: str) -> Callable[..., Value | None]:
-    """Import "module:attribute"; EvaluationError when there is no such thing."""
-    module, _, attribute = target.partition(":")
-    try:
-        function: Callable[..., Value | None] = getattr(import_module(module), attribute)
-    except (ImportError, AttributeError, ValueError) as error:
-        raise EvaluationError(f"the Python function {target} cannot be loaded: {error}") from error
-    return function
 
 
 def _property(owner: Read, property_: str) -> Read:

@@ -90,7 +90,7 @@ def _candidates(
     best = state.instances(left[name])
     for each in filters:
         condition = each.condition
-        if isinstance(condition, Holds) and name in each.about:
+        if isinstance(condition, Holds) and name in each.about and condition.relation not in state.axioms.computed:
             related = _related(name, condition, scope, state)
             if related is not None and len(related) < len(best):
                 best = related

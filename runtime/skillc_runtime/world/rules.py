@@ -136,6 +136,9 @@ def _relation(state: WorldState, subject: str, relation: str, object_: str) -> I
     if absent:
         yield Breach("unknown-individual", f"`{fact}`: there is no individual {short(absent[0])}")
         return
+    if relation in state.axioms.computed:
+        yield Breach("computed-property", f"`{fact}`: the relation is computed from other facts and cannot be stated")
+        return
     if not state.holds(subject, relation, object_):
         reason, rivals = _rival(state, subject, relation, object_)
         yield Breach("functional-relation", f"`{fact}`: {reason}", rivals=rivals)

@@ -50,7 +50,8 @@ class _Shapes:
             if term.computed_by is None:
                 yield from self._of_property(term)
         for _, relation in sorted(self._vocabulary.relations.items()):
-            yield from self._of_relation(relation)
+            if relation.computed_by is None:
+                yield from self._of_relation(relation)
 
     def _of_class(self, cls: ClassTerm) -> Iterator[str]:
         lines = [
@@ -102,7 +103,7 @@ class _Shapes:
         return steps[0] if len(steps) == 1 else f"[ sh:alternativePath ( {' '.join(steps)} ) ]"
 
     def _stored(self, iri: str) -> bool:
-        term = self._vocabulary.properties.get(iri)
+        term = self._vocabulary.properties.get(iri) or self._vocabulary.relations.get(iri)
         return term is None or term.computed_by is None
 
     def _shape(self, iri: str, lines: list[str]) -> str:

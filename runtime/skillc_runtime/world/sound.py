@@ -37,6 +37,8 @@ def _classes_agree(state: WorldState) -> bool:
 
 def _fits(state: WorldState, relation: str, links: Links) -> bool:
     """Whether all that is written of a relation is between individuals of the classes that it takes."""
+    if relation in state.axioms.computed:
+        return not links.forward
     of = state.classes.get
     terms = [(state.vocabulary.relations[iri], flipped) for iri, flipped in state.axioms.implied[relation]]
     if any(term.irreflexive for term, _ in terms) and any(start == end for start, end in links.pairs()):

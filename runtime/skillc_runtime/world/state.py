@@ -20,8 +20,9 @@ class WorldState:
     """Individuals with their classes, relations and properties; closed world, unique names.
 
     `asserted` holds the relations as they were written, `facts` also what follows from them: sub-relations, inverses,
-    symmetry, transitivity. `direct` holds the classes as they were written, `classes` their superclasses too.
-    Versions share all that did not change.
+    symmetry, transitivity. Computed relations have no entries: `holds` and its like ask what computes them.
+    `direct` holds the classes as they were written, `classes` their superclasses too. Versions share all that did not
+    change.
     """
 
     vocabulary: Vocabulary
@@ -63,18 +64,30 @@ class WorldState:
 
     def holds(self, subject: str, relation: str, object_: str) -> bool:
         """Whether the relation holds; KeyError for one the vocabulary lacks."""
+        computed = self.axioms.computed
+        if relation in computed:
+            return computed[relation].holds(self, subject, object_)
         return object_ in self.facts[relation].forward.get(subject)
 
     def objects(self, subject: str, relation: str) -> frozenset[str]:
         """Return all that the subject has the relation to."""
+        computed = self.axioms.computed
+        if relation in computed:
+            return computed[relation].objects(self, subject)
         return self.facts[relation].forward.get(subject)
 
     def subjects(self, relation: str, object_: str) -> frozenset[str]:
         """Return all that have the relation to the object."""
+        computed = self.axioms.computed
+        if relation in computed:
+            return computed[relation].subjects(self, object_)
         return self.facts[relation].backward.get(object_)
 
     def pairs(self, relation: str) -> Iterator[tuple[str, str]]:
         """Yield every pair of which the relation holds, in no particular order."""
+        computed = self.axioms.computed
+        if relation in computed:
+            return computed[relation].pairs(self)
         return self.facts[relation].pairs()
 
     def value(self, individual: str, property_: str) -> Value | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from heapq import nsmallest
 from itertools import islice
 from typing import TypeAlias
@@ -50,7 +51,8 @@ def _facts(item: msgspec.Struct, state: WorldState, bindings: _Names) -> Iterato
     short = state.vocabulary.short
     match item:
         case Holds(subject, relation, object_):
-            yield from _related(_known(subject, bindings), relation, _known(object_, bindings), state)
+            with suppress(EvaluationError):
+                yield from _related(_known(subject, bindings), relation, _known(object_, bindings), state)
         case PropertyOf(Variable() | Individual() as owner, property_) | HasProperty(owner, property_):
             iri = _known(owner, bindings)
             yield from _value(iri, property_, state) if iri is not None else ()

@@ -13,6 +13,7 @@ MOBILE_ROBOT = SKILLC + "MobileRobot"
 FURNITURE = SKILLC + "Furniture"
 SURFACE = SKILLC + "Surface"
 TOOL = SKILLC + "Tool"
+WORKSTATION = SKILLC + "Workstation"
 
 AT = SKIROS + "at"
 CONTAIN = SKIROS + "contain"

@@ -31,7 +31,8 @@ def planned_action(
 ) -> Planned:
     """Return the action of a skill that locks these parameters; Untranslatable says why a planner cannot reason so."""
     taken = symbols.names.keys()
-    return _Builder(name, skill, tuple(implementations), symbols, Guards(skill.name, taken), taken, locks).planned()
+    guards = Guards(skill.name, symbols, taken)
+    return _Builder(name, skill, tuple(implementations), symbols, guards, taken, locks).planned()
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,9 @@ from skillc_compiler.library.pddl.domain import GuardFact, Predicate
 from skillc_compiler.library.pddl.formulas import Atom, Formula
 from skillc_compiler.library.pddl.names import fresh, kebab
 from skillc_compiler.library.pddl.rewriting import is_plain
+from skillc_compiler.library.pddl.symbols import Symbols
 from skillc_compiler.library.pddl.translate import Scope, Settle, Untranslatable
-from skillc_compiler.library.reading import free_variables_in_order
+from skillc_compiler.library.reading import free_variables_in_order, terms_read
 
 
 @dataclass
@@ -19,6 +20,7 @@ class Guards:
     """Collects the guards of one skill; `taken` are names that no guard may have."""
 
     skill: str
+    symbols: Symbols
     taken: Collection[str]
     found: dict[Condition, Predicate] = field(default_factory=dict)
 
@@ -26,7 +28,8 @@ class Guards:
         """Return what makes guards of the condition with this label, which its author wrote so."""
 
         def settle(condition: Condition, scope: Scope) -> Formula | None:
-            return None if is_plain(condition) else self._guard(label, text, condition, scope)
+            kept = is_plain(condition) and not any(map(self.symbols.is_computed, terms_read(condition)))
+            return None if kept else self._guard(label, text, condition, scope)
 
         return settle
 

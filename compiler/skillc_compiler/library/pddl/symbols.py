@@ -43,6 +43,15 @@ class Symbols:
             return any(each.relation in self.changing for each in self.relations.below(iri))
         return iri in self.changing
 
+    def is_computed(self, iri: str) -> bool:
+        """Whether a relation follows from other facts by a computation."""
+        return iri in self.vocabulary.relations and self.vocabulary.relations[iri].computed_by is not None
+
+    def decided_by(self, iri: str) -> tuple[str, ...]:
+        """Return what skills change of all that decides a computed relation; all that they change where nobody says."""
+        known = self.vocabulary.relations[iri].computed_from
+        return tuple(sorted(filter(self.affected, known))) if known else tuple(sorted(self.changing))
+
     def short(self, iri: str) -> str:
         """Return what messages call a term."""
         return self.vocabulary.short(iri)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Protocol, TypeAlias, assert_never
 
@@ -95,7 +95,9 @@ class Translator:
                 assert_never(condition)
 
     def _leaf(self, condition: Holds | Compare | Same | HasProperty | IsA | Exists | Forall, scope: Scope) -> Formula:
-        if not any(self.symbols.affected(iri) for iri in terms_read(condition)):
+        read = terms_read(condition)
+        self._refuse_moving(read)
+        if not any(self.symbols.affected(iri) for iri in read):
             settled = self.settle(condition, scope)
             if settled is not None:
                 return settled
@@ -157,6 +159,15 @@ class Translator:
             raise Untranslatable(
                 f"reads `{self.symbols.short(relation)}`, which follows over any number of steps, and skills change it"
             )
+
+    def _refuse_moving(self, read: Iterable[str]) -> None:
+        for iri in sorted(filter(self.symbols.is_computed, read)):
+            moving = self.symbols.decided_by(iri)
+            if moving:
+                raise Untranslatable(
+                    f"reads `{self.symbols.short(iri)}`, which is computed from `{self.symbols.short(moving[0])}`, "
+                    "and skills change it"
+                )
 
     def _place(self, name: str, cls: str, scope: Scope) -> Place:
         taken = {place.variable.name for place in scope.values()}

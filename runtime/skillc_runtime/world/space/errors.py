@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from skillc_runtime.world.foreign import Unknown
+
 
 class FrameError(ValueError):
     """A pose that the world model does not hold; the message says of what and why."""
 
 
-class Unplaced(FrameError):
+class Unplaced(FrameError, Unknown):
     """Nothing is wrong, but not enough is said to tell where a thing is, or how large."""
 
 

@@ -29,6 +29,7 @@ from skillc_runtime.world.terms import (
 from skillc_runtime.world.values import Value
 
 if TYPE_CHECKING:
+    from skillc_runtime.world.space.boxes import Box
     from skillc_runtime.world.state import WorldState
 
 WORLD_FRAME = "map"
@@ -53,6 +54,7 @@ class Space:
         self._values = {name: state.stored.get(name, _NO_VALUES) for name in _VALUES}
         self._links = {name: state.facts.get(name, _NO_LINKS) for name in _LINKS}
         self._poses: dict[str, Pose] = {}
+        self.boxes: dict[str, Box] = {}
         self._owners: dict[str, list[str]] | None = None
 
     def serves(self, state: WorldState) -> bool:

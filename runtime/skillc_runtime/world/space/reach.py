@@ -1,0 +1,45 @@
+"""How far an arm reaches, and how far away a thing is from its shoulder."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.world.foreign import Unknown
+from skillc_runtime.world.sheet import SheetError, sheet_of
+from skillc_runtime.world.space.boxes import CORNERS, solid
+from skillc_runtime.world.space.space import space_of
+from skillc_runtime.world.terms import SURFACE
+
+if TYPE_CHECKING:
+    from skillc_runtime.world.state import WorldState
+
+
+def out_of_reach(state: WorldState, arm: str, base: Pose, thing: str) -> str | None:
+    """Say how much too far away a thing is for an arm with its base at a pose in the world; None when it is not.
+
+    Of a surface every corner counts, of anything else the origin of its frame. Unknown when the arm's data sheet or the
+    thing's place is missing.
+    """
+    try:
+        sheet = sheet_of(state, arm)
+        reach_m, height_m = sheet.number("reach"), sheet.number("shoulderHeight")
+    except SheetError as error:
+        raise Unknown(str(error)) from error
+    shoulder = base.at(np.array([0.0, 0.0, height_m]))
+    distance_m = float(np.linalg.norm(_points(state, thing) - shoulder, axis=1).max())
+    if distance_m <= reach_m:
+        return None
+    short = state.vocabulary.short
+    return (
+        f"{short(arm)} reaches {reach_m:.2f} m from its shoulder, and {short(thing)} is up to {distance_m:.2f} m away"
+    )
+
+
+def _points(state: WorldState, thing: str) -> Array:
+    """Return what of a thing must be reached, points (n, 3) in the world."""
+    if not state.is_a(thing, SURFACE):
+        return space_of(state).pose(thing).position[None, :]
+    return solid(state, thing).corners[CORNERS[:, 2] > 0]

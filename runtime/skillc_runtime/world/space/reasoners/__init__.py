@@ -1,0 +1,1 @@
+"""What tells from geometry whether a relation holds: a file each, which vocabularies name by `skillc:computedBy`."""

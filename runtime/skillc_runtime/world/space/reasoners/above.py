@@ -1,0 +1,27 @@
+"""`isAbove`: a thing is over another, at whatever height."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from skillc_runtime.world.space.boxes import TOUCH_M
+from skillc_runtime.world.space.stacking import gap_below
+
+if TYPE_CHECKING:
+    from skillc_runtime.world.state import WorldState
+
+
+class Above:
+    """The object is straight below the subject's middle, and no part of the subject is lower than that."""
+
+    def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
+        """Say what is wrong with where the subject is; None when it is above the object."""
+        short = state.vocabulary.short
+        if subject == object_:
+            return "nothing is above itself"
+        gap_m = gap_below(state, subject, object_)
+        if gap_m is None:
+            return f"{short(object_)} is not below the middle of {short(subject)}"
+        if gap_m < -TOUCH_M:
+            return f"{short(subject)} reaches {-gap_m:.3f} m below the top of {short(object_)}"
+        return None

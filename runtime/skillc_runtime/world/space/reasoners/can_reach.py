@@ -1,0 +1,43 @@
+"""`canReach`: an arm can get at a surface from where its robot works on it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from skillc_runtime.world.space.reach import out_of_reach
+from skillc_runtime.world.space.space import space_of
+from skillc_runtime.world.terms import CONTAIN, HAS_ARM, MOBILE_ROBOT, WORKSTATION
+
+if TYPE_CHECKING:
+    from skillc_runtime.world.state import WorldState
+
+
+class CanReach:
+    """The arm reaches the surface from where its robot stands or, if the robot drives, would stand.
+
+    It would stand at the workstation that contains the surface; where none does, any workstation will do. Neither a
+    fixed robot nor a surface is ever moved by skills, so this is as true after a plan as before it.
+    """
+
+    def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
+        """Say how much too far away the surface is from each place; None when the arm reaches it from one."""
+        space, short = space_of(state), state.vocabulary.short
+        base = space.pose(subject)
+        robot = min(state.subjects(HAS_ARM, subject), default=None)
+        if robot is None or not state.is_a(robot, MOBILE_ROBOT):
+            return out_of_reach(state, subject, base, object_)
+        stations = _stations(state, object_)
+        if not stations:
+            return f"there is no workstation at which {short(robot)} could stand"
+        mounted, told = space.pose(robot).inverse() @ base, []
+        for station in stations:
+            obstacle = out_of_reach(state, subject, space.pose(station) @ mounted, object_)
+            if obstacle is None:
+                return None
+            told.append(f"at {short(station)}: {obstacle}")
+        return "; ".join(told)
+
+
+def _stations(state: WorldState, surface: str) -> list[str]:
+    stations = state.instances(WORKSTATION)
+    return sorted(stations & state.subjects(CONTAIN, surface) or stations)

@@ -1,0 +1,23 @@
+"""`isInside`: a thing is within the box of another."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from skillc_runtime.world.space.boxes import TOUCH_M, box, solid
+
+if TYPE_CHECKING:
+    from skillc_runtime.world.state import WorldState
+
+
+class Inside:
+    """No corner of the subject lies outside the box of the object."""
+
+    def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
+        """Say how far the subject sticks out; None when it is inside."""
+        if subject == object_:
+            return "nothing is inside itself"
+        overhang_m = solid(state, object_).overhang(box(state, subject).corners)
+        if overhang_m <= TOUCH_M:
+            return None
+        return f"{state.vocabulary.short(subject)} sticks out by {overhang_m:.3f} m"

@@ -1,0 +1,19 @@
+"""`reaches`: an arm can get at a thing from where it is now."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from skillc_runtime.world.space.reach import out_of_reach
+from skillc_runtime.world.space.space import space_of
+
+if TYPE_CHECKING:
+    from skillc_runtime.world.state import WorldState
+
+
+class Reaches:
+    """The thing is no farther from the arm's shoulder than its data sheet says it reaches."""
+
+    def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
+        """Say how much too far away the thing is; None when the arm reaches it."""
+        return out_of_reach(state, subject, space_of(state).pose(subject), object_)

@@ -1,0 +1,24 @@
+"""`restsOn`: a thing lies or stands on another."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from skillc_runtime.world.space.boxes import TOUCH_M
+from skillc_runtime.world.space.reasoners.above import Above
+from skillc_runtime.world.space.stacking import gap_below
+
+if TYPE_CHECKING:
+    from skillc_runtime.world.state import WorldState
+
+
+class RestsOn:
+    """The subject is above the object and touches it."""
+
+    def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
+        """Say why the subject is not above the object, or how far; None when it rests on it."""
+        apart = Above().obstacle(state, subject, object_)
+        gap_m = gap_below(state, subject, object_)
+        if apart is not None or gap_m is None or gap_m <= TOUCH_M:
+            return apart
+        return f"{state.vocabulary.short(subject)} is {gap_m:.3f} m above {state.vocabulary.short(object_)}"
