@@ -20,14 +20,12 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
 from skillc_runtime.robots.arm import Arm, ArmLimits, ArmState, Command
 from skillc_runtime.robots.guard import Guard
+from skillc_runtime.robots.measured import NEAR_JOINT_RAD, Measured
 from skillc_runtime.robots.reach import Reach
 from skillc_runtime.robots.tool_task import ToolTask
 
 JOINT_RAMP_S = 0.5
 """Seconds in which a joint motion reaches its full speed."""
-
-NEAR_JOINT_RAD = 0.02
-"""How far a joint may be from its reference to count as there."""
 
 STILL_RAD_S = 0.01
 """Joints slower than this rest."""
@@ -39,7 +37,7 @@ Observer: TypeAlias = Callable[[ArmState], None]
 """Sees what was measured, in the arm's base frame, after every control period."""
 
 
-class ArmDriver:
+class ArmDriver(Measured):
     """One arm, stepped every `period` s. Poses, directions and wrenches are in world axes, SI units.
 
     A new motion starts where the one before it comes to rest (`anchor`), never at the measured pose. `fault` says why
@@ -59,8 +57,9 @@ class ArmDriver:
         self.gains, self.limits = gains, limits
         self.fault: str | None = None
         self.broken: str | None = None
-        self._arm, self._base, self.period = arm, base, period
-        self._state = state = arm.state()
+        state = arm.state()
+        super().__init__(base, state)
+        self._arm, self.period = arm, period
         self._guard, self._place = Guard(arm, state), state.tool.position.tolist()
         self._laws = gains.law.laws(gains, limits, virtual, state, period)
         self._reach, self._tool = Reach(virtual), ToolTask(gains, self._laws.tool, state.tool)
@@ -116,16 +115,6 @@ class ArmDriver:
         self._tool.yielding.push_off()
 
     @property
-    def pose(self) -> Pose:
-        """The measured tool pose."""
-        return self._base() @ self._state.tool
-
-    @property
-    def velocity(self) -> Array:
-        """The measured twist (6,) of the tool, m/s and rad/s."""
-        return self._in_world(self._state.jacobian @ self._state.dq)
-
-    @property
     def wrench(self) -> Array:
         """What the environment does to the tool (6,), N and N m; measured at the wrist, else estimated by the law."""
         return self._in_world(self.wrench_in_base)
@@ -144,11 +133,6 @@ class ArmDriver:
     def commanded_wrench(self) -> Array:
         """The wrench (6,) that skills want exerted along the axes of the compliance frame, N and N m."""
         return np.concatenate([self._tool.yielding.wanted.force, np.zeros(3)])
-
-    @property
-    def q(self) -> Array:
-        """The measured joints (nv,) in rad."""
-        return self._state.q.copy()
 
     @property
     def reference(self) -> Reference:
@@ -183,10 +167,6 @@ class ArmDriver:
             far = float(np.abs(self._joints.sample(self._now).q - self._state.q).max())
             return f"a joint is {far:.3f} rad away from where it shall be" if far > NEAR_JOINT_RAD else None
         return self._tool.behind(self._state, self._now)
-
-    def at_joints(self, q: Array) -> bool:
-        """Tell whether the joints are measured to be at q (nv,)."""
-        return bool(np.abs(self._state.q - q).max() < NEAR_JOINT_RAD)
 
     def move_along(self, trajectory: Trajectory) -> None:
         """Move the tool along a trajectory, which must start at `anchor`; ValueError where it does not."""
@@ -269,16 +249,9 @@ class ArmDriver:
         else:
             self._tool.restore_rotation(self._now)
 
-    def in_base(self, direction: Array) -> Array:
-        """Return a direction (3,) of the world in the arm's base axes."""
-        return self._base().rotation.T @ direction
-
     def _in_tool(self, direction: Array) -> Array:
         """Return a direction (3,) of the world in the reference tool frame."""
         return self._tool.in_tool(self.in_base(direction), self._now)
-
-    def _in_world(self, vector: Array) -> Array:
-        return (vector.reshape(2, 3) @ self._base().rotation.T).ravel()
 
     def _move_tool(self) -> None:
         """Hand over from joint to tool control: the tool goes on as the joints moved it."""
