@@ -1,0 +1,53 @@
+"""The page on ontologies is true: each row of its table is read, each of its commands is run."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import shutil
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from docs.pages import ROOT, blocks
+from skillc_dsl.source import Source
+from skillc_ontology import catalogue
+from skillc_runtime.commands.main import skillc
+from vocabularies.reading import HEAD, beside
+
+PAGE = ROOT / "docs" / "ontologies.md"
+TERMS = """t:A a owl:Class . t:B a owl:Class . t:C a owl:Class .
+t:r a owl:ObjectProperty . t:s a owl:ObjectProperty . t:p a owl:DatatypeProperty .
+"""
+ROW = re.compile(r"^\| (.*?) \| `([^`]* \.)` \| (.*) \|$", re.MULTILINE)
+ROWS = {row[1]: (row[2], row[3]) for row in ROW.finditer(PAGE.read_text("utf-8"))}
+
+
+def test_the_table_is_there() -> None:
+    assert len(ROWS) >= 25
+
+
+@pytest.mark.parametrize("construct", ROWS)
+def test_each_construct_has_the_effect_that_the_table_says(construct: str) -> None:
+    turtle, effect = ROWS[construct]
+    before, after = (beside(Source("t.ttl", HEAD + TERMS + text)) for text in ("", f"{turtle}\n"))
+    assert before.diagnostics == () and after.ok
+    assert bool(after.diagnostics) == ("told" in effect)
+    terms = [
+        (each.value.classes, each.value.relations, each.value.properties, each.value.aliases)
+        for each in (before, after)
+    ]
+    assert (terms[0] != terms[1]) == (effect != "told")
+
+
+def test_the_commands_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(catalogue.scene("iiwa_table"), "cell.ttl")
+    (commands,) = (block.text for block in blocks(PAGE) if block.language == "sh")
+    ran = 0
+    for line in commands.splitlines():
+        result = CliRunner().invoke(skillc, shlex.split(line, comments=True)[1:])
+        assert result.exit_code == 0, result.stderr
+        ran += 1
+    assert ran >= 7
