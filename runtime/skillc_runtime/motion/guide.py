@@ -102,6 +102,15 @@ class Guide:
             faded, axes = self._overlays[handle]
             self._overlays[handle] = (faded.ended(self._beat.at(now)[0]), axes)
 
+    def drop(self) -> None:
+        """Forget all overlays at once, for who then takes up a pose anew."""
+        self._overlays = {}
+
+    def fade(self, now: float) -> None:
+        """Let all overlays shrink to nothing."""
+        for handle in self._overlays:
+            self.remove(handle, now)
+
     def sample(self, now: float) -> Reference:
         """Return the reference."""
         motion = self._motion(now)

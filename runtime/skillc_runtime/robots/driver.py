@@ -22,6 +22,7 @@ from skillc_runtime.robots.arm import Arm, ArmLimits, ArmState, Command
 from skillc_runtime.robots.guard import Guard
 from skillc_runtime.robots.measured import NEAR_JOINT_RAD, Measured
 from skillc_runtime.robots.reach import Reach
+from skillc_runtime.robots.safety import SafetyLimits
 from skillc_runtime.robots.tool_task import ToolTask
 
 JOINT_RAMP_S = 0.5
@@ -52,15 +53,19 @@ class ArmDriver(Measured):
         limits: ArmLimits,
         base: Callable[[], Pose],
         period: float,
+        safety: SafetyLimits | None = None,
     ) -> None:
-        """Hold the arm where it is. `virtual` is the arm's `virtual_model`; `base` tells where the arm stands."""
+        """Hold the arm where it is. `virtual` is the arm's `virtual_model`; `base` tells where the arm stands.
+
+        An arm that breaks a limit of `safety` holds still at once, whoever moves it; see `fault`.
+        """
         self.gains, self.limits = gains, limits
         self.fault: str | None = None
         self.broken: str | None = None
         state = arm.state()
         super().__init__(base, state)
         self._arm, self.period = arm, period
-        self._guard, self._place = Guard(arm, state), state.tool.position.tolist()
+        self._guard, self._place = Guard(arm, state, safety), state.tool.position.tolist()
         self._laws = gains.law.laws(gains, limits, virtual, state, period)
         self._reach, self._tool = Reach(virtual), ToolTask(gains, self._laws.tool, state.tool)
         self._observers: tuple[Observer, ...] = ()
@@ -74,6 +79,8 @@ class ArmDriver(Measured):
         try:
             self._guard.check(state)
             self._take_in(state)
+            if (breach := self._guard.breach(state, self.period)) is not None:
+                self.hold_still(breach)
             self._guard.command(self._decide(state))
         except ControlError as fault:
             self.broken = str(fault)
@@ -113,6 +120,26 @@ class ArmDriver(Measured):
         self.fault = reason
         self.stop()
         self._tool.yielding.push_off()
+
+    def hold_still(self, reason: str) -> None:
+        """Hold the arm where it is, at once, and push no more; whoever moves it finds the reason in `fault`."""
+        self.fault, q = reason, self._laws.joints_now(self._state)
+        if self._joints is None:
+            self._tool.hold(self._state, q, self._now)
+        else:
+            self._joints = self._joint_guide(q, np.zeros_like(q))
+
+    def secure(self) -> bool:
+        """Come to rest, push no more and hold stiff, whatever skills left; tell whether they left the arm yielding."""
+        self.stop()
+        self.push_off()
+        yielding, left = self._tool.yielding, not self._tool.yielding.stiff
+        while yielding.released:
+            self.restore()
+        if not yielding.stiff:
+            self.restore_rotation()
+        self._tool.guide.fade(self._now)
+        return left
 
     @property
     def wrench(self) -> Array:

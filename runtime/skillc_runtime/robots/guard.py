@@ -1,4 +1,7 @@
-"""Stands between a driver and its arm: nothing is computed from, nor commanded with, something that is not a number."""
+"""Stands between a driver and its arm: sees every measurement and every command, and knows what the arm may not do.
+
+Nothing is computed from, nor commanded with, something that is not a number.
+"""
 
 from __future__ import annotations
 
@@ -8,13 +11,15 @@ from typing import NoReturn
 from skillc_runtime.controllers.controller import ControlError
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.robots.arm import Arm, ArmState, Command, JointPosition, Torque
+from skillc_runtime.robots.safety import Safety, SafetyLimits
 
 
 class Guard:
     """Checks one arm, and keeps it where it was last known to be when a check fails."""
 
-    def __init__(self, arm: Arm, state: ArmState) -> None:
+    def __init__(self, arm: Arm, state: ArmState, limits: SafetyLimits | None = None) -> None:
         self._arm, self._torque = arm, arm.interface == "torque"
+        self._safety = Safety(limits or SafetyLimits(), state, self._torque)
         self._holding = self._rest(state).copy()
 
     def check(self, state: ArmState) -> None:
@@ -29,7 +34,12 @@ class Guard:
         told = command.tau if isinstance(command, Torque) else command.q
         if not isfinite(told.dot(told)):
             self._give_up("the control law does not yield a number")
+        self._safety.told(command)
         self._arm.command(command)
+
+    def breach(self, state: ArmState, period: float) -> str | None:
+        """Return which safety limit the arm breaks, once per breach; to be asked every control period of `period` s."""
+        return self._safety.breach(state, period)
 
     def holding(self) -> Command:
         """Return what keeps the arm where it was last known to be."""

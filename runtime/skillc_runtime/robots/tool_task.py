@@ -44,6 +44,12 @@ class ToolTask:
         self._law.reset(state, q)
         self.guide.take_up(self._law.tool, np.zeros(6), now)
 
+    def hold(self, state: ArmState, q: Array, now: float) -> None:
+        """Hold the tool where it is, at once: whatever moved it is given up, and it pushes no more."""
+        self.guide.drop()
+        self.retake(state, q, now)
+        self.yielding.push_off()
+
     @property
     def contact_wrench(self) -> Array:
         """What the environment does to the tool (6,), N and N m."""

@@ -33,6 +33,7 @@ class Yielding:
 
     def __init__(self, gains: Gains) -> None:
         stiffness = np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3)
+        self._unasked = stiffness.copy()
         self._settings = [Setting(stiffness, np.zeros(3), np.eye(3))]
         self._stiffness = Lag(stiffness, gains.command_time, grain=1e-2)
         self._wrench = Lag(np.zeros(6), gains.command_time, grain=1e-3)
@@ -49,6 +50,11 @@ class Yielding:
     def released(self) -> bool:
         """Tell whether some skill has released an axis."""
         return len(self._settings) > 1
+
+    @property
+    def stiff(self) -> bool:
+        """Tell whether skills want the arm to hold its tool as it does unasked."""
+        return not self.released and bool((self.wanted.stiffness == self._unasked).all())
 
     @property
     def pushing(self) -> bool:

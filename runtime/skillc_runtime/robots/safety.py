@@ -1,0 +1,83 @@
+"""What no skill may do to an arm or with it: limits on force, speed and place of the tool, from knowledge."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf, sqrt
+
+import numpy as np
+
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.robots.arm import ArmState, Command, Torque
+from skillc_runtime.robots.resistance import Resistance
+
+LOOK_S = 0.005
+"""How often the limits are looked at."""
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A box: its middle and axes in the arm's base frame, its size (3,) in m."""
+
+    middle: Pose
+    size: Array
+
+    def outside(self, point: Array) -> float:
+        """Return how far in m a point (3,) of the base frame is outside; 0 within."""
+        beyond = np.abs(self.middle.rotation.T @ (point - self.middle.position)) - self.size / 2
+        return float(np.linalg.norm(np.maximum(beyond, 0.0)))
+
+
+@dataclass(frozen=True, slots=True)
+class SafetyLimits:
+    """What makes an arm stop, whoever moves it.
+
+    contact_force_n: of the tool on its surroundings; tool_speed_m_s: of the tool centre point; workspace: where that
+    must stay, fixed to the arm's base, None for anywhere.
+    """
+
+    contact_force_n: float = inf
+    tool_speed_m_s: float = inf
+    workspace: Box | None = None
+
+
+class Safety:
+    """Watches the limits of one arm; a breach is told once, until the arm is within its limits again."""
+
+    def __init__(self, limits: SafetyLimits, state: ArmState, torque: bool) -> None:
+        self.limits = limits
+        self._resistance = Resistance(state) if torque else None
+        self._age, self._breached = 0.0, False
+
+    def told(self, command: Command) -> None:
+        """Take in what the arm is told for the next period."""
+        if self._resistance is not None and isinstance(command, Torque):
+            self._resistance.told(command.tau)
+
+    def breach(self, state: ArmState, period: float) -> str | None:
+        """Return which limit is broken, once per breach; to be called every control period."""
+        if self._resistance is not None:
+            self._resistance.step(state, period)
+        self._age += period
+        if self._age < LOOK_S:
+            return None
+        self._age = 0.0
+        found = self._broken(state)
+        news, self._breached = found is not None and not self._breached, found is not None
+        return found if news else None
+
+    def _broken(self, state: ArmState) -> str | None:
+        limits = self.limits
+        felt = state.wrench if self._resistance is None else self._resistance.wrench(state)
+        force = _length(felt[:3])
+        if force > limits.contact_force_n:
+            return f"a force of {force:.0f} N on the tool is beyond the {limits.contact_force_n:g} N that the arm bears"
+        speed = _length(state.jacobian[:3] @ state.dq)
+        if speed > limits.tool_speed_m_s:
+            return f"the tool moves with {speed:.2f} m/s, beyond the {limits.tool_speed_m_s:g} m/s that the arm may"
+        outside = limits.workspace.outside(state.tool.position) if limits.workspace is not None else 0.0
+        return f"the tool is {outside * 1e3:.0f} mm outside the arm's workspace" if outside > 0 else None
+
+
+def _length(vector: Array) -> float:
+    return sqrt(vector.dot(vector))
