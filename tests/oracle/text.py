@@ -108,10 +108,16 @@ def compiled(text: str, vocabulary: Vocabulary) -> SkillLibrary:
     return compile([Source("random.skill", text)], vocabulary, {}, "random").value
 
 
+class Contradictory(Exception):
+    """A goal of which the compiler says that it can never hold."""
+
+
 def asked(text: str, state: WorldState) -> Condition:
     """Return the goal that a text asks for in a world."""
     vocabulary = state.vocabulary
     individuals = {each: sorted(state.types(each)) for each in state.individuals}
     outcome = parse_goal(text, vocabulary, individuals, vocabulary.prefixes)
+    if any(each.name == "contradicting-conditions" for each in outcome.diagnostics):
+        raise Contradictory
     assert outcome.value is not None, (text, outcome.diagnostics)
     return outcome.value
