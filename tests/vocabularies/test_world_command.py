@@ -107,3 +107,12 @@ def test_questions_that_do_not_go_together_are_a_wrong_command_line(scene: Path)
     assert world(scene, "--edit", "not lab:Cell", "--store", "kept").exit_code == 2
     shipped = world("iiwa_table", "--edit", "lab:Eraser-1 skiros:Weight 1")
     assert shipped.exit_code == 1 and "copy it" in shipped.stderr
+
+
+def test_a_scene_beside_skills_may_use_their_terms(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert CliRunner().invoke(skillc, ["new", "press"]).exit_code == 0
+    assert "lab:Panel-1" in world(Path("press/cell.ttl"), "--search", "Panel").stdout
+    elsewhere = Path(shutil.copy("press/cell.ttl", "alone.ttl"))
+    assert "no class" in world(elsewhere).stderr
+    assert world(elsewhere, "--library", "press").exit_code == 0

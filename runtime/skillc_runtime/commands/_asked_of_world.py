@@ -37,11 +37,16 @@ class World:
 def open_world(scene: Path | None, library: Path | None, keeping: Keeping, everything: bool) -> World:
     """Load a scene, or what a store keeps; exit with what is wrong with it."""
     path = None if scene is None else _files.scene_path(scene)
-    compiled = _mission.compiled(_library.find(library or _library.SHIPPED / "wiping"))
+    compiled = _mission.compiled(_library.find(library or _beside(path) or _library.SHIPPED / "wiping"))
     state = _mission.world_for(keeping, path, compiled).snapshot()
     document = Document.read(path) if path and not keeping.place else _listing.kept(str(keeping.place), state)
     own = contents([document]).subjects & state.individuals
     return World(path, compiled, document, state, state.individuals if everything else own)
+
+
+def _beside(scene: Path | None) -> Path | None:
+    """Return the folder of a scene where it is a library too."""
+    return scene.parent if scene is not None and any(scene.parent.glob("*.skill")) else None
 
 
 def listed(world: World, words: str | None, as_json: bool) -> str:

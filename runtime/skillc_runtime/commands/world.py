@@ -25,7 +25,7 @@ PATH = click.Path(path_type=Path)
 @click.option("--diff", "other", type=PATH, help="Show what this scene says and another does not, and the converse.")
 @click.option("--graph", type=click.Path(path_type=Path, dir_okay=False), help="Draw the scene into an SVG file.")
 @click.option("--edit", "edits", multiple=True, help="Change the file: 'SUBJECT PREDICATE VALUE', or 'not ..'.")
-@click.option("--library", type=PATH, help="Whose terms the scene uses, if not the shipped ones.")
+@click.option("--library", type=PATH, help="Whose terms the scene uses; else that beside it, or the shipped one.")
 @_keeping.options
 @click.option("--all", "everything", is_flag=True, help="List the shipped data sheets and postures too.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
