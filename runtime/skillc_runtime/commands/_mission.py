@@ -10,7 +10,7 @@ from typing import Any
 import click
 
 from skillc_compiler.goals import parse_call, parse_goal
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_compiler.library.skills import SkillLibrary, Task
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
 from skillc_runtime.assignment import Assignment, Perform, Reach
@@ -33,6 +33,16 @@ class Mission:
 
 def of_task(reference: str, keeping: Keeping = NOT_KEPT) -> Mission:
     """Find, compile and load the task `LIBRARY:NAME`, or the shipped task of that name."""
+    library, task, scene = in_scene(reference)
+    world = world_for(keeping, scene, library)
+    if task.goal is not None:
+        return Mission(library, Assignment(task.name, world.snapshot(), Reach(task.goal)), world)
+    assert task.body is not None
+    return Mission(library, Assignment(task.name, world.snapshot(), Perform(task.body)), world)
+
+
+def in_scene(reference: str) -> tuple[SkillLibrary, Task, Path]:
+    """Find and compile the task `LIBRARY:NAME`, or the shipped task of that name; return it with its scene's file."""
     files, name = _library.find_task(reference)
     library = compiled(files)
     task = _library.task_named(library, name)
@@ -43,11 +53,7 @@ def of_task(reference: str, keeping: Keeping = NOT_KEPT) -> Mission:
         raise click.UsageError(f'the scene "{task.scene}" of `{name}` is neither beside its file nor shipped')
     if task.goal is None and task.body is None:
         raise click.UsageError(f"the task `{name}` has neither a goal nor a body")
-    world = world_for(keeping, path, library)
-    if task.goal is not None:
-        return Mission(library, Assignment(name, world.snapshot(), Reach(task.goal)), world)
-    assert task.body is not None
-    return Mission(library, Assignment(name, world.snapshot(), Perform(task.body)), world)
+    return library, task, path
 
 
 def of_scene(

@@ -1,0 +1,36 @@
+"""What is kept of one run among many."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+import msgspec
+
+from skillc_runtime.report.result import WipingResult
+
+Status: TypeAlias = Literal["success", "failure", "halted", "refused", "crashed"]
+"""How a task ended; `crashed` where the process that ran it did not live to say so."""
+
+Disturbance: TypeAlias = Literal["none", "missing", "obstacle", "push"]
+"""What happens besides: surfaces are not there, something lies on them, a person pushes the arm."""
+
+
+class Trial(msgspec.Struct, frozen=True, kw_only=True):
+    """One run: its seed, how it ended and why, how reality differed from the world model, and what was measured.
+
+    `wipings` has an entry for each surface; `coverage` is of all the run did, lowest of all surfaces wiped or not.
+    `greatest_force_n` is the most that any tool felt, `force_limit_n` the most that the weakest arm may push with.
+    `at_rest` tells whether everything stood still, and nothing pushed any more, in the end.
+    """
+
+    seed: int
+    status: Status
+    reason: str | None = None
+    variation: str = ""
+    wipings: tuple[WipingResult, ...] = ()
+    coverage: float = 0.0
+    greatest_force_n: float = 0.0
+    force_limit_n: float = 0.0
+    at_rest: bool = False
+    sim_time_s: float = 0.0
+    wall_time_s: float = 0.0

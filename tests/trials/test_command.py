@@ -1,0 +1,113 @@
+"""`skillc trials` as a user meets it, with trials that need no simulation."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from functools import cache
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.commands import _library, _mission, _trialling
+from skillc_runtime.commands.main import skillc
+from skillc_runtime.trials.journal import FILE
+from skillc_runtime.trials.trial import Trial
+from skillc_runtime.trials.workers import Prepare
+from trials.runners import good, wiping
+
+TILTED = 8
+"""A seed at which a target is missed."""
+
+
+@cache
+def shipped() -> SkillLibrary:
+    return _mission.compiled(_library.find(_library.SHIPPED / "wiping"))
+
+
+@pytest.fixture(autouse=True)
+def asked(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Let trials run in no time; return the seeds that were run."""
+    seeds_run: list[int] = []
+    library = shipped()
+
+    def run_all(_prepare: Prepare, seeds: Sequence[int], jobs: int) -> Iterator[Trial]:
+        for seed in seeds:
+            seeds_run.append(seed)
+            yield good(seed, wiping(tilt_rms_deg=0.9 if seed == TILTED else 0.1))
+
+    monkeypatch.setattr(_trialling, "run_all", run_all)
+    monkeypatch.setattr(_mission, "compiled", lambda files: library)
+    return seeds_run
+
+
+def run(*arguments: str | Path) -> Result:
+    result = CliRunner().invoke(skillc, ["trials", *map(str, arguments)])
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
+    return result
+
+
+def test_all_is_well(asked: list[int]) -> None:
+    result = run("clean_table", "-n", 3, "--seed", 4)
+    assert result.exit_code == 0
+    assert asked == [4, 5, 6]
+    assert "3 of 3 as they should be" in result.stdout
+    assert "seed 6: as it should be (3 of 3)" in result.stderr
+
+
+def test_a_missed_target_is_exit_code_3_and_json_has_it_all() -> None:
+    result = run("clean_table", "-n", 2, "--seed", 7, "--json")
+    assert result.exit_code == 3
+    assert result.stderr == ""
+    told = json.loads(result.stdout)
+    assert [told[name] for name in ("task", "wanted", "done", "passed")] == ["clean_table", 2, 2, 1]
+    (failed,) = told["failed"]
+    assert (failed["seed"], failed["reasons"]) == (8, ["tilt 0.9 deg rms, wanted at most 0.5 deg rms"])
+
+
+def test_what_is_kept_is_not_run_again(asked: list[int], tmp_path: Path) -> None:
+    out = tmp_path / "trials"
+    assert run("clean_table", "-n", 2, "--out", out).exit_code == 0
+    first = (out / FILE).read_bytes()
+    assert run("clean_table", "-n", 4, "--out", out).exit_code == 0
+    assert asked == [0, 1, 2, 3]
+    assert (out / FILE).read_bytes().startswith(first)
+    assert "4 of 4 trials as they should be" in (out / "trials.html").read_text(encoding="utf-8")
+
+
+def test_other_trials_in_the_folder_are_refused(asked: list[int], tmp_path: Path) -> None:
+    run("clean_table", "-n", 1, "--out", tmp_path)
+    other = run("clean_desk", "-n", 1, "--out", tmp_path)
+    assert other.exit_code == 1
+    assert other.stderr.startswith("error: the trials in ")
+    assert "are of another task: clean_table, now it is clean_desk" in other.stderr
+    disturbed = run("clean_table", "-n", 1, "--disturb", "push", "--out", tmp_path)
+    assert (disturbed.exit_code, "are of another disturbance: none, now it is push" in disturbed.stderr) == (1, True)
+    assert asked == [0]
+
+
+def test_a_file_where_a_folder_is_wanted_is_one_clear_error(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    result = run("clean_table", "-n", 1, "--out", tmp_path / "file" / "below")
+    assert result.exit_code == 1
+    assert result.stderr.startswith("error: cannot write to ")
+
+
+def test_interrupted_it_keeps_what_is_done_and_says_so(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def interrupted(_prepare: Prepare, seeds: Sequence[int], jobs: int) -> Iterator[Trial]:
+        yield good(seeds[0])
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(_trialling, "run_all", interrupted)
+    result = run("clean_table", "-n", 3, "--out", tmp_path)
+    assert result.exit_code == 3
+    assert "interrupted" in result.stderr and "1 of 3 as they should be, 2 not done" in result.stdout
+
+
+@pytest.mark.parametrize(
+    "arguments", [("no_such_task",), ("clean_table", "-n", 0), ("clean_table", "--disturb", "rain")]
+)
+def test_wrong_words_are_exit_code_2(arguments: tuple[str, ...]) -> None:
+    assert run(*arguments).exit_code == 2

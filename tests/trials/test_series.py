@@ -1,0 +1,117 @@
+"""What a series of trials comes to: targets, what is said of those that miss them, tables and pages."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from msgspec.structs import replace
+from rich.console import Console
+
+from skillc_runtime.trials import page, table
+from skillc_runtime.trials.series import series
+from skillc_runtime.trials.targets import METRICS
+from skillc_runtime.trials.trial import Disturbance, Trial
+from skillc_runtime.trials.verdict import misses
+from trials.runners import good, wiping
+
+FAILURE = replace(good(1), status="failure", reason="nothing to push against", wipings=(), coverage=0.0)
+
+WORSE = {
+    "coverage": ({"coverage": 0.999}, "coverage 99.9 %, wanted at least 100 %"),
+    "mean force error": ({"force_mean_n": 9.7}, "mean force error 3 %, wanted at most 2 %"),
+    "force RMSE": ({"force_rmse_n": 1.2}, "force RMSE 12 % of F, wanted at most 10 % of F"),
+    "contact lost": ({"contact_lost": 0.001}, "contact lost 0.1 %, wanted at most 0 %"),
+    "first impact": ({"first_impact_n": 21.0}, "first impact 2.1 x F, wanted at most 2 x F"),
+    "vibration": ({"vibration_mm_s": 1.5}, "vibration 1.5 mm/s, wanted at most 1 mm/s"),
+    "tilt": ({"tilt_rms_deg": 0.6}, "tilt 0.6 deg rms, wanted at most 0.5 deg rms"),
+    "lane-end dwell": ({"lane_dwell_s": 0.03}, "lane-end dwell 0.03 s, wanted at most 0.02 s"),
+}
+
+
+@pytest.mark.parametrize("metric", METRICS, ids=lambda metric: metric.name)
+def test_a_trial_that_misses_a_target_is_told_so(metric: object) -> None:
+    changed, said = WORSE[metric.name]  # type: ignore[attr-defined]
+    assert misses(good(1), "none") == ()
+    assert misses(good(1, wiping(**changed)), "none") == (said,)
+    both = good(1, wiping("lab:A"), wiping("lab:B", **changed))
+    assert misses(both, "none") == (f"lab:B: {said}",)
+
+
+@pytest.mark.parametrize(
+    ("disturbance", "trial", "said"),
+    [
+        ("none", FAILURE, "failure: nothing to push against"),
+        ("none", replace(good(1), at_rest=False), "something still moved or pushed in the end"),
+        ("none", replace(good(1), greatest_force_n=51.0), "a tool felt 51.0 N, the limit is 50 N"),
+        ("missing", FAILURE, None),
+        ("missing", good(1), "success, wanted a failure that says why"),
+        ("missing", replace(FAILURE, reason=None), "failure, wanted a failure that says why"),
+        ("missing", replace(FAILURE, status="crashed"), "crashed: nothing to push against"),
+        ("push", replace(good(1), wipings=(wiping(coverage=0.9),)), None),
+        ("push", replace(good(1), coverage=0.99), "coverage 99.0 %, wanted 100 % in the end"),
+        ("push", FAILURE, "failure: nothing to push against"),
+        ("obstacle", FAILURE, None),
+        ("obstacle", replace(FAILURE, greatest_force_n=60.0), "a tool felt 60.0 N, the limit is 50 N"),
+    ],
+)
+def test_what_shall_become_of_a_trial_depends_on_what_happens(
+    disturbance: Disturbance, trial: Trial, said: str | None
+) -> None:
+    told = misses(trial, disturbance)
+    assert said in told if said else told == ()
+
+
+def test_spreads_are_those_of_all_trials_whatever_their_order() -> None:
+    trials = [good(seed, wiping(tilt_rms_deg=tilt)) for seed, tilt in ((3, 0.3), (1, 0.1), (2, 0.9))]
+    found = series("clean", "none", 4, trials)
+    (tilt,) = [spread for spread in found.spreads if spread.metric == "tilt"]
+    assert (tilt.least, tilt.median, tilt.greatest, tilt.met) == (0.1, 0.3, 0.9, 2)
+    assert tilt.values == (0.1, 0.9, 0.3)
+    assert [failed.seed for failed in found.failed] == [2]
+    assert (found.wanted, found.done, found.passed, found.good) == (4, 3, 2, False)
+    assert found == series("clean", "none", 4, trials[::-1])
+
+
+def test_a_series_is_good_when_all_trials_are_and_the_median_is_on_target() -> None:
+    assert series("clean", "none", 2, [good(1), good(2)]).good
+    assert not series("clean", "none", 3, [good(1), good(2)]).good
+    rough = series("clean", "none", 2, [good(seed, wiping(force_rmse_n=0.6)) for seed in (1, 2)])
+    assert rough.passed == 2 and not rough.good
+    (missed,) = [spread.median_missed for spread in rough.spreads if spread.median_missed]
+    assert missed == "median 6 % of F, wanted at most 5"
+
+
+def shown(disturbance: Disturbance, *trials: Trial) -> str:
+    console = Console(width=200)
+    with console.capture() as capture:
+        console.print(table.render(series("clean", disturbance, len(trials), trials)))
+    return capture.get()
+
+
+def test_the_table_has_every_metric_and_every_failed_seed() -> None:
+    text = shown("none", good(1), good(2, wiping(tilt_rms_deg=0.75, lane_dwell_s=0.01)))
+    assert "1 of 2 as they should be" in text
+    for metric in METRICS:
+        assert re.search(rf"^{re.escape(metric.name)} .*{re.escape(metric.wanted)} ", text, re.MULTILINE)
+    assert "seed 2: tilt 0.75 deg rms, wanted at most 0.5 deg rms\n  reality 2" in text
+    assert "metric" not in shown("missing", FAILURE)
+
+
+def test_the_page_draws_every_value_and_escapes_what_it_says() -> None:
+    odd = replace(FAILURE, seed=7, reason="<b>no</b>")
+    text = page.render(series("clean", "none", 3, [good(1), good(2), odd]))
+    measured = sum(metric.of(wiping()) is not None for metric in METRICS)
+    assert text.count("<circle") == 2 * measured == text.count('class="target"') * 2
+    assert "&lt;b&gt;no&lt;/b&gt;" in text and "<b>" not in text
+    assert "2 of 3 trials as they should be" in text
+
+
+@pytest.mark.parametrize("count", [1, 2, 50])
+def test_drawings_stay_inside_their_frame(count: int) -> None:
+    trials = [good(seed, wiping(tilt_rms_deg=0.01 * seed)) for seed in range(count)]
+    strips = [page.strip(spread) for spread in series("clean", "none", count, trials).spreads]
+    places = [place for strip in strips for place in strip.dots]
+    assert len(places) == count * len(strips) > 0
+    assert all(0 <= x <= page.WIDTH and 0 <= y <= page.HEIGHT for x, y in places)
+    assert all(0 <= place <= page.WIDTH for strip in strips for place in (strip.median, strip.target))

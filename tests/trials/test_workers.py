@@ -1,0 +1,73 @@
+"""Processes that run trials: what goes wrong in one costs one trial, and none outlives its parent."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from skillc_runtime.trials.workers import run_all
+from trials.runners import BROKEN, KILLED, Faulty, good
+
+TESTS = Path(__file__).parents[1]
+PARENT = """
+from functools import partial
+from pathlib import Path
+from skillc_runtime.trials.workers import run_all
+from trials.runners import Endless
+
+if __name__ == "__main__":
+    for trial in run_all(partial(Endless, Path({folder!r})), range(2), 2):
+        pass
+"""
+
+
+def wait_until(condition: Callable[[], bool], most_s: float = 60.0) -> None:
+    end = time.monotonic() + most_s
+    while not condition():
+        assert time.monotonic() < end, "it does not come about"
+        time.sleep(0.02)
+
+
+def alive(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def test_every_seed_has_its_trial_whatever_happens_to_a_process() -> None:
+    trials = {trial.seed: trial for trial in run_all(Faulty, range(7), 2)}
+    assert sorted(trials) == list(range(7))
+    assert all(trials[seed] == good(seed) for seed in trials if seed not in (KILLED, BROKEN))
+    assert (trials[KILLED].status, trials[KILLED].reason) == ("crashed", "its process ended with signal 9")
+    assert trials[BROKEN].status == "crashed"
+    assert (trials[BROKEN].reason or "").startswith("ArithmeticError: nothing adds up (runners.py:")
+
+
+def test_no_seeds_need_no_process() -> None:
+    assert list(run_all(Faulty, (), 2)) == []
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGINT])
+def test_no_process_outlives_its_parent(number: signal.Signals, tmp_path: Path) -> None:
+    file, pids = tmp_path / "parent.py", tmp_path / "pids"
+    file.write_text(PARENT.format(folder=str(pids)), encoding="utf-8")
+    pids.mkdir()
+    environment = {**os.environ, "PYTHONPATH": str(TESTS)}
+    parent = subprocess.Popen([sys.executable, file], env=environment, stderr=subprocess.DEVNULL)
+    try:
+        wait_until(lambda: len(list(pids.iterdir())) == 2)
+        parent.send_signal(number)
+        parent.wait()
+    finally:
+        parent.kill()
+    children = [int(each.name) for each in pids.iterdir()]
+    wait_until(lambda: not any(map(alive, children)))
