@@ -51,9 +51,9 @@ def _touched(sorts: Sorts, state: State, write: Related) -> State:
     """Take away every fact that the writing of a relation may have made untrue."""
     subject, relation, object_ = canonical(sorts, state, write)
     kin = sorts.axioms.kin.get(relation, frozenset({relation}))
-    state = _uncomputed(sorts, state, kin)
     adds = _added(sorts, (subject, relation, object_)) if write.value is not False else ()
     takes = _taken(sorts, (subject, relation, object_), write.value)
+    state = _uncomputed(sorts, state, frozenset(touched for _, touched, _ in (*adds, *takes)))
     facts = {
         fact: true
         for fact, true in state.facts.items()

@@ -32,11 +32,11 @@ class Sorts:
         return term is not None and term.computed_by is not None
 
     def is_decided_by(self, relation: str, written: frozenset[str]) -> bool:
-        """Whether a computed relation may change with one of these relations and properties."""
+        """Whether a computed relation may change with one of these relations, by their one name, and properties."""
         if not self.is_computed(relation):
             return False
         known = self.vocabulary.relations[relation].computed_from
-        return not known or not written.isdisjoint(known)
+        return not known or not written.isdisjoint(self.axioms.name.get(each, (each, False))[0] for each in known)
 
     def is_a(self, state: State, thing: Thing, cls: str) -> bool | None:
         """Whether the individual is of the class."""

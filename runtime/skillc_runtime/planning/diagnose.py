@@ -6,7 +6,7 @@ import time
 from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import Assign, Condition
-from skillc_compiler.library.pddl.domain import Action
+from skillc_compiler.library.pddl.domain import Action, GuardFact, Meaning
 from skillc_compiler.library.pddl.formulas import FALSE, Atom, Conjunction, Disjunction, Formula, conjunction, conjuncts
 from skillc_compiler.library.reading import terms_read
 from skillc_compiler.library.skills import Skill
@@ -14,6 +14,7 @@ from skillc_runtime.planning.grounding import Grounding, TimeIsUp
 from skillc_runtime.planning.problem import Posed
 from skillc_runtime.planning.words import Words
 from skillc_runtime.world.explain import explain
+from skillc_runtime.world.expressions import EvaluationError
 from skillc_runtime.world.state import WorldState
 
 DEPTH = 4
@@ -35,7 +36,7 @@ def why_unsolvable(posed: Posed, goal: Condition, state: WorldState) -> str:
 class _Diagnosis:
     def __init__(self, posed: Posed, state: WorldState) -> None:
         self._domain, self._objects = posed.problem.domain, posed.problem.objects
-        self._state = state
+        self._state, self._names = state, posed.problem.names
         self._words = Words(posed.problem, posed.library)
         self._grounding = Grounding(posed.problem, time.monotonic() + LONGEST_S)
         self._grounding.explore()
@@ -96,15 +97,30 @@ class _Diagnosis:
         return {variable: self._words.object_(name) for variable, name in values.items()}
 
     def _because(self, condition: Formula, left: Iterator[dict[str, str]], depth: int) -> str:
-        """Say why a condition fails, if the conditions before it left only one choice of the objects it is about."""
-        if not isinstance(condition, Atom) or not self._domain.predicate[condition.predicate].changes:
+        """Say why a condition fails, if the conditions before it left few choices of the objects it is about."""
+        if not isinstance(condition, Atom):
             return "which nothing fulfils"
-        wanted: set[Atom] = set()
+        predicate, wanted = self._domain.predicate[condition.predicate], set[tuple[str, ...]]()
+        most = 1 if predicate.changes else LISTED
         for values in left:
-            wanted.add(Atom(condition.predicate, tuple(values.get(term, term) for term in condition.terms)))
-            if len(wanted) > 1:
+            wanted.add(tuple(values.get(term, term) for term in condition.terms))
+            if len(wanted) > most:
                 return "which nothing fulfils"
-        return "and " + "".join(self._unreachable(atom, depth - 1) for atom in wanted)
+        if predicate.changes:
+            return "and " + "".join(self._unreachable(Atom(predicate.name, terms), depth - 1) for terms in wanted)
+        reasons = "; ".join(filter(None, (self._settled(predicate.meaning, terms) for terms in sorted(wanted))))
+        return f"which nothing fulfils: {reasons}" if reasons else "which nothing fulfils"
+
+    def _settled(self, meaning: Meaning, terms: tuple[str, ...]) -> str:
+        """Say why a condition that nothing changes does not hold of these objects, empty where it cannot be said."""
+        if not isinstance(meaning, GuardFact):
+            return ""
+        individuals = [self._names.get(term) for term in terms]
+        bindings = {name: iri for name, iri in zip(meaning.variables, individuals, strict=True) if iri is not None}
+        try:
+            return explain(meaning.condition, self._state, bindings, self._state.vocabulary)
+        except EvaluationError as reason:
+            return str(reason)
 
 
 def _unified(atom: Atom, wanted: Formula, action: Action) -> dict[str, str] | None:

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 class CanReach:
     """The arm reaches the surface from where its robot stands or, if the robot drives, would stand.
 
-    It would stand at the workstation that contains the surface; where none does, any workstation will do. Neither a
-    fixed robot nor a surface is ever moved by skills, so this is as true after a plan as before it.
+    It would stand at the workstation that contains the surface; where none does, any workstation will do. Neither
+    surfaces nor fixed robots move, and arms stay on their robots, so this is as true after a plan as before it.
     """
 
     def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
