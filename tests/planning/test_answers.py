@@ -1,0 +1,82 @@
+"""What `skillc plan` says about a plan in a large scene, to people and to machines."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from skillc_runtime.commands.main import skillc
+
+SKILLS = """
+use sumo
+class Depot < Object
+class Crate < Object
+class Truck < Object
+relation in_(Crate, Object) functional
+relation stores(Object, Crate) inverse in_
+property weight(Crate): Mass
+
+skill Load {
+    in    truck: Truck
+    in    crate: Crate
+    infer from:  Depot
+    pre   from stores crate
+    pre   light: crate.weight < 5 kg
+    pre   not truck stores _
+    post  truck stores crate
+    duration crate.weight / (1 kg) * (1 s)
+}
+impl forks of Load { run python "nobody:Needs" }
+"""
+HEAD = "@prefix lab: <http://example.org/lab#> . @prefix lib: <https://w3id.org/skillc/library/depot#> .\n"
+
+
+@pytest.fixture(scope="module")
+def depot(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a folder with skills and a scene of 200 crates, of which crate 7 is light and crate 9 too heavy."""
+    folder = tmp_path_factory.mktemp("planning") / "depot"
+    folder.mkdir()
+    (folder / "depot.skill").write_text(SKILLS, "utf-8")
+    weights = {7: 1.0, 9: 6.0}
+    crates = [
+        f"lab:d{n} a lib:Depot ; lib:stores lab:c{n} . lab:c{n} a lib:Crate ; lib:weight {weights.get(n, 2.0)} ."
+        for n in range(200)
+    ]
+    (folder / "scene.ttl").write_text("\n".join((HEAD, "lab:truck a lib:Truck .", *crates)), "utf-8")
+    return folder
+
+
+def plan(depot: Path, goal: str, *options: str) -> Result:
+    scene = ("--library", str(depot), "--scene", str(depot / "scene.ttl"), "--goal", goal)
+    result = CliRunner().invoke(skillc, ["plan", *scene, "--no-plan-cache", *options])
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
+    return result
+
+
+def test_the_answer_names_what_it_was_made_without(depot: Path) -> None:
+    said = plan(depot, "lab:truck stores lab:c150")
+    assert said.exit_code == 0
+    assert "1 steps, 2 s expected, proved optimal" in said.stdout
+    assert "planned without lab:c" in said.stdout and "more: they are far from what the goal speaks of" in said.stdout
+    assert said.stdout.rstrip().endswith("yet no better plan needs them")
+
+
+def test_machines_get_the_whole_list(depot: Path) -> None:
+    told = json.loads(plan(depot, "lab:truck stores lab:c150", "--prove", "--json").stdout)
+    assert told["optimal"] == "proven" and told["plan_optimal"]
+    far = [each for each in told["left_out"] if not each["harmless"]]
+    assert len(far) == 1 and len(far[0]["what"]) > 300
+
+
+def test_a_goal_out_of_reach_of_a_large_scene_says_why(depot: Path) -> None:
+    said = plan(depot, "lab:truck stores lab:c9")
+    assert said.exit_code == 3
+    assert "Load needs crate.weight < 5 kg for lab:c9, which nothing fulfils" in said.stdout
+
+
+def test_a_proof_goes_with_work_alone(depot: Path) -> None:
+    said = plan(depot, "lab:truck stores lab:c9", "--prove", "--minimise", "makespan")
+    assert said.exit_code == 2 and "--prove goes with --minimise work" in said.stderr
