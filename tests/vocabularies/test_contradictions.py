@@ -55,6 +55,11 @@ WRONG = {
         "impossible-class",
         3,
     ),
+    "below nothing": (
+        "t:X a owl:Class ;\n rdfs:subClassOf owl:Nothing .\nt:Y a owl:Class ; rdfs:subClassOf t:Z . t:Z a owl:Class .",
+        "impossible-class",
+        2,
+    ),
     "symmetric and asymmetric": (
         "t:r a owl:ObjectProperty, owl:SymmetricProperty, owl:AsymmetricProperty .",
         "impossible-relation",

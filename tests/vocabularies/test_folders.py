@@ -10,6 +10,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 from skillc_ontology import catalogue
+from skillc_runtime.commands._server.libraries import Libraries
+from skillc_runtime.commands._server.problems import by_uri
 from skillc_runtime.commands.main import skillc
 from vocabularies.reading import STOCK
 
@@ -131,3 +133,15 @@ def test_robots_of_the_users_are_found_with_their_sheets_and_models(
 def test_a_folder_that_there_is_not_is_a_wrong_command_line(library: Path) -> None:
     result = run("check", library, "--ontology", "nowhere")
     assert result.exit_code == 2 and "nowhere" in result.stderr
+
+
+def test_the_editor_knows_the_vocabularies_beside_the_skills_and_tells_what_is_wrong_with_them(library: Path) -> None:
+    file = (library / "load.skill").resolve()
+    shutil.copy("stock/cell.owl", library / "cell.owl")
+    libraries = Libraries((file.parent,))
+    libraries.write(file.as_uri(), SKILL)
+    view = libraries.view(file.as_uri())
+    assert {d.name for d in view.analysis.problems if d.severity == "error"} == set()
+    told = by_uri(libraries, view.root, view.analysis, "utf-16")
+    names = {problem.code for problem in told[(file.parent / "cell.owl").as_uri()]}
+    assert names == {"shipped-term", "undeclared-term", "unused-axiom"}

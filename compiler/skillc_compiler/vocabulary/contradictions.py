@@ -12,12 +12,14 @@ from collections.abc import Iterator, Sequence
 
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.vocabulary.datatypes import ranges_of
-from skillc_compiler.vocabulary.expressions import Needed, needs
+from skillc_compiler.vocabulary.expressions import Needed, needs, superclasses
 from skillc_compiler.vocabulary.graph import Graph
 from skillc_compiler.vocabulary.impossible import Impossible, Reason
-from skillc_compiler.vocabulary.names import DISJOINT, DOMAIN, SUBCLASS, SUBPROPERTY, TYPE
+from skillc_compiler.vocabulary.names import DISJOINT, DOMAIN, OWL, SUBCLASS, SUBPROPERTY, TYPE
 from skillc_compiler.vocabulary.places import Places
 from skillc_dsl.diagnostics import Diagnostic, Label
+
+NOTHING = f"{OWL}Nothing"
 
 
 def contradictions(graph: Graph, vocabulary: Vocabulary, places: Places) -> Iterator[Diagnostic]:
@@ -29,6 +31,10 @@ def contradictions(graph: Graph, vocabulary: Vocabulary, places: Places) -> Iter
     for relation, reason in sorted(found.relations.items()):
         if not reason.follows:
             yield _relation(vocabulary, relation, reason, places)
+    for cls in vocabulary.classes:
+        if NOTHING in superclasses(graph, cls):
+            reason = Reason("it is said to be below `owl:Nothing`")
+            yield _class(vocabulary, cls, reason, places)
     for property_ in vocabulary.properties:
         yield from _property(graph, vocabulary, property_, places)
 
