@@ -17,23 +17,24 @@ def mend(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, ...]]:
     problems: list[Diagnostic] = []
     index = 0
     while index < len(tokens):
-        count, foreign = _unit_length(tokens, index), foreign_length(tokens, index)
-        if foreign:
-            count = foreign
-            token, problem = comparison(tokens[index : index + count], path)
-        elif count:
-            token, problem = _unit(tokens[index : index + count], path)
-        elif _is_doubled_brace(tokens, index):
-            count, token, problem = 2, tokens[index], _doubled(tokens[index + 1], path)
-        elif _is_split_label(tokens, index):
-            count = 2
-            token, problem = _label(tokens[index], tokens[index + 1], tokens[index + 2], path)
-        else:
-            count, token, problem = 1, tokens[index], None
+        count, token, problem = _mended(tokens, index, path)
         mended.append(token)
         problems += [problem] if problem else []
         index += count
     return Outcome(tuple(mended), tuple(problems))
+
+
+def _mended(tokens: tuple[Token, ...], index: int, path: str) -> tuple[int, Token, Diagnostic | None]:
+    """Return how many tokens from `index` belong together, the one in their place, and what is wrong with them."""
+    if count := foreign_length(tokens, index):
+        return count, *comparison(tokens[index : index + count], path)
+    if count := _unit_length(tokens, index):
+        return count, *_unit(tokens[index : index + count], path)
+    if _is_doubled_brace(tokens, index):
+        return 2, tokens[index], _doubled(tokens[index + 1], path)
+    if _is_split_label(tokens, index):
+        return 2, *_label(tokens[index], tokens[index + 1], tokens[index + 2], path)
+    return 1, tokens[index], None
 
 
 def joined(kind: str, first: Token, last: Token, text: str) -> Token:

@@ -118,13 +118,15 @@ def _search(task: _Task, end: float) -> tuple[int, ...] | _Exhausted | _TimeUp:
             return _TimeUp(len(closed))
         closed.add(state)
         for index, operator in enumerate(task.operators):
-            if operator.applies(state):
-                after, cost = operator.after(state), costs[state] + operator.units
-                if after not in closed and cost < costs.get(after, cost + 1):
-                    estimate = task.estimate(after)
-                    if estimate < float("inf"):
-                        costs[after], parents[after] = cost, (state, index)
-                        heappush(queue, (cost + estimate, next(ticket), after))
+            if not operator.applies(state):
+                continue
+            after, cost = operator.after(state), costs[state] + operator.units
+            if after in closed or cost >= costs.get(after, cost + 1):
+                continue
+            estimate = task.estimate(after)
+            if estimate < float("inf"):
+                costs[after], parents[after] = cost, (state, index)
+                heappush(queue, (cost + estimate, next(ticket), after))
     return _Exhausted()
 
 
