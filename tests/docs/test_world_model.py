@@ -1,4 +1,4 @@
-"""The page on the world model is true: its examples are executed and print what it says."""
+"""The pages on the world model and on space are true: their examples are executed and print what they say."""
 
 from __future__ import annotations
 
@@ -9,23 +9,30 @@ from typing import Any
 
 import pytest
 
-from docs.pages import ROOT, blocks
+from docs.pages import ROOT, Reader, blocks
 
-PAGE = ROOT / "docs" / "world-model.md"
+PAGES = {"world-model": 8, "space": 6}
+"""Pages of `docs`, and how many outputs each shows at least."""
 
 
-def test_every_example_prints_what_stands_below_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("page", PAGES)
+def test_every_example_prints_what_stands_below_it(page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(tmp_path)
     names: dict[str, Any] = {"Path": Path}
     printed, compared = io.StringIO(), 0
-    for block in blocks(PAGE):
+    for block in blocks(ROOT / "docs" / f"{page}.md"):
         if block.language == "python":
             printed = io.StringIO()
             with contextlib.redirect_stdout(printed):
-                exec(compile(block.text, f"{PAGE.name}", "exec"), names)  # what the page shows is to be run
+                exec(compile(block.text, page, "exec"), names)  # what the page shows is to be run
         elif block.language == "text":
             compared += 1
             assert printed.getvalue() == block.text
-        else:
+        elif block.language == "sh":
+            reader = Reader(monkeypatch, everything=True)
+            reader.type(block)
+            printed = io.StringIO(reader.printed)
+        elif block.words:
             Path(block.words).write_text(block.text, "utf-8")
-    assert compared >= 8
+    assert compared >= PAGES[page]

@@ -192,3 +192,13 @@ def test_poses_cannot_be_changed_by_who_reads_them() -> None:
     state = world(thing("a", at(0, 0, 0)))
     with pytest.raises(ValueError, match="read-only"):
         pose(state, lab("a")).position[0] = 1.0
+
+
+def test_a_frame_that_gets_another_name_is_found_by_that_name_alone() -> None:
+    state = world(thing("a", at(0, 0, 1)), thing("b", at(0, 0, 1), "a"))
+    assert np.allclose(pose(state, lab("b")).position, (0, 0, 2))
+    renamed = state.changed([SetProperty(lab("a"), FRAME_ID, "new")])
+    with pytest.raises(FrameError, match="nothing has this FrameId"):
+        pose(renamed, lab("b"))
+    told = renamed.changed([SetProperty(lab("b"), BASE_FRAME_ID, "new")])
+    assert np.allclose(pose(told, lab("b")).position, (0, 0, 2))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,11 +26,23 @@ CORNERS = np.array([(x, y, z) for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Box:
-    """A box: its middle in the world, half its extent (3,) m along its axes, its corners (8, 3) in the world."""
+    """A box: its middle in the world, half its extent (3,) m along its axes, its corners (8, 3) in the world.
+
+    `lowest` is the height in m of the lowest corner, `axes` are its axes in the world, each with half the extent.
+    """
 
     middle: Pose
     half: Array
     corners: Array
+    lowest: float
+    axes: tuple[tuple[float, float, float, float], ...]
+
+    @staticmethod
+    def of(middle: Pose, half: Array) -> Box:
+        """Return the box with its middle at a pose and half its extent (3,) m."""
+        corners = CORNERS * half @ middle.rotation.T + middle.position
+        axes = tuple((x, y, z, h) for (x, y, z), h in zip(middle.rotation.T.tolist(), half.tolist(), strict=True))
+        return Box(middle, half, corners, float(corners[:, 2].min()), axes)
 
     def overhang(self, points: Array) -> float:
         """Return how far the farthest of the points (n, 3) lies outside, along its axes, in m; negative inside."""
@@ -38,21 +51,16 @@ class Box:
 
     def height_at(self, x: float, y: float) -> float | None:
         """Return the height in m of the box's top over a place on the floor, None where it is not over it."""
-        top, bottom = np.inf, -np.inf
-        start = np.array((x, y, 0.0)) - self.middle.position
-        for axis, half in zip(self.middle.rotation.T.tolist(), self.half.tolist(), strict=True):
-            along, upwards = float(axis @ start), axis[2]
+        top, bottom = inf, -inf
+        middle_x, middle_y, middle_z = self.middle.position.tolist()
+        for right, ahead, upwards, half in self.axes:
+            along = right * (x - middle_x) + ahead * (y - middle_y) - upwards * middle_z
             if abs(upwards) > 1e-12:
-                ends = (-half - along) / upwards, (half - along) / upwards
-                bottom, top = max(bottom, min(ends)), min(top, max(ends))
+                one, other = (-half - along) / upwards, (half - along) / upwards
+                bottom, top = max(bottom, min(one, other)), min(top, max(one, other))
             elif abs(along) > half:
                 return None
         return top if bottom <= top else None
-
-    @property
-    def lowest(self) -> float:
-        """The height in m of the lowest corner."""
-        return float(self.corners[:, 2].min())
 
 
 def box(state: WorldState, individual: str) -> Box:
@@ -66,7 +74,7 @@ def box(state: WorldState, individual: str) -> Box:
         half = _half(space, individual) if known else np.zeros(3)
         share = next((share for cls, share in FRAME_HEIGHT.items() if state.is_a(individual, cls)), 0.0)
         middle = space.pose(individual) @ Pose.of((0.0, 0.0, -2 * share * half[2]))
-        space.boxes[individual] = Box(middle, half, CORNERS * half @ middle.rotation.T + middle.position)
+        space.boxes[individual] = Box.of(middle, half)
     return space.boxes[individual]
 
 

@@ -49,13 +49,15 @@ class Space:
     what it is a part of, and then it is where that is. How an arm moves what it carries is not known.
     """
 
-    def __init__(self, state: WorldState) -> None:
+    def __init__(self, state: WorldState, former: Space | None = None) -> None:
+        """Begin to know a version; where the `former` tree has the same names of frames, so has this one."""
         self._short, self._classes = state.vocabulary.short, state.classes
         self._values = {name: state.stored.get(name, _NO_VALUES) for name in _VALUES}
         self._links = {name: state.facts.get(name, _NO_LINKS) for name in _LINKS}
         self._poses: dict[str, Pose] = {}
         self.boxes: dict[str, Box] = {}
-        self._owners: dict[str, list[str]] | None = None
+        renamed = former is None or former._values[FRAME_ID] is not self._values[FRAME_ID]
+        self._owners: dict[str, list[str]] | None = None if former is None or renamed else former._owners
 
     def serves(self, state: WorldState) -> bool:
         """Whether everything is in the same place in that version."""
@@ -150,8 +152,8 @@ class Spaces:
         """Return the tree of a version, if possible the one that was asked for last."""
         space = self._known.get(state)
         if space is None:
-            latest = self._latest()
-            space = latest if latest is not None and latest.serves(state) else Space(state)
+            latest = self._latest() or next(iter(self._known.values()), None)
+            space = latest if latest is not None and latest.serves(state) else Space(state, latest)
             self._known[state] = space
             self._latest = ref(space)
         return space

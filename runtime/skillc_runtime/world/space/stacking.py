@@ -16,6 +16,5 @@ def gap_below(state: WorldState, upper: str, lower: str) -> float | None:
     None when the other is not below its middle at all. FrameError when one is nowhere, MissingFact without a size.
     """
     over = box(state, upper)
-    x, y, _ = over.middle.position.tolist()
-    top = solid(state, lower).height_at(x, y)
+    top = solid(state, lower).height_at(float(over.middle.position[0]), float(over.middle.position[1]))
     return None if top is None else over.lowest - top

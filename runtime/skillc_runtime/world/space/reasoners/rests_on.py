@@ -17,8 +17,9 @@ class RestsOn:
 
     def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
         """Say why the subject is not above the object, or how far; None when it rests on it."""
-        apart = Above().obstacle(state, subject, object_)
-        gap_m = gap_below(state, subject, object_)
-        if apart is not None or gap_m is None or gap_m <= TOUCH_M:
-            return apart
+        gap_m = None if subject == object_ else gap_below(state, subject, object_)
+        if gap_m is None or gap_m < -TOUCH_M:
+            return Above().obstacle(state, subject, object_)
+        if gap_m <= TOUCH_M:
+            return None
         return f"{state.vocabulary.short(subject)} is {gap_m:.3f} m above {state.vocabulary.short(object_)}"
