@@ -10,7 +10,7 @@ from skillc_runtime.assignment import Assignment, Planned, Prepared, Reach
 from skillc_runtime.plans.progress import doubt, progress
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.trace.events import Listener, PlanMade, PlanStep
+from skillc_runtime.trace.events import Listener, Note, PlanMade, PlanStep
 from skillc_runtime.trace.failure import Failure
 from skillc_runtime.trace.listeners import Listeners
 from skillc_runtime.trace.outcome import Outcome
@@ -65,7 +65,19 @@ def attempt(prepared: Prepared, setting: Setting, nodes_before: int) -> Attempt:
     cell = setting.cell
     _tell_plan(prepared, setting)
     run = Run(prepared.body, setting.library, cell, setting.listeners, nodes_before=nodes_before)
-    why, seen = None, cell.world.snapshot()
+    try:
+        why = _until_over(run, prepared, setting)
+    finally:
+        run.halt("the program ends")
+        _tell_left(cell.secure(), setting)
+    _settle(cell, run)
+    return Attempt(prepared, run.status, run.failure, run.outcome, run.last_node, why)
+
+
+def _until_over(run: Run, prepared: Prepared, setting: Setting) -> str | None:
+    """Tick until the run has ended; return why its plan was given up, if it was."""
+    cell, why = setting.cell, None
+    seen = cell.world.snapshot()
     while run.tick() is Status.RUNNING:
         if cell.world.snapshot() is not seen:
             seen = cell.world.snapshot()
@@ -77,8 +89,14 @@ def attempt(prepared: Prepared, setting: Setting, nodes_before: int) -> Attempt:
         else:
             _advance(cell, TICK_S, run)
             setting.watch()
-    _settle(cell, run)
-    return Attempt(prepared, run.status, run.failure, run.outcome, run.last_node, why)
+    return why
+
+
+def _tell_left(left: Sequence[str], setting: Setting) -> None:
+    """Tell what the end of the run had to put right."""
+    tell = Listeners(setting.listeners)
+    for message in left:
+        tell(Note(time=setting.cell.now, message=message))
 
 
 def _tell_plan(prepared: Prepared, setting: Setting) -> None:

@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from skillc_runtime.robots.driver import ArmDriver
     from skillc_runtime.robots.gripper import Gripper
     from skillc_runtime.robots.inspection import Camera
+    from skillc_runtime.robots.watchdog import Watchdog
     from skillc_runtime.world.model import WorldModel
 
 
@@ -23,6 +24,11 @@ class Cell(Protocol):
     @property
     def world(self) -> WorldModel:
         """The world model, which measuring skills update."""
+        ...
+
+    @property
+    def watchdog(self) -> Watchdog:
+        """Whom every run gives signs of life; when one falls silent, all devices stop."""
         ...
 
     def arm(self, individual: str) -> ArmDriver:

@@ -116,10 +116,10 @@ class ArmDriver(Measured):
         self._observers = tuple(each for each in self._observers if each != observer)
 
     def abort(self, reason: str) -> None:
-        """Stop moving and pushing; whoever moves the arm finds the reason in `fault`."""
+        """Stop moving, circling and pushing; whoever moves the arm finds the reason in `fault`."""
         self.fault = reason
         self.stop()
-        self._tool.yielding.push_off()
+        self._tool.let_go(self._now)
 
     def hold_still(self, reason: str) -> None:
         """Hold the arm where it is, at once, and push no more; whoever moves it finds the reason in `fault`."""
@@ -132,13 +132,12 @@ class ArmDriver(Measured):
     def secure(self) -> bool:
         """Come to rest, push no more and hold stiff, whatever skills left; tell whether they left the arm yielding."""
         self.stop()
-        self.push_off()
+        self._tool.let_go(self._now)
         yielding, left = self._tool.yielding, not self._tool.yielding.stiff
         while yielding.released:
             self.restore()
         if not yielding.stiff:
             self.restore_rotation()
-        self._tool.guide.fade(self._now)
         return left
 
     @property

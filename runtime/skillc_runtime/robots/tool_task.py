@@ -50,6 +50,11 @@ class ToolTask:
         self.retake(state, q, now)
         self.yielding.push_off()
 
+    def let_go(self, now: float) -> None:
+        """Let push and overlays fade."""
+        self.yielding.push_off()
+        self.guide.fade(now)
+
     @property
     def contact_wrench(self) -> Array:
         """What the environment does to the tool (6,), N and N m."""

@@ -83,7 +83,7 @@ class SimulatedBase:
     def stop(self) -> None:
         """Brake on the present leg and drop the others."""
         self._stopped, self._done = True, False
-        if self._legs:
+        if self._legs and self._legs[0].profile.length > 0:
             leg = self._legs[0]
             way, speed, _ = leg.profile.at(self._time)
             peak, brake = leg.profile.peak, leg.profile.deceleration

@@ -9,6 +9,7 @@ import mujoco
 
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.robots.driver import ArmDriver
+from skillc_runtime.robots.watchdog import Watchdog
 from skillc_runtime.simulation.arm import SimulatedArm
 from skillc_runtime.simulation.base import SimulatedBase
 from skillc_runtime.simulation.build import build
@@ -63,6 +64,7 @@ class SimulatedCell:
             for tool in facts.tools
         }
         self._camera = SimulatedCamera(self.coverage)
+        self.watchdog = Watchdog()
         world.commit([SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(self._drivers)], "start of the cell")
 
     @property
@@ -115,9 +117,40 @@ class SimulatedCell:
         for _ in range(round(seconds / self._timestep)):
             self._advance_one()
 
+    def secure(self) -> tuple[str, ...]:
+        """Stop everything, push nothing, make stiff what yields; say what was left to do, and why arms had stopped.
+
+        For the end of a run, however it ended; where all went well nothing is left to do.
+        """
+        names, found = self.facts.names, []
+        for individual, arm in self._drivers.items():
+            if arm.fault is not None:
+                found.append(f"{names[individual]} had stopped: {arm.fault}")
+                arm.fault = None
+            if arm.secure():
+                found.append(f"{names[individual]} was left yielding; it is held stiff again")
+        self._stop_devices()
+        return tuple(found)
+
+    def _stop_all(self, reason: str) -> None:
+        for arm in self._drivers.values():
+            arm.abort(reason)
+        self._stop_devices()
+
+    def _stop_devices(self) -> None:
+        """Stop what moves beside the arms."""
+        for gripper in self._grippers.values():
+            if gripper.moving:
+                gripper.stop()
+        for base in self._bases.values():
+            if not base.at_rest:
+                base.stop()
+
     def _advance_one(self) -> None:
         now = self.data.time
         if self._step % self._steps_per_command == 0:
+            if self.watchdog.expired(now):
+                self._stop_all("the tree is not ticked any more")
             for individual, one in self._drivers.items():
                 self._control(individual, one, now)
         for gripper in self._grippers.values():

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from math import inf
+
 from skillc_runtime.controllers.gains import UnknownController, gains
 from skillc_runtime.controllers.virtual_arm import virtual_model
 from skillc_runtime.robots.driver import ArmDriver
+from skillc_runtime.robots.safety import Box, SafetyLimits
 from skillc_runtime.simulation.arm import SimulatedArm
 from skillc_runtime.simulation.facts import ArmFacts
-from skillc_runtime.world.sheet import SheetError
+from skillc_runtime.world.frames import seen_from, size
+from skillc_runtime.world.sheet import SheetError, number
+from skillc_runtime.world.terms import CONTACT_FORCE_LIMIT, HAS_WORKSPACE, TOOL_SPEED_LIMIT
 
 
 def driver(facts: ArmFacts, arm: SimulatedArm, period_s: float) -> ArmDriver:
@@ -16,4 +21,14 @@ def driver(facts: ArmFacts, arm: SimulatedArm, period_s: float) -> ArmDriver:
         chosen = gains(facts.controller, facts.sheet.number)
     except UnknownController as error:
         raise SheetError(f"{facts.sheet.state.vocabulary.short(facts.individual)}: {error}") from error
-    return ArmDriver(arm, virtual_model(facts.model), chosen, arm.limits, lambda: arm.base, period_s)
+    virtual, limits = virtual_model(facts.model), safety(facts)
+    return ArmDriver(arm, virtual, chosen, arm.limits, lambda: arm.base, period_s, limits)
+
+
+def safety(facts: ArmFacts) -> SafetyLimits:
+    """Return what is known of the limits of an arm: those of its sheet, and its workspace, which goes with its base."""
+    state, sheet = facts.sheet.state, facts.sheet.individual
+    force, speed = (number(state, sheet, limit, inf) for limit in (CONTACT_FORCE_LIMIT, TOOL_SPEED_LIMIT))
+    spaces = sorted(state.objects(facts.individual, HAS_WORKSPACE))
+    space = Box(seen_from(state, facts.individual, spaces[0]), size(state, spaces[0])) if spaces else None
+    return SafetyLimits(force, speed, space)

@@ -8,6 +8,7 @@ from skillc_compiler.library import tree
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.robots.cell import Cell
+from skillc_runtime.robots.watchdog import Silence
 from skillc_runtime.trace.events import Listener, Paused, Resumed
 from skillc_runtime.trace.failure import Failure
 from skillc_runtime.trace.listeners import Listeners
@@ -79,10 +80,13 @@ class Run:
 
     def tick(self) -> Status:
         """Take the time and a snapshot of the world, go on for one tick, return the status; idle while paused."""
-        if self._paused_at is not None or self.status not in _ALIVE:
+        if self.status not in _ALIVE:
             return self.status
+        if self._paused_at is not None:
+            return self._still_there()
         try:
             self._context.begin_tick()
+            self._beat()
             status = self._strand.pulse() if self.status is RUNNING else self._start()
             if status is RUNNING or self._strand.climb(status) is RUNNING:
                 return RUNNING
@@ -128,6 +132,19 @@ class Run:
         except Exception as error:  # noqa: BLE001  the task's boundary: it reports, halts and ends
             self.abort(error)
 
+    def _beat(self) -> None:
+        cell = self._context.cell
+        if not cell.watchdog.beat(self, cell.now):
+            raise Silence("the tree was not ticked for too long, so everything was stopped")
+
+    def _still_there(self) -> Status:
+        """Give a sign of life while paused."""
+        try:
+            self._beat()
+        except Silence as silence:
+            self.abort(silence)
+        return self.status
+
     def _start(self) -> Status:
         self.status = RUNNING
         return self._strand.start()
@@ -137,6 +154,7 @@ class Run:
             self._context.note(f"not undone at the end: {problem}")
         if self._unlisten is not None:
             self._unlisten()
+        self._context.cell.watchdog.retire(self)
         self.status, self.failure, self._paused_at = status, failure, None
         return status
 

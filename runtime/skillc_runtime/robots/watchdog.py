@@ -1,0 +1,40 @@
+"""Notices when somebody who moves devices falls silent: a tree that is not ticked any more, say."""
+
+from __future__ import annotations
+
+PATIENCE_S = 0.25
+"""Silence after which everything is stopped; a tree ticks at 50 to 100 Hz."""
+
+
+class Silence(Exception):
+    """Somebody fell silent for so long that everything has been stopped; the message is for people."""
+
+
+class Watchdog:
+    """Whoever has beaten once must go on until it retires. Times are in s of the cell's clock."""
+
+    def __init__(self, patience_s: float = PATIENCE_S) -> None:
+        self._patience = patience_s
+        self._last: dict[object, float] = {}
+        self._late: set[object] = set()
+
+    def beat(self, who: object, now: float) -> bool:
+        """Take a sign of life; false when it comes too late and devices have been stopped meanwhile."""
+        if who in self._late:
+            return False
+        self._last[who] = now
+        return True
+
+    def retire(self, who: object) -> None:
+        """Expect nothing of it any more."""
+        self._last.pop(who, None)
+        self._late.discard(who)
+
+    def expired(self, now: float) -> bool:
+        """Tell, once for everybody who falls silent, that devices must be stopped."""
+        if not self._last or now - min(self._last.values()) <= self._patience:
+            return False
+        late = {who for who, last in self._last.items() if now - last > self._patience}
+        self._late |= late
+        self._last = {who: last for who, last in self._last.items() if who not in late}
+        return True

@@ -1,0 +1,1 @@
+"""What no skill can do, and what is left when something breaks."""

@@ -1,0 +1,163 @@
+"""Primitives that break where a test wants them to, in cells of the shipped scenes."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from contextlib import suppress
+from importlib import import_module
+from pkgutil import walk_packages
+
+import numpy as np
+
+from simulation.cells import ARM, ERASER, GRIPPER, PLACE, SURFACE
+from skillc_compiler.library import tree
+from skillc_runtime import primitives
+from skillc_runtime.assignment import Assignment, Perform, Prepared
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.primitives.arm_motion import ArmMotion
+from skillc_runtime.primitives.compliance import ReleaseAxis
+from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.robots.cell import Cell
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.task import execute
+from skillc_runtime.trace.events import Event, NodeEnded, Note, TaskEnded
+from tree.stage import Library, call, par, with_
+
+ABSTRACT = {Primitive, ArmMotion}
+TICKS = 3
+"""Ticks before a break or a halt."""
+
+
+def _classes() -> dict[str, type[Primitive]]:
+    modules = [import_module(found.name) for found in walk_packages(primitives.__path__, f"{primitives.__name__}.")]
+    found = {cls for module in modules for _, cls in inspect.getmembers(module, inspect.isclass)}
+    return {cls.__name__: cls for cls in found if issubclass(cls, Primitive) and cls not in ABSTRACT}
+
+
+CLASSES = _classes()
+
+
+def arguments(scene: str, cell: Cell) -> dict[str, object]:
+    """Return what the parameters of primitives may be in a scene, by their names."""
+    tool = cell.arm(ARM[scene]).anchor
+    raised = Pose(tool.position + np.array([0.0, 0.0, 0.05]), tool.rotation)
+    things = {"arm": ARM[scene], "gripper": GRIPPER[scene], "object": ERASER, "surface": SURFACE[scene]}
+    places = {
+        "place": PLACE[scene],
+        "to": PLACE[scene],
+        "grasp": ERASER + "-grasp",
+        "robot": ARM[scene][:-6] + "Heron-1",
+    }
+    motions = {"target": raised, "path": [raised, tool], "posture": "home", "pace": 0.5, "speed": 0.2, "blend": 0.01}
+    contact = {"along": -tool.rotation[:, 2], "plane": tool.rotation[:, 2], "stiffness": 0.0, "settle": 5.0}
+    return {
+        **things,
+        **places,
+        **motions,
+        **contact,
+        "force": 10.0,
+        "travel": 0.5,
+        "radius": 0.01,
+        "rate": 1.0,
+        "opening": 0.02,
+    }
+
+
+class Pushing(Primitive):
+    """Pushes with 10 N into the air until its scope ends."""
+
+    def __init__(self, cell: Cell, *, arm: str, along: np.ndarray) -> None:
+        super().__init__(cell)
+        self.arm, self._along = cell.arm(arm), along
+
+    def start(self) -> None:
+        self.arm.push(self._along, 10.0)
+
+    def tick(self) -> Status:
+        return Status.SUCCESS
+
+    def release(self) -> None:
+        self.arm.push_off()
+
+
+class Breaking(Primitive):
+    """Does what the primitive `SCENE CLASS` does; of `SCENE CLASS PHASE` it breaks the phase, after doing its work.
+
+    Phases: start, tick, halt, release. One that is to break later does not end by itself.
+    """
+
+    def __init__(self, cell: Cell, *, name: str) -> None:
+        super().__init__(cell)
+        scene, kind, *phase = name.split()
+        cls = {"Pushing": Pushing, **CLASSES}[kind]
+        known = arguments(scene, cell)
+        wanted = [each.name for each in inspect.signature(cls).parameters.values() if each.kind is each.KEYWORD_ONLY]
+        assert set(wanted) <= set(known), f"say in `arguments` what {kind} may be called with"
+        self._inner = cls(cell, **{name: known[name] for name in wanted})
+        self._phase, self._ticks = phase[0] if phase else "", 0
+
+    def start(self) -> None:
+        with suppress(SkillFailure):
+            self._inner.start()
+        self._break("start")
+
+    def tick(self) -> Status:
+        self._ticks += 1
+        if self._phase in ("", "release"):
+            return self._inner.tick()
+        if self._ticks > TICKS:
+            self._break("tick")
+        return Status.RUNNING
+
+    def halt(self, reason: str) -> None:
+        self._do("halt", lambda: self._inner.halt(reason))
+
+    def release(self) -> None:
+        self._do("release", self._inner.release)
+
+    def _do(self, phase: str, work: Callable[[], None]) -> None:
+        """Do the work, or break instead of doing it."""
+        self._break(phase)
+        work()
+
+    def _break(self, phase: str) -> None:
+        if self._phase == phase:
+            raise RuntimeError(f"broke at {phase}")
+
+
+def run(cell: SimulatedCell, scene: str, kind: str, phase: str) -> tuple[list[Event], str]:
+    """Run a primitive that breaks while the arm yields, pushes and circles; return what was told, and the status.
+
+    Where it breaks neither at its start nor in a tick, the run is interrupted.
+    """
+    told: list[Event] = []
+    ticks = 0
+
+    def interrupted() -> bool:
+        nonlocal ticks
+        ticks += 1
+        return phase in ("halt", "release") and ticks > TICKS
+
+    execution = execute(
+        _prepared(cell, scene, f"{scene} {kind} {phase}"), _LIBRARY, cell, (told.append,), interrupted=interrupted
+    )
+    return told, execution.status.value
+
+
+def _prepared(cell: SimulatedCell, scene: str, name: str) -> Prepared:
+    circling = call("Act", name=f"{scene} OverlayCircle")
+    broken: tree.Node = call("Act", name=name)
+    if name.endswith("release"):
+        broken = with_(name, circling)
+    body = with_(f"{scene} {ReleaseAxis.__name__}", with_(f"{scene} {Pushing.__name__}", par("all", circling, broken)))
+    return Prepared(Assignment("safety", cell.world.snapshot(), Perform(body)), body, None)
+
+
+_LIBRARY = Library(f"{__name__}:{Breaking.__name__}").build()
+
+
+def reasons(told: list[Event]) -> str:
+    """Return everything that the trace says about why."""
+    failures = [event.failure for event in told if isinstance(event, NodeEnded | TaskEnded) and event.failure]
+    return "\n".join([*(f.message for f in failures), *(event.message for event in told if isinstance(event, Note))])
