@@ -57,7 +57,15 @@ MISTAKES = [
         "lab:Cell and lab:Rob",
         "`map`",
     ),
+    (
+        '"cell" ; skiros:BaseFrameId "map"',
+        '"cell" ; skiros:BaseFrameId "robotiq"',
+        "frame-circle",
+        "lab:Cell and lab:Robotiq-1 and lab:Iiwa-1 and lab:Robot-1",
+        "`map`",
+    ),
     ("OrientationW 1.0", "OrientationW 0.0", "no-rotation", "(0, 0, 0, 0) of lab:Iiwa-1", "1.0"),
+    ("OrientationW 1.0", "OrientationW 0.7", "no-rotation", "the length of the quaternion is 0.7 and not 1", "1.0"),
     ("OrientationW 1.0", "OrientationW 1e200", "no-rotation", "lab:Iiwa-1", "1.0"),
     ("SizeX 0.30", "SizeX -0.30", "not-positive", "lab:Pedestal.skiros:SizeX = -0.3", ""),
     ("SizeZ 0.05", "SizeZ 0", "not-positive", "greater than 0", ""),
@@ -92,7 +100,7 @@ def test_the_place_is_that_of_the_statement(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("old", "new"),
-    [("OrientationW 1.0", "OrientationW 2.0"), ("SizeX 0.30", "SizeX 1e-3"), ("PositionX 0.4", "PositionX -0.4")],
+    [("OrientationW 1.0", "OrientationW 0.995"), ("SizeX 0.30", "SizeX 1e-3"), ("PositionX 0.4", "PositionX -0.4")],
 )
 def test_what_is_merely_unusual_is_accepted(tmp_path: Path, old: str, new: str) -> None:
     assert old in SCENE

@@ -12,8 +12,10 @@ from skillc_runtime.world.terms import (
     ARM_DEVICE,
     AT,
     BASE_FRAME_ID,
+    CONTAIN,
     FRAME_ID,
     FURNITURE,
+    HAS_A,
     MOBILE_ROBOT,
     ORIENTATION,
     POSITION,
@@ -54,12 +56,20 @@ def _circles(state: WorldState, parents: Mapping[str, str]) -> Iterator[Flaw]:
         path, at = [individual], parents.get(individual)
         while at is not None and at not in path:
             path.append(at)
-            at = parents.get(at)
+            at = _carrier(state, parents, at)
         if at == individual and reported.isdisjoint(path):
             reported.update(path)
             names = " and ".join(map(state.vocabulary.short, path))
             message = f"the frames of {names} form a circle" if len(path) > 1 else f"{names} is placed in its own frame"
             yield Flaw(individual, BASE_FRAME_ID, "frame-circle", message, f"place one of them in `{WORLD_FRAME}`")
+
+
+def _carrier(state: WorldState, parents: Mapping[str, str], thing: str) -> str | None:
+    """Return what a thing moves with: that in whose frame or at whose place it is, else what contains or has it."""
+    if thing in parents or state.value(thing, BASE_FRAME_ID) is not None:
+        return parents.get(thing)
+    holders = (state.subjects(relation, thing) for relation in (CONTAIN, HAS_A) if relation in state.facts)
+    return next((min(found) for found in holders if found), None)
 
 
 def _partial_poses(state: WorldState) -> Iterator[Flaw]:

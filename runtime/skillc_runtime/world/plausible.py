@@ -19,7 +19,8 @@ from skillc_runtime.world.terms import (
 )
 
 POSITIVE = (*SIZE, WEIGHT, GRASP_WIDTH)
-LEAST_NORM, GREATEST_NORM = 1e-6, 1e6
+LEAST_NORM, GREATEST_NORM = 0.99, 1.01
+"""How long the quaternion of a rotation may be, which has length 1: numbers in files are rounded."""
 
 
 def implausible(state: WorldState) -> Iterator[Flaw]:
@@ -34,7 +35,10 @@ def _turns(state: WorldState) -> Iterator[Flaw]:
         numbers = [value for part in parts if isinstance(value := part.get(individual), int | float)]
         if len(numbers) == len(parts) and not LEAST_NORM < hypot(*numbers) < GREATEST_NORM:
             written = ", ".join(f"{number:g}" for number in numbers)
-            message = f"the orientation ({written}) of {state.vocabulary.short(individual)} is no rotation"
+            message = (
+                f"the orientation ({written}) of {state.vocabulary.short(individual)} is no rotation: "
+                f"the length of the quaternion is {hypot(*numbers):.3g} and not 1"
+            )
             yield Flaw(individual, ORIENTATION[0], "no-rotation", message, "for no turn write OrientationW 1.0")
 
 
