@@ -1,7 +1,7 @@
 """Finds the packaged files: vocabularies, data sheets, scenes and models; and those in folders of the user's.
 
-Such a folder is laid out like this package: data sheets stand in `robots`, `grippers` and `tools`, models beside them.
-Whatever else is in it are vocabularies.
+Such a folder is laid out like this package: data sheets stand in `robots`, `grippers`, `tools` and `fixtures`, models
+beside them. Whatever else is in it are vocabularies.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).parent
-SHEET_FOLDERS = ("robots", "grippers", "tools")
+SHEET_FOLDERS = ("robots", "grippers", "tools", "fixtures")
 VOCABULARY_FOLDERS = ("vocabulary", *SHEET_FOLDERS)
 ENDINGS = (".ttl", ".owl", ".rdf", ".xml", ".nt", ".nq", ".trig", ".jsonld")
 """What the names of files end in that may be vocabularies."""

@@ -37,6 +37,11 @@ def centre(state: WorldState, surface: str) -> Pose:
     return pose(state, surface) @ Pose(np.zeros(3), _tool_axes(size(state, surface)))
 
 
+def facing(state: WorldState, target: str) -> Pose:
+    """Return the tool's pose at the frame of a thing, pointing against its z."""
+    return pose(state, target) @ Pose(np.zeros(3), np.diag([1.0, -1.0, -1.0]))
+
+
 def lanes(state: WorldState, surface: str, tool: str, overlap: float) -> list[Pose]:
     """Return the tool's poses along lanes that cover a surface; `overlap`: the share neighbours have in common."""
     frame = pose(state, surface)

@@ -13,6 +13,7 @@ from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.report.result import ChoiceResult, StepResult, TaskResult
 from skillc_runtime.report.wiping import Wiping, judge
 from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.simulation.fixtures import displaced
 from skillc_runtime.task import Execution
 from skillc_runtime.trace.events import Event, ImplementationChosen
 from skillc_runtime.trace.outcome import Outcome
@@ -115,11 +116,13 @@ def _controllers(cell: SimulatedCell) -> list[str]:
 def _variation(cell: SimulatedCell) -> str:
     """Say how reality differs from what the world model believed at the start."""
     names = cell.facts.names
-    return "; ".join(
+    surfaces = (
         f"{names[one.surface]} {one.offset_m * 1e3:+.1f} mm along its normal, tilted "
         f"{np.degrees(one.tilt_rad[0]):+.1f} and {np.degrees(one.tilt_rad[1]):+.1f} deg, friction {one.friction:.2f}"
         for one in cell.variation.surfaces
     )
+    fixtures = (f"{names[one.individual]} {displaced(one, cell.variation.seed)}" for one in cell.facts.fixtures)
+    return "; ".join((*surfaces, *fixtures))
 
 
 def _told(execution: Execution) -> str | None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from skillc_runtime.robots.base import MobileBase
+    from skillc_runtime.robots.button import Button
     from skillc_runtime.robots.driver import ArmDriver
     from skillc_runtime.robots.gripper import Gripper
     from skillc_runtime.robots.inspection import Camera
@@ -45,4 +46,8 @@ class Cell(Protocol):
 
     def camera(self) -> Camera:
         """Return what inspects surfaces."""
+        ...
+
+    def button(self, individual: str) -> Button:
+        """Return a button; KeyError where the cell has no such button."""
         ...

@@ -11,6 +11,7 @@ import numpy as np
 from skillc_runtime.motion.pose import Array, Pose, quaternion_of
 from skillc_runtime.simulation.devices import add_arm, add_tool
 from skillc_runtime.simulation.facts import BaseFacts, SceneFacts, SurfaceFacts
+from skillc_runtime.simulation.fixtures import add_fixture
 from skillc_runtime.simulation.names import base_body, box_geom, obstacle, part, weld
 from skillc_runtime.simulation.variation import SurfaceVariation, Variation
 
@@ -39,6 +40,8 @@ def build(scene: SceneFacts, variation: Variation, timestep_s: float = 0.001) ->
         true = variation.of(surface.individual)
         if true.present:
             _add_surface(spec, scene.names[surface.individual], surface, true)
+    for fixture in scene.fixtures:
+        add_fixture(spec, scene.names[fixture.individual], fixture, variation.seed)
     mounts = {base.individual: _add_base(spec, scene, base) for base in scene.bases}
     for arm in scene.arms:
         body, frame = mounts.get(arm.robot or "", (spec.worldbody, Pose(np.zeros(3), np.eye(3))))

@@ -16,6 +16,7 @@ from skillc_runtime.simulation.build import build
 from skillc_runtime.simulation.coverage import CoverageMap
 from skillc_runtime.simulation.drivers import driver
 from skillc_runtime.simulation.facts import SceneFacts, SurfaceFacts, read_scene
+from skillc_runtime.simulation.fixtures import SimulatedButton, buttons
 from skillc_runtime.simulation.gripper import SimulatedGripper
 from skillc_runtime.simulation.inspection import SimulatedCamera
 from skillc_runtime.simulation.observer import ToolObserver
@@ -65,6 +66,7 @@ class SimulatedCell:
         }
         self._camera = SimulatedCamera(self.coverage)
         self.watchdog = Watchdog()
+        self._buttons = buttons(facts.fixtures, names, self.data)
         world.commit([SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(self._drivers)], "start of the cell")
 
     @property
@@ -103,6 +105,10 @@ class SimulatedCell:
     def camera(self) -> SimulatedCamera:
         """Return what inspects surfaces."""
         return self._camera
+
+    def button(self, individual: str) -> SimulatedButton:
+        """Return a button; KeyError where the cell has no such button."""
+        return self._buttons[individual]
 
     def true_pose(self, surface: SurfaceFacts) -> Pose:
         """Return where a surface really is, in the world."""

@@ -8,6 +8,7 @@ from typing import Literal
 
 from skillc_ontology.catalogue import model as model_path
 from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.simulation.fixture_facts import FixtureFacts, read_fixtures
 from skillc_runtime.world.frames import pose, size
 from skillc_runtime.world.sheet import Sheet, SheetError, number, sheet_of, text
 from skillc_runtime.world.state import WorldState
@@ -133,6 +134,7 @@ class SceneFacts:
     tools: tuple[ToolFacts, ...]
     surfaces: tuple[SurfaceFacts, ...]
     furniture: tuple[FurnitureFacts, ...]
+    fixtures: tuple[FixtureFacts, ...] = ()
 
 
 def read_scene(state: WorldState) -> SceneFacts:
@@ -147,6 +149,7 @@ def read_scene(state: WorldState) -> SceneFacts:
         furniture=tuple(
             FurnitureFacts(iri, pose(state, iri), size(state, iri)) for iri in sorted(state.instances(FURNITURE))
         ),
+        fixtures=read_fixtures(state),
     )
 
 

@@ -79,11 +79,12 @@ def quick_world(documents: Sequence[Document], vocabulary: Vocabulary) -> WorldS
 
 def _said(documents: Iterable[Document], vocabulary: Vocabulary) -> _Said:
     said, names, watch = _Said(), dict[str, str](), Watch()
-    for document in documents:
+    for place, document in enumerate(documents):
         parser = ox.parse(document.text, format=ox.RdfFormat.TURTLE, base_iri=BASE)
         while _sort(islice(parser, AT_ONCE), vocabulary.aliases, names, said):
             watch.look()
-        said.types_first = said.types_first or len(said.named[RDF_TYPE])
+        if place == 0:
+            said.types_first = len(said.named[RDF_TYPE])
         for prefix, base in parser.prefixes.items():
             if vocabulary.prefixes.get(prefix, base) != base and base not in vocabulary.prefixes.values():
                 raise _OutOfOrder  # it may be misspelt

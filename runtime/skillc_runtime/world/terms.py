@@ -3,6 +3,7 @@
 SKILLC = "https://w3id.org/skillc/core#"
 SKIROS = "http://rvmi.aau.dk/ontologies/skiros.owl#"
 WIPING = "https://w3id.org/skillc/wiping#"
+CONTACT = "https://w3id.org/skillc/contact#"
 RPARTS = "http://www.inf.ufrgs.br/phi-group/ontologies/RParts.owl#"
 
 ARM_DEVICE = RPARTS + "ArmDevice"
@@ -55,6 +56,14 @@ JOINT_SPEED_NOISE = SKILLC + "jointSpeedNoise"
 COVERAGE = WIPING + "coverage"
 IS_CLEAN = WIPING + "isClean"
 CLEAN_THRESHOLD = WIPING + "cleanThreshold"
+
+FIXTURE = CONTACT + "Fixture"
+PLACE_RANGE = CONTACT + "placeRange"
+DEPTH_RANGE = CONTACT + "depthRange"
+BUTTON = CONTACT + "Button"
+SWITCH_TRAVEL = CONTACT + "switchTravel"
+IS_ON = CONTACT + "isOn"
+PRESSED_WITH = CONTACT + "pressedWith"
 
 TEMPLATE = SKIROS + "Template"
 HAS_TEMPLATE = SKIROS + "hasTemplate"

@@ -1,0 +1,48 @@
+"""What the simulation needs to know of fixtures: what stands in a cell with a model of its own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from skillc_ontology.catalogue import model as model_path
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.world.frames import pose
+from skillc_runtime.world.sheet import Sheet, number, sheet_of
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.terms import BUTTON, DEPTH_RANGE, FIXTURE, PLACE_RANGE, SWITCH_TRAVEL
+
+
+@dataclass(frozen=True, slots=True)
+class FixtureFacts:
+    """A fixture where it is believed to be in the world, its model and its sheet.
+
+    It may really stand `place_range_m` beside that, across its z, and `depth_range_m` before or behind it, along z.
+    A button switches when its cap is `switch_travel_m` in; other fixtures have None.
+    """
+
+    individual: str
+    pose: Pose
+    model: Path
+    sheet: Sheet
+    place_range_m: float = 0.0
+    depth_range_m: float = 0.0
+    switch_travel_m: float | None = None
+
+
+def read_fixtures(state: WorldState) -> tuple[FixtureFacts, ...]:
+    """Read all fixtures in order of IRI; SheetError or FrameError name the fact that is missing."""
+    return tuple(_fixture(state, each) for each in sorted(state.instances(FIXTURE)))
+
+
+def _fixture(state: WorldState, fixture: str) -> FixtureFacts:
+    sheet = sheet_of(state, fixture)
+    return FixtureFacts(
+        individual=fixture,
+        pose=pose(state, fixture),
+        model=model_path(sheet.text("model")),
+        sheet=sheet,
+        place_range_m=number(state, fixture, PLACE_RANGE, default=0.0),
+        depth_range_m=number(state, fixture, DEPTH_RANGE, default=0.0),
+        switch_travel_m=number(state, sheet.individual, SWITCH_TRAVEL) if state.is_a(fixture, BUTTON) else None,
+    )

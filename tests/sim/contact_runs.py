@@ -1,0 +1,81 @@
+"""Running the tasks of the shipped library of contact skills."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_ontology import catalogue
+from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare
+from skillc_runtime.commands import _library
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.task import Execution, execute
+from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.scene import load_scene
+from skillc_runtime.world.state import Value
+
+LAB = "http://example.org/lab#"
+CONTACT = "https://w3id.org/skillc/contact#"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a task ended, in which cell."""
+
+    execution: Execution
+    cell: SimulatedCell
+
+    @property
+    def succeeded(self) -> bool:
+        return self.execution.status.value == "success"
+
+    @property
+    def why(self) -> str:
+        return self.execution.failure.message if self.execution.failure else ""
+
+    def value(self, individual: str, property_: str) -> Value | None:
+        """What the world model says in the end."""
+        return self.cell.world.snapshot().value(LAB + individual, CONTACT + property_)
+
+
+@cache
+def library() -> SkillLibrary:
+    outcome = _library.compile_library(_library.find(_library.SHIPPED / "contact"))
+    assert outcome.diagnostics == ()
+    return outcome.value
+
+
+def run(
+    name: str,
+    seed: int = 0,
+    change: Callable[[SimulatedCell], None] = lambda cell: None,
+    watch: Callable[[SimulatedCell], None] = lambda cell: None,
+) -> Outcome:
+    """Run a task in a cell that `change` has changed before; `watch` sees the cell after every tick."""
+    task = library().tasks[name]
+    assert task.scene is not None
+    assert task.goal is not None
+    state = load_scene(catalogue.scene(task.scene), library().vocabulary)
+    prepared = prepare(Assignment(name, state, Reach(task.goal)), library())
+    assert isinstance(prepared, Prepared), prepared
+    cell = SimulatedCell(WorldModel(state), seed)
+    change(cell)
+    return Outcome(execute(prepared, library(), cell, watch=lambda: watch(cell)), cell)
+
+
+def at_rest(cell: SimulatedCell) -> bool:
+    """Whether no arm moves or is asked to push, and each is stiff along every axis."""
+    drivers = [cell.arm(arm.individual) for arm in cell.facts.arms]
+    stiff = all(bool((one.commanded_stiffness > 0).all()) for one in drivers)
+    pushing = any(bool((abs(one.commanded_wrench) > 0.1).any()) for one in drivers)
+    return bool(drivers) and cell.at_rest and stiff and not pushing
+
+
+def vanish(cell: SimulatedCell, fixture: str) -> None:
+    """Let everything pass through a fixture, as if it were not there."""
+    prefix = cell.facts.names[LAB + fixture] + "/"
+    geoms = [g for g in range(cell.model.ngeom) if cell.model.geom(g).name.startswith(prefix)]
+    assert geoms
+    cell.model.geom_contype[geoms] = cell.model.geom_conaffinity[geoms] = 0
