@@ -44,6 +44,7 @@ def test_a_trial_that_misses_a_target_is_told_so(metric: object) -> None:
         ("none", FAILURE, "failure: nothing to push against"),
         ("none", replace(good(1), at_rest=False), "something still moved or pushed in the end"),
         ("none", replace(good(1), greatest_force_n=51.0), "a tool felt 51.0 N, the limit is 50 N"),
+        ("none", replace(good(1), greatest_force_n=51.0, force_limit_n=None), None),
         ("missing", FAILURE, None),
         ("missing", good(1), "success, wanted a failure that says why"),
         ("missing", replace(FAILURE, reason=None), "failure, wanted a failure that says why"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
+from math import inf
 from pathlib import Path
 
 from skillc_compiler.library import codec
@@ -20,8 +21,9 @@ from skillc_runtime.trials.trial import Disturbance, Trial
 from skillc_runtime.world.frames import FrameError
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
-from skillc_runtime.world.sheet import SheetError
+from skillc_runtime.world.sheet import SheetError, number
 from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.terms import CONTACT_FORCE_LIMIT
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +70,7 @@ class Laboratory:
             wipings=result.wipings,
             coverage=min((surface.fraction for surface in cell.coverage.values()), default=1.0),
             greatest_force_n=_greatest_force(cell),
-            force_limit_n=min(arm.sheet.number("forceLimit") for arm in cell.facts.arms),
+            force_limit_n=_force_limit(cell),
             at_rest=cell.at_rest,
             sim_time_s=result.sim_time_s,
             wall_time_s=result.wall_time_s,
@@ -86,3 +88,10 @@ def _assignment(task: str, library: SkillLibrary, state: WorldState) -> Assignme
 def _greatest_force(cell: SimulatedCell) -> float:
     recordings = (cell.recording(tool.individual) for tool in cell.facts.tools)
     return max((float(recording.force.max(initial=0.0)) for recording in recordings), default=0.0)
+
+
+def _force_limit(cell: SimulatedCell) -> float | None:
+    sheets = [arm.sheet for arm in cell.facts.arms]
+    limits = [number(sheet.state, sheet.individual, CONTACT_FORCE_LIMIT, default=inf) for sheet in sheets]
+    least = min(limits, default=inf)
+    return None if least == inf else least

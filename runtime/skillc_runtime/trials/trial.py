@@ -19,7 +19,8 @@ class Trial(msgspec.Struct, frozen=True, kw_only=True):
     """One run: its seed, how it ended and why, how reality differed from the world model, and what was measured.
 
     `wipings` has an entry for each surface; `coverage` is of all the run did, lowest of all surfaces wiped or not.
-    `greatest_force_n` is the most that any tool felt, `force_limit_n` the most that the weakest arm may push with.
+    `greatest_force_n` is the most that any tool felt, `force_limit_n` the least of what makes an arm hold
+    still, None where no arm has such a limit.
     `at_rest` tells whether everything stood still, and nothing pushed any more, in the end.
     """
 
@@ -30,7 +31,7 @@ class Trial(msgspec.Struct, frozen=True, kw_only=True):
     wipings: tuple[WipingResult, ...] = ()
     coverage: float = 0.0
     greatest_force_n: float = 0.0
-    force_limit_n: float = 0.0
+    force_limit_n: float | None = None
     at_rest: bool = False
     sim_time_s: float = 0.0
     wall_time_s: float = 0.0

@@ -49,7 +49,7 @@ def _off_target(trial: Trial) -> Iterator[str]:
 
 
 def _unsafe(trial: Trial) -> Iterator[str]:
-    if trial.greatest_force_n > trial.force_limit_n:
+    if trial.force_limit_n is not None and trial.greatest_force_n > trial.force_limit_n:
         yield f"a tool felt {trial.greatest_force_n:.1f} N, the limit is {trial.force_limit_n:g} N"
     if not trial.at_rest:
         yield "something still moved or pushed in the end"
