@@ -10,10 +10,11 @@ from pkgutil import walk_packages
 
 import numpy as np
 
-from simulation.cells import ARM, ERASER, GRIPPER, PLACE, SURFACE
+from simulation.cells import world
 from skillc_compiler.library import tree
+from skillc_compiler.library.conditions import Compare, Individual, Literal, PropertyOf
 from skillc_runtime import primitives
-from skillc_runtime.assignment import Assignment, Perform, Prepared
+from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.compliance import ReleaseAxis
@@ -22,7 +23,12 @@ from skillc_runtime.robots.cell import Cell
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import execute
 from skillc_runtime.trace.events import Event, NodeEnded, Note, TaskEnded
+from skillc_runtime.world.terms import ARM_DEVICE, BUTTON, MOBILE_ROBOT, RPARTS, SKILLC, SKIROS, SURFACE, TOOL, WEIGHT
 from tree.stage import Library, call, par, with_
+
+GRIPPER_EFFECTOR, WORKSTATION = RPARTS + "GripperEffector", SKILLC + "Workstation"
+GRASPING_POSE = SKIROS + "GraspingPose"
+SCENES = ("iiwa_table", "ur5e_whiteboard", "ur5e_button")
 
 ABSTRACT = {Primitive, ArmMotion}
 TICKS = 3
@@ -38,30 +44,48 @@ def _classes() -> dict[str, type[Primitive]]:
 CLASSES = _classes()
 
 
+KINDS = {
+    "arm": ARM_DEVICE,
+    "gripper": GRIPPER_EFFECTOR,
+    "object": TOOL,
+    "surface": SURFACE,
+    "robot": MOBILE_ROBOT,
+    "place": WORKSTATION,
+    "to": WORKSTATION,
+    "grasp": GRASPING_POSE,
+    "button": BUTTON,
+}
+"""Of which classes the things are that parameters of these names stand for."""
+
+MOTION = {"posture": "home", "pace": 0.5, "speed": 0.2, "blend": 0.01, "settle": 5.0, "patience": 5.0, "travel": 0.5}
+CONTACT = {"stiffness": 0.0, "force": 10.0, "radius": 0.01, "rate": 1.0, "opening": 0.02}
+
+
+def things(scene: str) -> dict[str, str]:
+    """Return what parameters that stand for things may be in a scene, by their names."""
+    state = world(scene)
+    found = {name: sorted(state.instances(kind)) for name, kind in KINDS.items()}
+    return {name: individuals[0] for name, individuals in found.items() if individuals}
+
+
+def wanted(kind: type[Primitive]) -> set[str]:
+    """Return the names of a primitive's parameters."""
+    parameters = inspect.signature(kind).parameters.values()
+    return {each.name for each in parameters if each.kind is each.KEYWORD_ONLY}
+
+
+def scene_for(kind: type[Primitive], number: int) -> str:
+    """Return a scene that has everything a primitive needs; they take turns with `number`."""
+    turns = [SCENES[(number + more) % len(SCENES)] for more in range(len(SCENES))]
+    return next(scene for scene in turns if wanted(kind) & set(KINDS) <= set(things(scene)))
+
+
 def arguments(scene: str, cell: Cell) -> dict[str, object]:
     """Return what the parameters of primitives may be in a scene, by their names."""
-    tool = cell.arm(ARM[scene]).anchor
+    tool = cell.arm(things(scene)["arm"]).anchor
     raised = Pose(tool.position + np.array([0.0, 0.0, 0.05]), tool.rotation)
-    things = {"arm": ARM[scene], "gripper": GRIPPER[scene], "object": ERASER, "surface": SURFACE[scene]}
-    places = {
-        "place": PLACE[scene],
-        "to": PLACE[scene],
-        "grasp": ERASER + "-grasp",
-        "robot": ARM[scene][:-6] + "Heron-1",
-    }
-    motions = {"target": raised, "path": [raised, tool], "posture": "home", "pace": 0.5, "speed": 0.2, "blend": 0.01}
-    contact = {"along": -tool.rotation[:, 2], "plane": tool.rotation[:, 2], "stiffness": 0.0, "settle": 5.0}
-    return {
-        **things,
-        **places,
-        **motions,
-        **contact,
-        "force": 10.0,
-        "travel": 0.5,
-        "radius": 0.01,
-        "rate": 1.0,
-        "opening": 0.02,
-    }
+    poses = {"target": raised, "path": [raised, tool], "along": -tool.rotation[:, 2], "plane": tool.rotation[:, 2]}
+    return {**things(scene), **MOTION, **CONTACT, **poses}
 
 
 class Pushing(Primitive):
@@ -92,9 +116,8 @@ class Breaking(Primitive):
         scene, kind, *phase = name.split()
         cls = {"Pushing": Pushing, **CLASSES}[kind]
         known = arguments(scene, cell)
-        wanted = [each.name for each in inspect.signature(cls).parameters.values() if each.kind is each.KEYWORD_ONLY]
-        assert set(wanted) <= set(known), f"say in `arguments` what {kind} may be called with"
-        self._inner = cls(cell, **{name: known[name] for name in wanted})
+        assert wanted(cls) <= set(known), f"say in `arguments` what {kind} may be called with"
+        self._inner = cls(cell, **{name: known[name] for name in wanted(cls)})
         self._phase, self._ticks = phase[0] if phase else "", 0
 
     def start(self) -> None:
@@ -140,21 +163,35 @@ def run(cell: SimulatedCell, scene: str, kind: str, phase: str) -> tuple[list[Ev
         return phase in ("halt", "release") and ticks > TICKS
 
     execution = execute(
-        _prepared(cell, scene, f"{scene} {kind} {phase}"), _LIBRARY, cell, (told.append,), interrupted=interrupted
+        prepared(cell, scene, f"{scene} {kind} {phase}"), LIBRARY, cell, (told.append,), interrupted=interrupted
     )
     return told, execution.status.value
 
 
-def _prepared(cell: SimulatedCell, scene: str, name: str) -> Prepared:
+def prepared(cell: SimulatedCell, scene: str, name: str) -> Prepared:
+    """Return what runs a primitive that may break while the arm yields, pushes and circles."""
+    body = _body(scene, name)
+    return Prepared(Assignment("safety", cell.world.snapshot(), Perform(body)), body, None)
+
+
+def reaching(cell: SimulatedCell, scene: str, name: str) -> Prepared:
+    """Return the same for a goal that is not reached by it, so that a new plan is wanted."""
+    body, goal = (
+        _body(scene, name),
+        Compare(PropertyOf(Individual(things(scene)["object"]), WEIGHT), "==", Literal(9.0)),
+    )
+    return Prepared(Assignment("safety", cell.world.snapshot(), Reach(goal)), body, None)
+
+
+def _body(scene: str, name: str) -> tree.Node:
     circling = call("Act", name=f"{scene} OverlayCircle")
     broken: tree.Node = call("Act", name=name)
     if name.endswith("release"):
         broken = with_(name, circling)
-    body = with_(f"{scene} {ReleaseAxis.__name__}", with_(f"{scene} {Pushing.__name__}", par("all", circling, broken)))
-    return Prepared(Assignment("safety", cell.world.snapshot(), Perform(body)), body, None)
+    return with_(f"{scene} {ReleaseAxis.__name__}", with_(f"{scene} {Pushing.__name__}", par("all", circling, broken)))
 
 
-_LIBRARY = Library(f"{__name__}:{Breaking.__name__}").build()
+LIBRARY = Library(f"{__name__}:{Breaking.__name__}").build()
 
 
 def reasons(told: list[Event]) -> str:

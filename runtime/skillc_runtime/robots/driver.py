@@ -28,8 +28,8 @@ from skillc_runtime.robots.tool_task import ToolTask
 JOINT_RAMP_S = 0.5
 """Seconds in which a joint motion reaches its full speed."""
 
-STILL_RAD_S = 0.01
-"""Joints slower than this rest."""
+STILL_RAD_S = 0.03
+"""Joints slower than this rest; the noise of a force sensor alone moves those of a compliant arm with 0.02 rad/s."""
 
 TOOL_JUMP_M_S = 3.0
 """No tool moves this fast; one that seems to was moved on the hand."""

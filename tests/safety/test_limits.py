@@ -1,0 +1,110 @@
+"""Limits that are facts hold below the skills: whoever moves an arm, beyond them it holds still and says why."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from safety.test_faults import is_safe
+from simulation.cells import ARM, GRIPPER, LAB, SCENES, cell, run, world
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.primitives.move import MoveLinear
+from skillc_runtime.primitives.primitive import SkillFailure
+from skillc_runtime.robots.driver import ArmDriver
+from skillc_runtime.robots.safety import Box
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.simulation.names import part
+from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.frames import placed
+from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.terms import FRAME_ID, HAS_SHEET, HAS_WORKSPACE, SIZE, SKILLC, TOOL_SPEED_LIMIT
+
+
+def cell_with(scene: str, changes: list[Change]) -> SimulatedCell:
+    return SimulatedCell(WorldModel(world(scene).changed(changes)))
+
+
+def moved(arm: ArmDriver, *way: float) -> Pose:
+    return Pose(arm.anchor.position + np.array(way), arm.anchor.rotation)
+
+
+def pushed(there: SimulatedCell, scene: str, force: tuple[float, float, float], seconds: float) -> None:
+    """Let something push the palm with a force in N in the world."""
+    body = there.data.body(part(there.facts.names[GRIPPER[scene]], "palm"))
+    body.xfrc_applied[:3] = force
+    there.advance(seconds)
+    body.xfrc_applied[:3] = 0.0
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_the_tool_stops_where_it_is_pushed_too_hard(scene: str) -> None:
+    there = cell(scene)
+    arm = there.arm(ARM[scene])
+    there.advance(0.05)
+    pushed(there, scene, (0.0, 40.0, 0.0), 0.1)
+    assert arm.fault is None
+    arm.release(np.array([0.0, 1.0, 0.0]))
+    arm.push(np.array([0.0, 1.0, 0.0]), 5.0)
+    pushed(there, scene, (0.0, 150.0, 0.0), 0.1)
+    assert arm.fault is not None
+    assert "N on the tool is beyond the 80 N" in arm.fault
+    assert not arm.commanded_wrench.any()
+    told = there.secure()
+    assert len(told) == 2
+    assert "had stopped: a force" in told[0]
+    assert "left yielding" in told[1]
+    is_safe(there, scene)
+    assert there.secure() == ()
+
+
+@pytest.mark.parametrize("force", [(30.0, 0.0, 0.0), (0.0, -30.0, 0.0), (0.0, 20.0, 30.0)])
+def test_an_arm_without_sensor_feels_what_pushes_its_tool(force: tuple[float, float, float]) -> None:
+    there = cell("iiwa_table")
+    arm = there.arm(ARM["iiwa_table"])
+    arm.hold_position()
+    there.advance(0.05)
+    resistance = arm._guard._safety._resistance
+    assert resistance is not None
+    assert np.linalg.norm(resistance.wrench(arm._state)[:3]) < 2.0
+    pushed(there, "iiwa_table", force, 0.15)
+    felt = resistance.wrench(arm._state)[:3]
+    assert np.abs(felt - force).max() < 3.0
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_a_tool_that_is_too_fast_is_stopped(scene: str) -> None:
+    sheet = next(iter(world(scene).objects(ARM[scene], HAS_SHEET)))
+    there = cell_with(scene, [SetProperty(sheet, TOOL_SPEED_LIMIT, 0.1)])
+    arm = there.arm(ARM[scene])
+    run(there, MoveLinear(there, arm=ARM[scene], target=moved(arm, 0.0, 0.0, 0.03), speed=0.09))
+    with pytest.raises(SkillFailure, match=r"moves with 0\.1\d m/s, beyond the 0\.1 m/s"):
+        run(there, MoveLinear(there, arm=ARM[scene], target=moved(arm, 0.0, 0.0, -0.1), speed=0.3))
+    is_safe(there, scene)
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_a_tool_that_leaves_its_workspace_is_stopped_and_may_come_back(scene: str) -> None:
+    start = cell(scene).arm(ARM[scene]).pose
+    there = cell_with(scene, workspace(scene, start))
+    arm = there.arm(ARM[scene])
+    with pytest.raises(SkillFailure, match=r"the tool is \d+ mm outside the arm's workspace"):
+        run(there, MoveLinear(there, arm=ARM[scene], target=moved(arm, 0.0, 0.0, 0.1), speed=0.1))
+    is_safe(there, scene)
+    assert 0.03 < arm.pose.position[2] - start.position[2] < 0.045
+    run(there, MoveLinear(there, arm=ARM[scene], target=start, speed=0.1))
+    assert np.abs(arm.pose.position - start.position).max() < 2e-3
+
+
+def workspace(scene: str, middle: Pose) -> list[Change]:
+    """Say that the tool stays within 3 cm around a place."""
+    box = LAB + "Box"
+    sizes = [SetProperty(box, name, 0.06) for name in SIZE]
+    kind, frame = AddIndividual(box, (SKILLC + "Workspace",)), SetProperty(box, FRAME_ID, "box")
+    return [kind, frame, *placed(box, middle), *sizes, AddRelation(ARM[scene], HAS_WORKSPACE, box)]
+
+
+@pytest.mark.parametrize(("point", "outside"), [((0.9, 1.0, 3.0), 0.0), ((1.2, 1.0, 3.0), 0.1), ((1.4, 2.4, 3.0), 0.5)])
+def test_how_far_outside_a_box(point: tuple[float, float, float], outside: float) -> None:
+    turned = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    box = Box(Pose(np.array([1.0, 1.0, 3.0]), turned), np.array([2.0, 0.2, 0.2]))
+    assert box.outside(np.array(point)) == pytest.approx(outside)

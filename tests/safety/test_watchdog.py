@@ -1,0 +1,97 @@
+"""A run that is not ticked any more is stopped, fails when it wakes, and says so; so is one whose program ends."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from safety import faults
+from safety.test_faults import is_safe
+from simulation.cells import ARM, SCENES, cell
+from skillc_runtime import task
+from skillc_runtime.assignment import Refused
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.robots.watchdog import PATIENCE_S, Watchdog
+from skillc_runtime.task import execute
+from skillc_runtime.trace.events import Event
+from skillc_runtime.tree.run import Run
+from tree.stage import call
+
+
+def moving(scene: str) -> tuple[object, Run, list[Event]]:
+    """Return a cell whose arm circles on behalf of a run."""
+    there, told = cell(scene), []
+    run = Run(call("Act", name=f"{scene} OverlayCircle"), faults.LIBRARY, there, (told.append,))
+    for _ in range(20):
+        run.tick()
+        there.advance(0.01)
+    return there, run, told
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_when_the_tree_falls_silent_everything_stops(scene: str) -> None:
+    there, run, told = moving(scene)
+    arm = there.arm(ARM[scene])
+    assert np.abs(arm.velocity[:3]).max() > 1e-3
+    there.advance(PATIENCE_S + 0.1)
+    assert run.status is Status.RUNNING
+    assert arm.fault == "the tree is not ticked any more"
+    is_safe(there, scene)
+    assert run.tick() is Status.FAILURE
+    assert "the tree was not ticked for too long, so everything was stopped" in faults.reasons(told)
+
+
+def test_a_paused_run_gives_signs_of_life_and_one_that_has_ended_needs_none() -> None:
+    there, run, _ = moving("iiwa_table")
+    arm = there.arm(ARM["iiwa_table"])
+    run.pause()
+    for _ in range(round(2 * PATIENCE_S / 0.01)):
+        run.tick()
+        there.advance(0.01)
+    run.resume()
+    assert run.tick() is Status.RUNNING
+    run.halt("enough")
+    there.advance(2 * PATIENCE_S)
+    assert arm.fault is None
+
+
+def test_each_who_falls_silent_is_told_once() -> None:
+    dog = Watchdog(patience_s=1.0)
+    assert dog.beat("a", 0.0)
+    assert dog.beat("b", 0.5)
+    assert not dog.expired(1.0)
+    assert dog.expired(1.2)
+    assert not dog.expired(1.3)
+    assert not dog.beat("a", 1.3)
+    assert dog.beat("b", 1.3)
+    dog.retire("a")
+    assert dog.beat("a", 1.4)
+    dog.retire("a")
+    dog.retire("b")
+    assert not dog.expired(9.0)
+
+
+def test_a_program_that_ends_leaves_the_arm_safe() -> None:
+    scene = "ur5e_whiteboard"
+    there, told = cell(scene), []
+
+    def watch() -> None:
+        if there.now > 0.1:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        execute(faults.prepared(there, scene, f"{scene} MoveLinear"), faults.LIBRARY, there, (told.append,), watch)
+    assert "the program ends" in faults.reasons(told)
+    is_safe(there, scene)
+
+
+def test_a_planner_that_is_gone_when_a_new_plan_is_wanted_ends_the_task(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = "ur5e_whiteboard"
+    there, told = cell(scene), []
+    monkeypatch.setattr(task, "prepare", lambda *_: Refused("the planner does not start"))
+    prepared = faults.reaching(there, scene, f"{scene} MoveLinear tick")
+    execution = execute(prepared, faults.LIBRARY, there, (told.append,))
+    assert execution.status is Status.FAILURE
+    assert "broke at tick" in faults.reasons(told)
+    assert "there is no other way: the planner does not start" in faults.reasons(told)
+    is_safe(there, scene)
