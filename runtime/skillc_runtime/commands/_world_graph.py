@@ -7,27 +7,37 @@ from dataclasses import dataclass
 
 from skillc_compiler.picture.boxes import Box, Look
 from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import SKILLC, SKIROS
+from skillc_runtime.world.terms import (
+    ARM_DEVICE,
+    CONTAINER_STATE,
+    DEVICE_STATE,
+    END_EFFECTOR,
+    HOLDS_DEEP,
+    IS_CLEAN,
+    LOCATION,
+    MANIPULATABLE,
+    ROBOT,
+    SCENE,
+    SENSOR,
+    SURFACE,
+    TRANSFORMATION_POSE,
+)
 from skillc_runtime.world.values import show
 
-HOLDS = f"{SKILLC}holdsDeep"
-"""Above all relations by which one thing holds another."""
-RPARTS = "http://www.inf.ufrgs.br/phi-group/ontologies/RParts.owl#"
-CORA = "http://www.inf.ufrgs.br/phi-group/ontologies/cora.owl#"
 LOOKS: tuple[tuple[str, Look, str], ...] = (
-    (f"{SKIROS}Scene", "heading", "◆"),
-    (f"{CORA}Robot", "call", "R"),
-    (f"{RPARTS}ArmDevice", "call", "A"),
-    (f"{RPARTS}EndEffector", "call", "G"),
-    (f"{RPARTS}Sensor", "call", "S"),
-    (f"{SKIROS}TransformationPose", "time", "+"),
-    (f"{SKIROS}Location", "flow", "▢"),
-    (f"{SKILLC}Surface", "code", "▤"),
-    (f"{SKIROS}Manipulatable", "guard", "●"),
+    (SCENE, "heading", "◆"),
+    (ROBOT, "call", "R"),
+    (ARM_DEVICE, "call", "A"),
+    (END_EFFECTOR, "call", "G"),
+    (SENSOR, "call", "S"),
+    (TRANSFORMATION_POSE, "time", "+"),
+    (LOCATION, "flow", "▢"),
+    (SURFACE, "code", "▤"),
+    (MANIPULATABLE, "guard", "●"),
 )
 """How individuals of a class look; the first that fits counts."""
 OTHER: tuple[Look, str] = ("heading", "·")
-PROPERTIES = (f"{SKILLC}deviceState", "https://w3id.org/skillc/wiping#isClean", f"{SKIROS}ContainerState")
+PROPERTIES = (DEVICE_STATE, IS_CLEAN, CONTAINER_STATE)
 """Values that say in which state something is."""
 
 
@@ -42,7 +52,9 @@ class _Scene:
 def picture(state: WorldState, own: frozenset[str], labels: dict[str, str], title: str) -> Box:
     """Return the picture of a scene's own individuals under a title."""
     above = state.vocabulary.super_relations
-    scene = _Scene(state, own, labels, tuple(sorted(iri for iri in above if HOLDS in above[iri] and iri != HOLDS)))
+    scene = _Scene(
+        state, own, labels, tuple(sorted(iri for iri in above if HOLDS_DEEP in above[iri] and iri != HOLDS_DEEP))
+    )
     held: dict[str, list[str]] = {}
     for one in sorted(own):
         holder = _holder(scene, one)
