@@ -153,3 +153,14 @@ def test_a_store_that_may_only_be_read_is_read(tmp_path: Path) -> None:
 def test_an_address_of_no_server_is_told(address: str) -> None:
     with pytest.raises(StoreError, match=r"is no address of a SPARQL server"):
         open_store(address)
+
+
+def test_a_store_that_takes_nothing_though_nobody_wrote_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    model = model_of(DiskStore(tmp_path / "store"))
+    monkeypatch.setattr(DiskStore, "append", lambda store, event, sequence: False)
+    before = model.snapshot()
+    with pytest.raises(StoreError, match=r"store refuses a write, although nobody else has written"):
+        model.commit([assign("box", "weight", 4.0)])
+    assert model.snapshot() is before

@@ -20,7 +20,7 @@ from skillc_runtime.world.changes import (
 from skillc_runtime.world.event import ChangeEvent, Listener
 from skillc_runtime.world.rules import broken, unknown
 from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.store.store import Nowhere, Store
+from skillc_runtime.world.store.store import Nowhere, Store, StoreError
 from skillc_runtime.world.transaction import OpenTransaction
 
 __all__ = ["UNDOABLE", "ChangeEvent", "Listener", "WorldError", "WorldModel"]
@@ -123,7 +123,10 @@ class WorldModel:
     def _written(self, changes: tuple[Change, ...], origin: str) -> ChangeEvent:
         event = self._checked(changes, origin)
         while not self._store.append(event, self._sequence):
+            known = self._sequence
             self.follow()
+            if self._sequence == known:
+                raise StoreError(f"{self._store} refuses a write, although nobody else has written")
             event = self._checked(changes, origin)
         self._advance(event)
         self._past.append(event)
