@@ -20,7 +20,7 @@ from skillc_runtime.controllers.task_error import TaskError
 from skillc_runtime.controllers.virtual_arm import VirtualArm
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
-from skillc_runtime.robots.arm import ArmLimits, ArmState, JointPosition
+from skillc_runtime.robots.arm import ArmLimits, ArmState, JointPosition, Mode
 from skillc_runtime.robots.laws import Laws
 
 
@@ -34,6 +34,16 @@ class ForwardDynamicsGains:
     admittance: float
     rotational_admittance: float
     admittance_time: float
+
+    @property
+    def mode(self) -> Mode:
+        """Joint positions."""
+        return "position"
+
+    @property
+    def needs_force(self) -> bool:
+        """Yes: an arm that does not feel what it touches does not yield."""
+        return True
 
     @property
     def release_damping(self) -> float:

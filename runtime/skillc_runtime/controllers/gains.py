@@ -14,7 +14,7 @@ from typing import Protocol, TypeAlias
 import mujoco
 
 from skillc_runtime import controllers
-from skillc_runtime.robots.arm import ArmLimits, ArmState
+from skillc_runtime.robots.arm import ArmLimits, ArmState, Mode
 from skillc_runtime.robots.laws import Laws
 
 Number: TypeAlias = Callable[[str], float]
@@ -27,6 +27,16 @@ class UnknownController(ValueError):
 
 class LawGains(Protocol):
     """What one controller alone reads from a data sheet, and the laws it makes of it."""
+
+    @property
+    def mode(self) -> Mode:
+        """Which commands the laws give."""
+        ...
+
+    @property
+    def needs_force(self) -> bool:
+        """Whether the laws live on the wrench that the arm measures."""
+        ...
 
     @property
     def release_damping(self) -> float:

@@ -19,7 +19,7 @@ from skillc_runtime.controllers.nullspace import Nullspace
 from skillc_runtime.controllers.task_error import TaskError
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
-from skillc_runtime.robots.arm import ArmLimits, ArmState, Torque
+from skillc_runtime.robots.arm import ArmLimits, ArmState, Mode, Torque
 from skillc_runtime.robots.laws import Laws
 
 INERTIA_PERIOD_S = 0.01
@@ -41,6 +41,16 @@ class ImpedanceGains:
     rotational_damping_floor: float
     nullspace_stiffness: float
     torque_rate: float
+
+    @property
+    def mode(self) -> Mode:
+        """Torques."""
+        return "torque"
+
+    @property
+    def needs_force(self) -> bool:
+        """No: springs push."""
+        return False
 
     @property
     def release_damping(self) -> float:

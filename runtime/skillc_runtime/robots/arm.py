@@ -41,6 +41,12 @@ class JointPosition:
 
 
 Command: TypeAlias = Torque | JointPosition
+Mode: TypeAlias = Literal["torque", "position"]
+"""Which of the commands an arm takes."""
+
+
+class ModeRefused(Exception):
+    """An arm does not go over to a mode; it stays in the one it is in. The message is for people."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,12 +58,33 @@ class ArmLimits:
     effort: Array
 
 
+@dataclass(frozen=True, slots=True)
+class Capabilities:
+    """What an arm offers: the modes it knows, whether it measures the wrench at its tool, its limits."""
+
+    modes: tuple[Mode, ...]
+    feels_force: bool
+    limits: ArmLimits
+
+
 class Arm(Protocol):
-    """An arm that is read and commanded once a control period."""
+    """An arm that is read and commanded once a control period; one that is not commanded any more holds still.
+
+    `tests/backends` says what is expected of every implementation.
+    """
 
     @property
-    def interface(self) -> Literal["torque", "position"]:
-        """Which command the arm takes."""
+    def capabilities(self) -> Capabilities:
+        """What the arm offers."""
+        ...
+
+    @property
+    def interface(self) -> Mode:
+        """Which command the arm takes at present."""
+        ...
+
+    def switch(self, mode: Mode) -> None:
+        """Take commands of this kind from now on, holding still until the first; ModeRefused where it cannot."""
         ...
 
     def state(self) -> ArmState:

@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import mujoco
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.robots.arm import ArmLimits, ArmState, Command, JointPosition, Torque
+from skillc_runtime.robots.arm import (
+    ArmLimits,
+    ArmState,
+    Capabilities,
+    Command,
+    JointPosition,
+    Mode,
+    ModeRefused,
+    Torque,
+)
 from skillc_runtime.simulation import noise
 from skillc_runtime.simulation.facts import ArmFacts
 from skillc_runtime.simulation.hand import Hand
@@ -19,6 +28,13 @@ from skillc_runtime.simulation.wrist import Wrist
 
 MASS_MATRIX_PERIOD_S = 0.01
 """The mass matrix changes slowly; it is computed anew at 100 Hz."""
+
+
+SILENCE_S = 0.05
+"""An arm that is not commanded for so long holds still by itself."""
+
+HOLD_RATE = 20.0
+"""1/s: natural frequency, critically damped, with which an arm that takes torques holds its joints by itself."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,14 +95,26 @@ class SimulatedArm:
         self._speed_noise = noise.of_joints(facts, reality.seed)
         self._configure(NO_PAYLOAD, self.fixed_tool)
         self._increment, self._steps_left, self._steps_per_command = np.zeros(count), 0, steps_per_command
+        self._held = np.zeros(count)
+        self._unheard, self._patience = 0, round(SILENCE_S / model.opt.timestep)
         self._q[:] = start = reality.start(facts)
         if self._interface == "position":
             self._control[:] = start
 
     @property
-    def interface(self) -> Literal["torque", "position"]:
+    def capabilities(self) -> Capabilities:
+        """What the arm offers: the one mode that its motors are simulated for."""
+        return Capabilities((self._interface,), self._wrist is not None, self.limits)
+
+    @property
+    def interface(self) -> Mode:
         """Which command the arm takes."""
         return self._interface
+
+    def switch(self, mode: Mode) -> None:
+        """Take commands of this kind; ModeRefused for any but the one there is."""
+        if mode != self._interface:
+            raise ModeRefused(f"the arm takes {self._interface} commands, not {mode} commands")
 
     @property
     def base(self) -> Pose:
@@ -113,6 +141,7 @@ class SimulatedArm:
 
     def command(self, command: Command) -> None:
         """Take a command for the next step; TypeError for a kind the interface does not take."""
+        self._unheard = 0
         match command, self._interface:
             case Torque(tau=tau), "torque":
                 self._control[:] = tau
@@ -124,13 +153,27 @@ class SimulatedArm:
 
     def before_step(self) -> None:
         """Do what a position-controlled arm does itself: move its servos' targets evenly over the control period, and
-        compensate its weight, Coriolis forces and configured payload.
+        compensate its weight, Coriolis forces and configured payload; one that is not commanded any more is braked.
         """
-        if self._interface == "position":
+        self._unheard += 1
+        if self._unheard > self._patience:
+            self._brake()
+        elif self._interface == "position":
             self._feedforward[:] = self._here.bias
             if self._steps_left > 0:
                 self._control += self._increment
                 self._steps_left -= 1
+
+    def _brake(self) -> None:
+        """Hold still without commands: carried by torques and braked at each joint, or with servos that stay."""
+        if self._interface == "position":
+            self._feedforward[:] = self._bias
+            return
+        if self._unheard == self._patience + 1:
+            self._held[:] = self._q
+        slowing = HOLD_RATE * (self._q - self._held) + 2 * self._dq
+        self._control[:] = self._bias + self._carrying - HOLD_RATE * self._here.mass_matrix.diagonal() * slowing
+        np.clip(self._control, -self.limits.effort, self.limits.effort, out=self._control)
 
     def after_step(self) -> None:
         """Filter the wrist sensor; to be called once a step."""
@@ -143,6 +186,7 @@ class SimulatedArm:
 
     def carry_nothing(self) -> None:
         """Configure the empty gripper."""
+        self._carrying[:] = 0.0
         self._configure(NO_PAYLOAD, self.fixed_tool)
 
     def _configure(self, payload: Payload, tool: Pose) -> None:

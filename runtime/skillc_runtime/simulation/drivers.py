@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from math import inf
 
-from skillc_runtime.controllers.gains import UnknownController, gains
+from skillc_runtime.controllers.gains import LawGains, UnknownController, gains
 from skillc_runtime.controllers.virtual_arm import virtual_model
+from skillc_runtime.robots.arm import ModeRefused
 from skillc_runtime.robots.driver import ArmDriver
 from skillc_runtime.robots.safety import Box, SafetyLimits
 from skillc_runtime.simulation.arm import SimulatedArm
 from skillc_runtime.simulation.facts import ArmFacts
 from skillc_runtime.world.frames import seen_from, size
 from skillc_runtime.world.sheet import SheetError, number
-from skillc_runtime.world.terms import CONTACT_FORCE_LIMIT, HAS_WORKSPACE, TOOL_SPEED_LIMIT
+from skillc_runtime.world.terms import CONTACT_FORCE_LIMIT, HAS_SENSOR, HAS_WORKSPACE, TOOL_SPEED_LIMIT
 
 
 def driver(facts: ArmFacts, arm: SimulatedArm, period_s: float) -> ArmDriver:
@@ -21,8 +22,23 @@ def driver(facts: ArmFacts, arm: SimulatedArm, period_s: float) -> ArmDriver:
         chosen = gains(facts.controller, facts.sheet.number)
     except UnknownController as error:
         raise SheetError(f"{facts.sheet.state.vocabulary.short(facts.individual)}: {error}") from error
+    _engage(facts, arm, chosen.law)
     virtual, limits = virtual_model(facts.model), safety(facts)
     return ArmDriver(arm, virtual, chosen, arm.limits, lambda: arm.base, period_s, limits)
+
+
+def _engage(facts: ArmFacts, arm: SimulatedArm, law: LawGains) -> None:
+    """Make the arm take what the law commands; SheetError where it cannot, or does not feel what the law needs."""
+    short = facts.sheet.state.vocabulary.short
+    try:
+        arm.switch(law.mode)
+    except ModeRefused as refusal:
+        raise SheetError(f"{short(facts.individual)} has the controller {facts.controller!r}: {refusal}") from refusal
+    if law.needs_force and not arm.capabilities.feels_force:
+        raise SheetError(
+            f"{short(facts.individual)} has the controller {facts.controller!r}, which needs a force/torque sensor: "
+            f"it has none ({short(HAS_SENSOR)})"
+        )
 
 
 def safety(facts: ArmFacts) -> SafetyLimits:

@@ -1,0 +1,97 @@
+"""What the conformance suite needs of a back-end, and the back-ends there are.
+
+A new one, simulated or real, adds a function to `BACKENDS` that makes it; nothing else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Protocol
+
+import numpy as np
+
+from simulation.cells import world
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.robots.arm import Arm
+from skillc_runtime.robots.driver import ArmDriver
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.simulation.names import part
+from skillc_runtime.world.model import WorldModel
+
+WALL_N_M, WALL_N_S_M = 4000.0, 40.0
+"""Stiffness and damping of the wall."""
+
+
+class Backend(Protocol):
+    """One arm with its driver, which holds it still at first, free to move 10 cm; and a wall to put before it."""
+
+    arm: Arm
+    driver: ArmDriver
+
+    def advance(self, seconds: float) -> None:
+        """Let time pass; the driver is stepped."""
+        ...
+
+    def neglect(self, seconds: float) -> None:
+        """Let time pass in which nobody commands the arm."""
+        ...
+
+    def put_wall(self, gap_m: float) -> Array:
+        """Put a soft wall before the tool, along its z; return the unit vector out of the wall, in the world."""
+        ...
+
+    @property
+    def force_n(self) -> float:
+        """With how much the tool really presses on the wall."""
+        ...
+
+
+class MujocoBackend:
+    """The arm of a shipped scene. The wall is a force that a spring and a damper exert on the hand."""
+
+    def __init__(self, scene: str, steps_per_command: int = 1) -> None:
+        self._cell = SimulatedCell(WorldModel(world(scene)), steps_per_command=steps_per_command)
+        facts = self._cell.facts.arms[0]
+        assert facts.gripper is not None
+        self.arm = self._cell.arms[facts.individual]
+        self.driver = self._cell.arm(facts.individual)
+        self._hand = self._cell.data.body(part(self._cell.facts.names[facts.gripper.individual], "palm"))
+        self._normal, self._place, self.force_n = np.zeros(3), 0.0, 0.0
+        self._depth = 0.0
+
+    def advance(self, seconds: float) -> None:
+        period = self._cell.period_s
+        if not self._normal.any():
+            self._cell.advance(seconds)
+            return
+        for _ in range(round(seconds / period)):
+            self._press(period)
+            self._cell.advance(period)
+
+    def neglect(self, seconds: float) -> None:
+        control, self._cell._control = self._cell._control, lambda *_: None  # type: ignore[method-assign]
+        self.advance(seconds)
+        self._cell._control = control  # type: ignore[method-assign]
+
+    def put_wall(self, gap_m: float) -> Array:
+        tool = self.arm.base @ self.arm.state().tool
+        self._normal = -tool.rotation[:, 2]
+        self._place = float(self._normal @ tool.position) - gap_m
+        return self._normal
+
+    def _press(self, period: float) -> None:
+        """Let the wall push at the tool centre point: a force at the hand's centre of mass and its moment."""
+        point = (self.arm.base @ self.arm.state().tool).position
+        depth = self._place - float(self._normal @ point)
+        self.force_n = max(0.0, WALL_N_M * depth + WALL_N_S_M * (depth - self._depth) / period) if depth > 0 else 0.0
+        self._depth = depth
+        force = self.force_n * self._normal
+        self._hand.xfrc_applied[:3], self._hand.xfrc_applied[3:] = force, np.cross(point - self._hand.xipos, force)
+
+
+BACKENDS: dict[str, Callable[[], Backend]] = {
+    "mujoco iiwa14": partial(MujocoBackend, "iiwa_table"),
+    "mujoco ur5e": partial(MujocoBackend, "ur5e_whiteboard"),
+    "mujoco panda": partial(MujocoBackend, "panda_desk"),
+}

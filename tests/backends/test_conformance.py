@@ -1,0 +1,158 @@
+"""What every back-end must do: go to poses, press, yield, refuse, hold still when nobody commands it, stop."""
+
+from __future__ import annotations
+
+from typing import get_args
+
+import numpy as np
+import pytest
+
+from backends.backend import BACKENDS, Backend
+from skillc_runtime.motion.path import path
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.motion.segments import MotionLimits
+from skillc_runtime.robots.arm import JointPosition, Mode, ModeRefused, Torque
+
+LIMITS = MotionLimits(speed=0.2, acceleration=0.5)
+
+
+@pytest.fixture(params=sorted(BACKENDS))
+def backend(request: pytest.FixtureRequest) -> Backend:
+    made = BACKENDS[request.param]()
+    made.driver.hold_position()
+    made.advance(0.02)
+    return made
+
+
+def beside(backend: Backend, *way: float) -> Pose:
+    anchor = backend.driver.anchor
+    return Pose(anchor.position + np.array(way), anchor.rotation)
+
+
+def go(backend: Backend, target: Pose, seconds: float) -> None:
+    backend.driver.move_along(path([backend.driver.anchor, target], LIMITS))
+    backend.advance(seconds)
+
+
+def press(backend: Backend, force_n: float) -> Array:
+    """Press against a wall 2 mm before the tool; return the direction out of it."""
+    normal = backend.put_wall(0.002)
+    backend.driver.release(normal)
+    backend.driver.push(normal, force_n)
+    backend.advance(0.7)
+    return normal
+
+
+def mean_force(backend: Backend, seconds: float = 0.1) -> float:
+    felt = []
+    for _ in range(round(seconds / 0.005)):
+        backend.advance(0.005)
+        felt.append(backend.force_n)
+    return float(np.mean(felt))
+
+
+def test_what_it_says_of_itself_is_consistent(backend: Backend) -> None:
+    offered, state = backend.arm.capabilities, backend.arm.state()
+    joints = state.q.size
+    assert backend.arm.interface in offered.modes
+    assert set(offered.modes) <= set(get_args(Mode))
+    assert (
+        state.dq.shape == state.bias.shape == offered.limits.velocity.shape == offered.limits.effort.shape == (joints,)
+    )
+    assert state.jacobian.shape == (6, joints)
+    assert state.mass_matrix.shape == (joints, joints)
+    assert (np.linalg.eigvalsh(state.mass_matrix) > 0).all()
+    assert (offered.limits.range[:, 0] <= state.q).all()
+    assert (state.q <= offered.limits.range[:, 1]).all()
+    assert offered.feels_force or not state.wrench.any()
+
+
+def test_a_step_of_the_pose(backend: Backend) -> None:
+    start, target = backend.driver.anchor, beside(backend, 0.0, 0.03, 0.02)
+    go(backend, target, 1.2)
+    assert backend.driver.done
+    assert backend.driver.behind is None
+    assert np.abs(backend.driver.pose.position - target.position).max() < 1e-3
+    assert np.abs(backend.driver.pose.rotation - start.rotation).max() < 1e-2
+
+
+def test_steps_of_the_force(backend: Backend) -> None:
+    normal = press(backend, 8.0)
+    assert mean_force(backend) == pytest.approx(8.0, rel=0.05)
+    backend.driver.push(normal, 16.0)
+    backend.advance(0.6)
+    assert mean_force(backend) == pytest.approx(16.0, rel=0.05)
+
+
+def test_stiffness_that_changes_in_contact_does_not_make_it_jump(backend: Backend) -> None:
+    press(backend, 10.0)
+    before = mean_force(backend, 0.05)
+    backend.driver.restore()
+    forces = []
+    for _ in range(150):
+        backend.advance(0.001)
+        forces.append(backend.force_n)
+    assert before == pytest.approx(10.0, rel=0.1)
+    assert np.abs(np.diff([before, *forces])).max() < 1.5
+    assert max(forces) < 12.0
+    assert (np.array(backend.driver.commanded_stiffness) > 0).all()
+
+
+def test_what_it_cannot_do_is_refused_and_it_goes_on_as_before(backend: Backend) -> None:
+    arm, driver, joints = backend.arm, backend.driver, backend.arm.state().q.size
+    before = arm.interface
+    others = [mode for mode in get_args(Mode) if mode not in arm.capabilities.modes]
+    for mode in others:
+        with pytest.raises(ModeRefused, match="the arm takes"):
+            arm.switch(mode)
+    arm.switch(before)
+    wrong = JointPosition(np.zeros(joints)) if before == "torque" else Torque(np.zeros(joints))
+    with pytest.raises(TypeError, match="takes no"):
+        arm.command(wrong)
+    with pytest.raises(ValueError, match="beyond"):
+        driver.push(-driver.pose.rotation[:, 2], 1000.0)
+    assert arm.interface == before
+    target = beside(backend, 0.0, 0.0, 0.02)
+    go(backend, target, 0.8)
+    assert np.abs(driver.pose.position - target.position).max() < 1e-3
+
+
+def test_an_arm_that_nobody_commands_holds_still_and_goes_on_without_a_jump(backend: Backend) -> None:
+    driver = backend.driver
+    driver.move_along(path([driver.anchor, beside(backend, 0.0, 0.08, 0.0)], LIMITS))
+    backend.advance(0.4)
+    assert np.abs(driver.velocity[:3]).max() > 0.1
+    backend.neglect(0.6)
+    stopped = backend.arm.state()
+    assert np.abs(stopped.dq).max() < 0.02
+    place = stopped.tool.position.copy()
+    backend.neglect(0.2)
+    assert np.abs(backend.arm.state().tool.position - place).max() < 1e-3
+    speeds = []
+    for _ in range(20):
+        backend.advance(0.01)
+        speeds.append(np.abs(driver.velocity[:3]).max())
+    assert max(speeds) < driver.gains.speed_limit
+
+
+def test_it_stops_at_once(backend: Backend) -> None:
+    driver = backend.driver
+    driver.move_along(path([driver.anchor, beside(backend, 0.0, 0.08, 0.0)], LIMITS))
+    backend.advance(0.4)
+    where = driver.pose.position
+    driver.hold_still("enough")
+    backend.advance(0.6)
+    assert driver.fault == "enough"
+    assert np.abs(driver.velocity[:3]).max() < 0.01
+    assert np.linalg.norm(driver.pose.position - where) < 0.02
+
+
+def test_it_lets_go_when_it_stops_in_contact(backend: Backend) -> None:
+    """What is left is what the wall, which springs back, pushes against the stiff arm."""
+    press(backend, 10.0)
+    backend.driver.abort("enough")
+    backend.driver.secure()
+    backend.advance(0.6)
+    assert mean_force(backend, 0.05) < 10.0 / 3
+    assert not backend.driver.commanded_wrench.any()
+    assert backend.driver.commanded_stiffness.all()
