@@ -8,10 +8,11 @@ import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
 
-OVERHANG_M = (0.03, 0.02)
+OVERHANG_M = (0.03, 0.012)
 """How far the tool sticks out over the rectangle at the ends of a lane and beside the outer lanes.
 
-It must exceed the lag of the tool behind its reference, most of which is friction force / stiffness.
+It must exceed the lag of the tool behind its reference, most of which is friction force / stiffness; at the ends
+corners are cut as well. More would let the tool hang over the edge, which it then presses unevenly.
 """
 
 

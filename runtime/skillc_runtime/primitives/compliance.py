@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections import deque
+from math import inf
 from typing import TYPE_CHECKING
 
-from skillc_runtime.motion.pose import Array
+import numpy as np
+
+from skillc_runtime.motion.pose import Array, log
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.localise import localise
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
@@ -22,6 +26,12 @@ RAMP_S = 0.4
 
 REST_S = 0.3
 """Time after aligning in which springs and reference settle."""
+
+FLUSH_RAD, FLUSH_S = 0.001, 1.0
+"""A tool that is turned, in one half of this time, by less than this from the other, lies flush; noise averages out."""
+
+LEAST_ALIGN_S = 1.5
+"""Before that, a tool that hardly turns may just be starting."""
 
 
 class ReleaseAxis(Primitive):
@@ -112,36 +122,49 @@ class Push(Primitive):
 
 
 class Align(Primitive):
-    """Let the pushed tool turn for `settle` s until it lies flush on `surface`, and note where that really is."""
+    """Let the pushed tool turn, for at most `settle` s, until it lies flush on `surface`; note where that really is."""
 
     def __init__(self, cell: Cell, *, arm: str, surface: str, settle: float) -> None:
         super().__init__(cell)
         self.arm = cell.arm(arm)
         self._surface, self._settle = surface, settle
-        self._began, self._held = 0.0, False
+        self._began, self._held_at = 0.0, inf
+        self._from = np.eye(3)
+        self._turns: deque[tuple[float, Array]] = deque()
 
     def start(self) -> None:
         """Let the tool turn."""
         raise_fault(self.arm)
-        self._began = self.cell.now
+        self._began, self._from = self.cell.now, self.arm.pose.rotation
         self.arm.release_rotation()
 
     def tick(self) -> Status:
         """Return SUCCESS once the tool lies flush, is held so, and the surface's place is noted."""
         raise_fault(self.arm)
-        elapsed = self.cell.now - self._began
-        if elapsed >= self._settle and not self._held:
+        now = self.cell.now
+        if self._held_at == inf and (now - self._began >= self._settle or self._flush(now)):
             self._hold()
-        if elapsed < self._settle + REST_S:
+        if now < self._held_at + REST_S:
             return Status.RUNNING
         localise(self.cell.world, self._surface, self.arm.pose)
         return Status.SUCCESS
 
     def halt(self, reason: str) -> None:
         """Hold the tool as it is."""
-        if not self._held:
+        if self._held_at == inf:
             self._hold()
 
+    def _flush(self, now: float) -> bool:
+        """Tell whether the tool has come to rest on the surface: whether it hardly turned for a while."""
+        self._turns.append((now, log(self.arm.pose.rotation @ self._from.T)))
+        while now - self._turns[0][0] > FLUSH_S:
+            self._turns.popleft()
+        if now - self._began < LEAST_ALIGN_S:
+            return False
+        turns = np.array([turn for _, turn in self._turns])
+        half = len(turns) // 2
+        return bool(np.linalg.norm(turns[half:].mean(axis=0) - turns[:half].mean(axis=0)) < FLUSH_RAD)
+
     def _hold(self) -> None:
-        self._held = True
+        self._held_at = self.cell.now
         self.arm.restore_rotation()
