@@ -145,7 +145,7 @@ def test_the_log_error_is_the_shortest_turn(robot):
     turned = exp(np.array([0.0, 0.0, 0.2])) @ state.tool.rotation
     law.command(state, at_rest(Pose(state.tool.position, turned)), stiff(robot), 0.001)
     axes = law._task.axes
-    assert np.allclose(axes @ law._task.error[3:], log(state.tool.rotation @ turned.T))
+    assert np.allclose(axes @ law._task.rows[0, 3:], log(state.tool.rotation @ turned.T))
 
 
 def test_unknown_controllers_and_missing_numbers_are_named():

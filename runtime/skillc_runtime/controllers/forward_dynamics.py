@@ -16,10 +16,12 @@ import numpy as np
 from skillc_runtime.controllers.gains import Gains, Number
 from skillc_runtime.controllers.joint_position import JointServo
 from skillc_runtime.controllers.limits import JointLimit
-from skillc_runtime.controllers.task_error import TaskError
+from skillc_runtime.controllers.task_error import ACCELERATION, ERROR, MEASURED, TWIST, TaskError, task_error
 from skillc_runtime.controllers.virtual_arm import VirtualArm
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
+from skillc_runtime.numerics.compiled import Matrix, OutMatrix, OutVector, Vector, compiled
+from skillc_runtime.numerics.linear import cholesky, cholesky_solve, product, transposed_times
 from skillc_runtime.robots.arm import ArmLimits, ArmState, JointPosition, Mode
 from skillc_runtime.robots.laws import Laws
 
@@ -69,9 +71,8 @@ class ForwardDynamics:
         self._task = TaskError(np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3))
         self._rate = np.repeat([law.admittance, law.rotational_admittance], 3) / law.admittance_time
         self._lag = law.admittance_time
-        self._wrench, self._part, self._in_base, self._felt = (np.zeros(6) for _ in range(4))
-        self._wrench_halves, self._base_halves = self._wrench.reshape(2, 3), self._in_base.reshape(2, 3)
-        self._dq, self._ddq, self._torque, self._q = (np.zeros(arm.joints) for _ in range(4))
+        self._felt = np.zeros(6)
+        self._dq, self._q = np.zeros(arm.joints), np.zeros(arm.joints)
 
     @property
     def tool(self) -> Pose:
@@ -92,30 +93,57 @@ class ForwardDynamics:
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> JointPosition:
         """Return the joint positions."""
         self._felt[:] = state.wrench
-        self._arm.move(self._limit.q)
-        self._arm.weigh()
-        self._task.update(self._arm.live_tool, reference, compliance, self._felt)
-        self._accelerate(compliance)
-        keep = exp(-period / self._lag)
-        self._dq *= keep
-        self._ddq *= (1 - keep) * self._lag
-        self._dq += self._ddq
-        self._limit.slowed(self._dq)
-        np.multiply(self._dq, period, out=self._q)
-        self._q += self._limit.q
+        arm, task, tool = self._arm, self._task, self._arm.live_tool
+        arm.move(self._limit.q)
+        arm.weigh()
+        virtual_motion(
+            self._q, self._dq, task.rows, task.axes, task.held,
+            tool.position, tool.rotation, arm.jacobian, arm.inertia, self._limit.q, self._limit.velocity,
+            reference.pose.position, reference.pose.rotation, reference.twist, reference.acceleration,
+            compliance.stiffness, compliance.wrench, compliance.frame, task.softness, self._felt,
+            self._rate, self._lag, period,
+        )  # fmt: skip
         return JointPosition(self._limit.step(self._q, state, period))
 
-    def _accelerate(self, compliance: Compliance) -> None:
-        """Compute the virtual joint accelerations ddq (nv,)."""
-        task = self._task
-        np.add(task.measured, compliance.wrench, out=self._wrench)
-        np.multiply(compliance.stiffness, task.error, out=self._part)
-        self._wrench -= self._part
-        self._wrench *= self._rate
-        np.divide(task.twist, self._lag, out=self._part)
-        self._wrench += self._part
-        self._wrench += task.acceleration
-        np.dot(self._wrench_halves, task.axes.T, out=self._base_halves)
-        np.dot(self._in_base, self._arm.jacobian, out=self._torque)
-        mujoco.mju_cholFactor(self._arm.inertia, 0.0)
-        mujoco.mju_cholSolve(self._ddq, self._arm.inertia, self._torque)
+
+@compiled
+def virtual_motion(
+    q: OutVector,
+    dq: OutVector,
+    rows: OutMatrix,
+    axes: OutMatrix,
+    held: OutVector,
+    tool_position: Vector,
+    tool_rotation: Matrix,
+    J: Matrix,
+    inertia: OutMatrix,
+    q_before: Vector,
+    dq_limit: Vector,
+    position: Vector,
+    rotation: Matrix,
+    twist: Vector,
+    acceleration: Vector,
+    stiffness: Vector,
+    wrench: Vector,
+    frame: Matrix,
+    softness: Vector,
+    felt: Vector,
+    rate: Vector,
+    lag: float,
+    period: float,
+) -> None:
+    """Compute dq (nv,), slowed down as a whole where a joint would be too fast, and q (nv,). rate (6,): A / T."""
+    task_error(
+        rows, axes, held, tool_position, tool_rotation, position, rotation, twist, acceleration,
+        stiffness, frame, softness, felt,
+    )  # fmt: skip
+    wanted = rate * (rows[MEASURED] + wrench - stiffness * rows[ERROR]) + rows[TWIST] / lag + rows[ACCELERATION]
+    in_base, torque, ddq = np.empty(6), np.empty(q.size), np.empty(q.size)
+    product(wanted.reshape(2, 3), axes.T, in_base.reshape(2, 3))
+    transposed_times(J, in_base, torque)
+    cholesky(inertia)
+    cholesky_solve(inertia, torque, ddq)
+    keep = exp(-period / lag)
+    dq[:] = keep * dq + (1 - keep) * lag * ddq
+    dq /= max(1.0, np.abs(dq / dq_limit).max())
+    q[:] = q_before + period * dq

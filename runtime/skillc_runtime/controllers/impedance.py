@@ -16,9 +16,11 @@ from skillc_runtime.controllers.gains import Gains, Number
 from skillc_runtime.controllers.joint_position import ComputedTorque
 from skillc_runtime.controllers.limits import TorqueLimit
 from skillc_runtime.controllers.nullspace import Nullspace
-from skillc_runtime.controllers.task_error import TaskError
+from skillc_runtime.controllers.task_error import ACCELERATION, ERROR, MEASURED, TWIST, TaskError, task_error
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
+from skillc_runtime.numerics.compiled import Matrix, OutMatrix, OutVector, Vector, compiled
+from skillc_runtime.numerics.linear import cholesky, cholesky_solve, product, times, transposed_times
 from skillc_runtime.robots.arm import ArmLimits, ArmState, Mode, Torque
 from skillc_runtime.robots.laws import Laws
 
@@ -83,9 +85,7 @@ class Impedance:
         self._nullspace = Nullspace(law.nullspace_stiffness, joints) if joints > 6 else None
         self._age, self._tool = INERTIA_PERIOD_S, Pose.of((0, 0, 0))
         self._inertia = np.zeros((6, 6))
-        self._velocity, self._force, self._exerted, self._part = (np.zeros(6) for _ in range(4))
-        self._in_base, self._tau = np.zeros(6), np.zeros(joints)
-        self._force_halves, self._base_halves = self._force.reshape(2, 3), self._in_base.reshape(2, 3)
+        self._exerted, self._tau = np.zeros(6), np.zeros(joints)
 
     @property
     def tool(self) -> Pose:
@@ -107,15 +107,16 @@ class Impedance:
 
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Torque:
         """Return the joint torques."""
-        task = self._task
         self._see(state)
-        task.update(state.tool, reference, compliance, np.dot(state.jacobian, state.dq, out=self._velocity))
-        self._renew(state, compliance, period)
-        self._exert(compliance)
-        np.dot(self._inertia, task.acceleration, out=self._force)
-        self._force += self._exerted
-        np.dot(self._force_halves, task.axes.T, out=self._base_halves)
-        np.dot(self._in_base, state.jacobian, out=self._tau)
+        self._renew(state, reference, compliance, period)
+        task = self._task
+        impedance_torque(
+            self._tau, self._exerted, task.rows, task.axes, task.held,
+            state.tool.position, state.tool.rotation, state.jacobian, state.dq,
+            reference.pose.position, reference.pose.rotation, reference.twist, reference.acceleration,
+            compliance.stiffness, compliance.wrench, compliance.frame, task.softness,
+            self._damping.value, self._inertia,
+        )  # fmt: skip
         if self._nullspace:
             self._tau += self._nullspace.torque(state)
         return Torque(self._limit.step(self._tau, state, period))
@@ -124,26 +125,70 @@ class Impedance:
         """Keep where the tool is; the state may be the arm's own and turn to nonsense."""
         self._tool.position[:], self._tool.rotation[:] = state.tool.position, state.tool.rotation
 
-    def _exert(self, compliance: Compliance) -> None:
-        """Compute W - K sat(e) - D (J_C dq - nu_d)."""
-        np.subtract(self._task.twist, self._task.measured, out=self._exerted)
-        self._exerted *= self._damping.value
-        np.multiply(compliance.stiffness, self._task.error, out=self._part)
-        self._exerted -= self._part
-        self._exerted += compliance.wrench
-
-    def _renew(self, state: ArmState, compliance: Compliance, period: float) -> None:
-        """Lam_C = (J_C M^-1 J_C^T)^-1; D_i = 2 zeta sqrt(K_i Lam_C,ii), at least the floor."""
+    def _renew(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> None:
+        """Lam_C = (J_C M^-1 J_C^T)^-1; D_i = 2 zeta sqrt(K_i Lam_C,ii), at least the floor; every so often."""
         self._age += period
         if self._age < INERTIA_PERIOD_S:
             return
-        jacobian = (self._task.axes.T @ state.jacobian.reshape(2, 3, -1)).reshape(6, -1)
-        mobility = jacobian @ np.linalg.solve(state.mass_matrix, jacobian.T)
-        mobility[np.diag_indices(6)] += LEAST_MOBILITY
-        self._inertia[:] = np.linalg.inv(mobility)
+        tool_inertia(self._inertia, state.jacobian, state.mass_matrix, reference.pose.rotation, compliance.frame)
         damping = 2 * compliance.damping_ratio * np.sqrt(compliance.stiffness * self._inertia.diagonal())
         self._damping.step(np.maximum(damping, self._floor), self._age)
         self._age = 0.0
+
+
+@compiled
+def impedance_torque(
+    tau: OutVector,
+    exerted: OutVector,
+    rows: OutMatrix,
+    axes: OutMatrix,
+    held: OutVector,
+    tool_position: Vector,
+    tool_rotation: Matrix,
+    J: Matrix,
+    dq: Vector,
+    position: Vector,
+    rotation: Matrix,
+    twist: Vector,
+    acceleration: Vector,
+    stiffness: Vector,
+    wrench: Vector,
+    frame: Matrix,
+    softness: Vector,
+    damping: Vector,
+    inertia: Matrix,
+) -> None:
+    """exerted (6,) = W - K sat(e) - D (J_C dq - nu_d), along C; tau (nv,) = J_C^T (exerted + Lam_C a_d)."""
+    velocity, force, in_base = np.empty(6), np.empty(6), np.empty(6)
+    times(J, dq, velocity)
+    task_error(
+        rows, axes, held, tool_position, tool_rotation, position, rotation, twist, acceleration,
+        stiffness, frame, softness, velocity,
+    )  # fmt: skip
+    exerted[:] = wrench - stiffness * rows[ERROR] - damping * (rows[MEASURED] - rows[TWIST])
+    times(inertia, rows[ACCELERATION], force)
+    force += exerted
+    product(force.reshape(2, 3), axes.T, in_base.reshape(2, 3))
+    transposed_times(J, in_base, tau)
+
+
+@compiled
+def tool_inertia(inertia: OutMatrix, J: Matrix, mass_matrix: Matrix, rotation: Matrix, frame: Matrix) -> None:
+    """inertia (6, 6) = (J_C M^-1 J_C^T + least mobility)^-1, C being the reference's `rotation` turned by `frame`."""
+    joints = J.shape[1]
+    axes, J_C, factor, column = np.empty((3, 3)), np.empty((6, joints)), mass_matrix.copy(), np.empty(joints)
+    mobility, unit = np.empty((6, 6)), np.eye(6)
+    product(rotation, frame, axes)
+    product(axes.T, J[:3], J_C[:3])
+    product(axes.T, J[3:], J_C[3:])
+    cholesky(factor)
+    for i in range(6):
+        cholesky_solve(factor, J_C[i], column)
+        times(J_C, column, mobility[i])
+        mobility[i, i] += LEAST_MOBILITY
+    cholesky(mobility)
+    for i in range(6):
+        cholesky_solve(mobility, unit[i], inertia[i])
 
 
 def damping_rate(state: ArmState, damping: float, rotational_damping: float) -> float:

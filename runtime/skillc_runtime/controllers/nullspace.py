@@ -7,12 +7,13 @@ comes near a singularity, where s_i falls and the solution would grow.
 
 from __future__ import annotations
 
-from math import prod, sqrt
+from math import sqrt
 
-import mujoco
 import numpy as np
 
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.numerics.compiled import Matrix, OutVector, Vector, compiled
+from skillc_runtime.numerics.linear import cholesky, cholesky_solve, product, times, transposed_times
 from skillc_runtime.robots.arm import ArmState
 
 REGULARISATION = 1e-6
@@ -29,29 +30,36 @@ class Nullspace:
         self.rest = np.zeros(joints)
         self.manipulability = np.inf
         self._stiffness, self._damping = stiffness, 2 * sqrt(stiffness)
-        self._tau, self._part = np.zeros(joints), np.zeros(joints)
-        self._gram, self._wrench, self._solution = np.zeros((6, 6)), np.zeros(6), np.zeros(6)
-        self._diagonal = self._gram.ravel()[::7]
+        self._tau = np.zeros(joints)
 
     def torque(self, state: ArmState) -> Array:
         """Return tau_null (nv,) in N m."""
-        np.subtract(self.rest, state.q, out=self._tau)
-        self._tau *= self._stiffness
-        np.multiply(state.dq, self._damping, out=self._part)
-        self._tau -= self._part
-        J = state.jacobian
-        np.dot(J, J.T, out=self._gram)
-        self._diagonal += self.regularisation
-        mujoco.mju_cholFactor(self._gram, 0.0)
-        self.manipulability = prod(self._diagonal.tolist())
-        np.dot(J, self._tau, out=self._wrench)
-        mujoco.mju_cholSolve(self._solution, self._gram, self._wrench)
-        np.dot(self._solution, J, out=self._part)
-        self._tau -= self._part
-        return self._tau
+        tau, lam = self._tau, self.regularisation
+        self.manipulability = posture_torque(
+            tau, state.q, state.dq, state.jacobian, self.rest, self._stiffness, self._damping, lam
+        )
+        return tau
 
     @property
     def regularisation(self) -> float:
         """lam^2 for the manipulability seen last."""
         near = max(0.0, 1 - self.manipulability / SINGULAR_BELOW)
         return REGULARISATION + SINGULAR_REGULARISATION * near * near
+
+
+@compiled
+def posture_torque(
+    tau: OutVector, q: Vector, dq: Vector, J: Matrix, rest: Vector, stiffness: float, damping: float, lam_square: float
+) -> float:
+    """Compute tau_null (nv,) in N m; return the manipulability, the product of the Cholesky factor's diagonal."""
+    tau[:] = stiffness * (rest - q) - damping * dq
+    gram, wrench, y, part = np.empty((6, 6)), np.empty(6), np.empty(6), np.empty(tau.size)
+    product(J, J.T, gram)
+    for i in range(6):
+        gram[i, i] += lam_square
+    cholesky(gram)
+    times(J, tau, wrench)
+    cholesky_solve(gram, wrench, y)
+    transposed_times(J, y, part)
+    tau -= part
+    return float(gram[0, 0] * gram[1, 1] * gram[2, 2] * gram[3, 3] * gram[4, 4] * gram[5, 5])

@@ -9,6 +9,8 @@ from skillc_runtime.motion.overlays import Faded
 from skillc_runtime.motion.pose import Array, Pose, exp, skew
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory, at_rest
 from skillc_runtime.motion.tempo import Tempo
+from skillc_runtime.numerics.compiled import Matrix, OutVector, compiled
+from skillc_runtime.numerics.linear import product
 
 TURN_DECELERATION = 2.0
 """rad/s^2 with which a turn is stopped."""
@@ -141,16 +143,30 @@ class Guide:
         )
 
     def _overlaid(self, motion: Reference, now: float) -> Reference:
-        """Add the overlays; the chain rule turns their time into time."""
+        """Add the overlays."""
         time, rate, slope = self._beat.at(now)
-        added = np.zeros((3, 3))
+        pose = Pose(motion.pose.position.copy(), motion.pose.rotation)
+        overlaid = Reference(pose, motion.twist.copy(), motion.acceleration.copy())
         for faded, axes in self._overlays.values():
-            added += faded.at(time) @ axes.T
-        if rate != 1.0:
-            added = np.array([[1.0, 0.0, 0.0], [0.0, rate, 0.0], [0.0, slope, rate * rate]]) @ added
-        twist, acceleration = motion.twist.copy(), motion.acceleration.copy()
-        twist[:3] += added[1]
-        acceleration[:3] += added[2]
+            add_overlay(pose.position, overlaid.twist, overlaid.acceleration, faded.at(time), axes, rate, slope)
         if any(faded.gone(time) for faded, _ in self._overlays.values()):
             self._overlays = {h: entry for h, entry in self._overlays.items() if not entry[0].gone(time)}
-        return Reference(Pose(motion.pose.position + added[0], motion.pose.rotation), twist, acceleration)
+        return overlaid
+
+
+@compiled
+def add_overlay(
+    position: OutVector,
+    twist: OutVector,
+    acceleration: OutVector,
+    motion: Matrix,
+    axes: Matrix,
+    rate: float,
+    slope: float,
+) -> None:
+    """Add an overlay's motion (3, 3) along `axes` (3, 3); the chain rule turns its time, of `rate`, into time."""
+    added = np.empty((3, 3))
+    product(motion, axes.T, added)
+    position += added[0]
+    twist[:3] += rate * added[1]
+    acceleration[:3] += slope * added[1] + rate * rate * added[2]

@@ -5,13 +5,24 @@ Nothing is computed from, nor commanded with, something that is not a number.
 
 from __future__ import annotations
 
-from math import isfinite
 from typing import NoReturn
+
+import numpy as np
 
 from skillc_runtime.controllers.controller import ControlError
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.numerics.compiled import Vector, compiled
 from skillc_runtime.robots.arm import Arm, ArmState, Command, JointPosition, Torque
 from skillc_runtime.robots.safety import Safety, SafetyLimits
+
+
+@compiled
+def sum_of_squares(x: Vector) -> float:
+    """Return the sum of the squares of x (n,): no finite number when one of them is none."""
+    total = 0.0
+    for value in x:
+        total += value * value
+    return total
 
 
 class Guard:
@@ -24,15 +35,14 @@ class Guard:
 
     def check(self, state: ArmState) -> None:
         """Take in what the arm measures. ControlError when some of it is not a number; the arm is told to hold."""
-        q, dq, wrench = state.q, state.dq, state.wrench
-        if not isfinite(q.dot(q) + dq.dot(dq) + wrench.dot(wrench) + state.tool.position[0]):
+        if not are_numbers(state.q, state.dq, state.wrench, state.tool.position):
             self._give_up("the arm reports something that is not a number")
         self._holding[:] = self._rest(state)
 
     def command(self, command: Command) -> None:
         """Tell the arm. ControlError when the command is not all numbers; the arm is told to hold instead."""
         told = command.tau if isinstance(command, Torque) else command.q
-        if not isfinite(told.dot(told)):
+        if not sum_of_squares(told) < np.inf:
             self._give_up("the control law does not yield a number")
         self._safety.told(command)
         self._arm.command(command)
@@ -52,3 +62,9 @@ class Guard:
     def _give_up(self, reason: str) -> NoReturn:
         self._arm.command(self.holding())
         raise ControlError(reason)
+
+
+@compiled
+def are_numbers(q: Vector, dq: Vector, wrench: Vector, position: Vector) -> bool:
+    """Tell whether all of it is finite: whatever is not makes its sum of squares infinite or no number."""
+    return sum_of_squares(q) + sum_of_squares(dq) + sum_of_squares(wrench) + sum_of_squares(position) < np.inf

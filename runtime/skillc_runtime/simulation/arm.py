@@ -21,7 +21,7 @@ from skillc_runtime.robots.arm import (
 )
 from skillc_runtime.simulation import noise
 from skillc_runtime.simulation.facts import ArmFacts
-from skillc_runtime.simulation.hand import Hand
+from skillc_runtime.simulation.hand import Hand, carry, see_hand
 from skillc_runtime.simulation.names import part
 from skillc_runtime.simulation.variation import Variation
 from skillc_runtime.simulation.wrist import Wrist
@@ -80,16 +80,14 @@ class SimulatedArm:
         self._link_position, self._link_rotation = data.xpos[self._link], data.xmat[self._link].reshape(3, 3)
         self.limits = _limits(model, joints, actuator, facts)
         self.fixed_tool = _fixed_tool(model, name, gripper)
-        self._both = np.zeros((2, 3, model.nv))
-        self._both_arm = self._both[:, :, self._dofs]
+        self._motion_axes = data.cdof[self._dofs]
+        self._centre = data.subtree_com[model.body_rootid[self._link]]
         self._hand = Hand()
         self._here = _blank(count, self._hand.tool)
         self._state = _read_only(self._here)
-        self._jacobian_halves = self._here.jacobian.reshape(2, 3, count)
         self._wrench_halves = self._here.wrench.reshape(2, 3)
         self._full_mass, self._next_mass_time = np.zeros((model.nv, model.nv)), 0.0
-        self._weight, self._load, self._carrying = np.zeros(3), np.zeros(6), np.zeros(count)
-        self._lift, self._moment = self._load[:3], self._load[3:]
+        self._weight, self._carrying = np.zeros(3), np.zeros(count)
         self._flange = _in_body(model.site(part(name, "flange")))
         self._wrist = _wrist(facts, gripper, model, data, reality.seed)
         self._speed_noise = noise.of_joints(facts, reality.seed)
@@ -124,17 +122,17 @@ class SimulatedArm:
     def state(self) -> ArmState:
         """Return the present state, in the arm's base frame."""
         hand, here = self._hand, self._here
-        point = hand.place(self._link_position, self._link_rotation)
-        hand.see_from(self._base_position, self._base_rotation)
-        mujoco.mj_jac(self._model, self._data, self._both[0], self._both[1], point, self._link)
-        np.matmul(self._base_rotation.T, self._both_arm, out=self._jacobian_halves)
+        see_hand(
+            hand.in_base, here.jacobian, hand.on_link, self._motion_axes, self._centre,
+            self._link_position, self._link_rotation, self._base_position, self._base_rotation,
+        )  # fmt: skip
         if self._data.time >= self._next_mass_time:
             self._update_mass_matrix()
         here.q[:], here.dq[:], here.bias[:] = self._q, self._dq, self._bias
         if self._speed_noise is not None:
             np.add(here.dq, self._speed_noise.row(), out=here.dq)
         if self.payload.mass_kg > 0.0:
-            np.add(here.bias, self._payload_torque(), out=here.bias)
+            carry(here.bias, self._carrying, self._weight, self._base_rotation, hand.lever, here.jacobian)
         if self._wrist is not None:
             self._wrist.external(hand.wrist_axes, self._wrench_halves)
         return self._state
@@ -196,13 +194,6 @@ class SimulatedArm:
         if self._wrist is not None:
             to_sensor = self._flange.inverse()
             self._wrist.configure(to_sensor @ tool, payload.mass_kg, to_sensor.at(payload.centre))
-
-    def _payload_torque(self) -> Array:
-        """Return the joint torques (nv,) that carry the payload: J^T [w; r x w], w = -m g at r from the tool centre."""
-        np.dot(self._weight, self._base_rotation, out=self._lift)
-        mujoco.mju_cross(self._moment, self._hand.lever, self._lift)
-        np.dot(self._load, self._here.jacobian, out=self._carrying)
-        return self._carrying
 
     def _update_mass_matrix(self) -> None:
         mujoco.mj_fullM(self._model, self._data, self._full_mass)

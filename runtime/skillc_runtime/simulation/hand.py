@@ -1,37 +1,73 @@
-"""What is fixed to an arm's last link, seen from the arm's base: two products for all of it, whatever it is."""
+"""What is fixed to an arm's last link, seen from the arm's base, and how it moves with the joints."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.numerics.compiled import Matrix, OutMatrix, OutVector, Vector, compiled
+from skillc_runtime.numerics.linear import cross, product, transposed_times
+
+TOOL = 6
+"""The row of the tool centre point."""
 
 
 class Hand:
     """Tool centre point, wrist axes and payload of an arm; all arrays are reused.
 
     tool: the tool centre point; wrist_axes (3, 3): one axis a row; lever (3,): from the tool centre point to the
-    payload's centre of mass; all in the arm's base frame, as of the last call of `see_from`.
+    payload's centre of mass; all in the arm's base frame, as of the last call of `see_hand` with `on_link` and
+    `in_base`, which hold all of it, one vector a row.
     """
 
     def __init__(self) -> None:
-        self._on_link, self._in_world, self._in_base = (np.zeros((8, 3)) for _ in range(3))
-        self._point, self._way = np.zeros(3), self._in_world[6]
-        self.tool = Pose(self._in_base[6], self._in_base[:3].T)
-        self.wrist_axes, self.lever = self._in_base[3:6], self._in_base[7]
+        self.on_link, self.in_base = np.zeros((8, 3)), np.zeros((8, 3))
+        self.tool = Pose(self.in_base[TOOL], self.in_base[:3].T)
+        self.wrist_axes, self.lever = self.in_base[3:6], self.in_base[7]
 
     def hold(self, tool: Pose, wrist: Array, payload: Array) -> None:
         """Take the tool centre point, the wrist's axes (3, 3) and the payload's centre (3,), in the link's frame."""
-        self._on_link[:3], self._on_link[3:6] = tool.rotation.T, wrist.T
-        self._on_link[6], self._on_link[7] = tool.position, payload - tool.position
+        self.on_link[:3], self.on_link[3:6] = tool.rotation.T, wrist.T
+        self.on_link[TOOL], self.on_link[7] = tool.position, payload - tool.position
 
-    def place(self, position: Array, rotation: Array) -> Array:
-        """Follow the link to a place in the world; return the tool centre point (3,) there."""
-        np.dot(self._on_link, rotation.T, out=self._in_world)
-        np.add(self._way, position, out=self._point)
-        return self._point
 
-    def see_from(self, position: Array, rotation: Array) -> None:
-        """Update what is public for a base at a place in the world."""
-        np.subtract(self._point, position, out=self._way)
-        np.dot(self._in_world, rotation, out=self._in_base)
+@compiled
+def see_hand(
+    in_base: OutMatrix,
+    J: OutMatrix,
+    on_link: Matrix,
+    motion_axes: Matrix,
+    centre: Vector,
+    link_position: Vector,
+    link_rotation: Matrix,
+    base_position: Vector,
+    base_rotation: Matrix,
+) -> None:
+    """Compute, in base axes, what is on the link, and the Jacobian J (6, nv) of the tool centre point.
+
+    motion_axes (nv, 6): MuJoCo's `cdof`, [angular; linear] velocity at `centre` (3,) per joint speed, in the world.
+    With d = tool - centre and base axes a_i: a_i . (v + w x d) = a_i . v + (d x a_i) . w.
+    """
+    in_world, away, at_tool = np.empty((8, 3)), np.empty(3), np.zeros((6, 6))
+    product(on_link, link_rotation.T, in_world)
+    in_world[TOOL] += link_position
+    away[:] = in_world[TOOL] - centre
+    in_world[TOOL] -= base_position
+    product(in_world, base_rotation, in_base)
+    at_tool[:3, 3:] = base_rotation.T
+    at_tool[3:, :3] = base_rotation.T
+    for i in range(3):
+        cross(away, at_tool[i, 3:], at_tool[i, :3])
+    product(at_tool, motion_axes.T, J)
+
+
+@compiled
+def carry(
+    bias: OutVector, carrying: OutVector, weight: Vector, base_rotation: Matrix, lever: Vector, J: Matrix
+) -> None:
+    """Add to `bias` (nv,) what carries a payload: J^T [w; r x w], w = -m g, in the world, at r from the tool centre."""
+    load = np.empty(6)
+    transposed_times(base_rotation, weight, load[:3])
+    cross(lever, load[:3], load[3:])
+    transposed_times(J, load, carrying)
+    bias += carrying

@@ -9,6 +9,8 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose, skew
+from skillc_runtime.numerics.compiled import Matrix, OutMatrix, Vector, compiled
+from skillc_runtime.numerics.linear import product, times
 from skillc_runtime.simulation.names import part, wrist_sensor
 from skillc_runtime.simulation.noise import Noise
 
@@ -30,8 +32,7 @@ class Wrist:
         self._filtered, self._started = np.zeros(9), False
         self._noise = noise
         self._hand_mass, self._hand_centre = _hand(model, part(gripper, "palm"))
-        self._gain, self._wrench, self._change = np.zeros((6, 9)), np.zeros(6), np.zeros(9)
-        self._halves = self._wrench.reshape(2, 3)
+        self._gain, self._change = np.zeros((6, 9)), np.zeros(9)
 
     def configure(self, tool: Pose, payload_kg: float, payload_centre: Array) -> None:
         """Take a tool centre point and a payload with its centre of mass (3,) m, both in the sensor's frame."""
@@ -58,8 +59,15 @@ class Wrist:
 
         axes (3, 3): the sensor's axes, a row each, in the frame of the wrench. out (2, 3): [force; moment].
         """
-        np.dot(self._gain, self._filtered, out=self._wrench)
-        np.dot(self._halves, axes, out=out)
+        external_wrench(out, self._gain, self._filtered, axes)
+
+
+@compiled
+def external_wrench(out: OutMatrix, gain: Matrix, readings: Vector, axes: Matrix) -> None:
+    """out (2, 3) = (gain (6, 9) readings (9,)) along `axes` (3, 3), one a row."""
+    wrench = np.empty(6)
+    times(gain, readings, wrench)
+    product(wrench.reshape(2, 3), axes, out)
 
 
 def _hand(model: Any, palm: str) -> tuple[float, Array]:

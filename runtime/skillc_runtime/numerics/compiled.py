@@ -1,0 +1,100 @@
+"""Compiles functions over arrays where numba is installed (the extra `fast`); elsewhere they run as they are.
+
+The machine code is kept in the user's cache folder, named after the sources it was made of.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import cache
+from hashlib import sha256
+from importlib import import_module
+from importlib.util import find_spec
+from inspect import get_annotations
+from pathlib import Path
+from typing import Annotated, Any, ParamSpec, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+Vector = Annotated[NDArray[np.float64], 1, "read"]
+Matrix = Annotated[NDArray[np.float64], 2, "read"]
+OutVector = Annotated[NDArray[np.float64], 1, "written"]
+OutMatrix = Annotated[NDArray[np.float64], 2, "written"]
+"""What a compiled function takes: arrays of so many dimensions that it reads, of any layout, or writes, in C order."""
+
+Parameters = ParamSpec("Parameters")
+Result = TypeVar("Result")
+
+COMPILES: bool = os.environ.get("SKILLC_COMPILED", "1") != "0" and find_spec("numba") is not None
+"""Whether functions are compiled; SKILLC_COMPILED=0 in the environment leaves them as they are."""
+
+
+def compiled(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
+    """Compile a function for the types of its annotations, which are those above, numbers and bool.
+
+    Functions it calls are `compiled` or `part` themselves.
+    """
+    if not COMPILES:
+        return function
+    with _kept() as numba:
+        types = get_annotations(function, eval_str=True)
+        returns = _type(types.pop("return"))
+        made: Callable[Parameters, Result] = numba.njit(
+            returns(*map(_type, types.values())), cache=numba.config.CACHE_DIR != "", error_model="numpy"
+        )(function)
+    return made
+
+
+def part(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
+    """Let compiled functions call this one, compiled with them for whatever they pass."""
+    if not COMPILES:
+        return function
+    made: Callable[Parameters, Result] = import_module("numba").njit(error_model="numpy")(function)
+    return made
+
+
+def _type(annotation: Any) -> Any:
+    """Return numba's type for an annotation."""
+    types = import_module("numba").types
+    if annotation in (float, int, bool, None):
+        return {float: types.float64, int: types.int64, bool: types.boolean, None: types.void}[annotation]
+    dimensions, access = annotation.__metadata__
+    return types.Array(types.float64, dimensions, *(("A", True) if access == "read" else ("C", False)))
+
+
+@contextmanager
+def _kept() -> Iterator[Any]:
+    """Give numba with its cache in our folder; its own setting is put back afterwards."""
+    numba: Any = import_module("numba")
+    before = numba.config.CACHE_DIR
+    numba.config.CACHE_DIR = _folder()
+    try:
+        yield numba
+    finally:
+        numba.config.CACHE_DIR = before
+
+
+@cache
+def _folder() -> str:
+    """Return where machine code is kept, empty where nothing can be; say so when it has to be made first."""
+    try:
+        base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+        folder = base / "skillc" / f"laws-{_digest()}"
+        new = not folder.is_dir()
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    except (OSError, RuntimeError):
+        return ""
+    if new:
+        print("compiling the control laws, once for this version", file=sys.stderr)
+    return str(folder) if os.access(folder, os.W_OK) else ""
+
+
+def _digest() -> str:
+    """Return a name for the sources of whatever may be compiled: numba itself looks at one file at a time."""
+    runtime = Path(__file__).parent.parent
+    sources = sorted(path for path in runtime.glob("*/*.py") if b"numerics.compiled" in path.read_bytes())
+    return sha256(b"\0".join(path.read_bytes() for path in sources)).hexdigest()[:16]

@@ -1,0 +1,45 @@
+"""Linear algebra of small matrices by numpy and MuJoCo: fastest where every operation costs a call."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.motion.pose import Array
+
+
+def times(A: Array, x: Array, out: Array) -> None:
+    """out (m,) = A (m, n) x (n,)."""
+    np.dot(A, x, out=out)
+
+
+def transposed_times(A: Array, x: Array, out: Array) -> None:
+    """out (n,) = A^T x for A (m, n) and x (m,)."""
+    np.dot(x, A, out=out)
+
+
+def product(A: Array, B: Array, out: Array) -> None:
+    """out (m, n) = A (m, k) B (k, n)."""
+    np.dot(A, B, out=out)
+
+
+def cross(a: Array, b: Array, out: Array) -> None:
+    """out (3,) = a x b."""
+    mujoco.mju_cross(out, a, b)
+
+
+def cholesky(A: Array) -> None:
+    """Turn A (n, n), symmetric and positive, into its lower factor L with A = L L^T; what is above stays."""
+    mujoco.mju_cholFactor(A, 0.0)
+
+
+def cholesky_solve(L: Array, b: Array, out: Array) -> None:
+    """Solve L L^T out = b for b (n,)."""
+    mujoco.mju_cholSolve(out, L, b)
+
+
+def rotation_between(start: Array, end: Array, out: Array) -> None:
+    """out (3,) = log(end start^T): the shortest turn in rad between rotations (3, 3), along their parent's axes."""
+    quaternion = np.empty(4)
+    mujoco.mju_mat2Quat(quaternion, np.dot(end, start.T).ravel())
+    mujoco.mju_quat2Vel(out, quaternion, 1.0)

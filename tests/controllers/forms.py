@@ -1,0 +1,87 @@
+"""Prints what the laws and everything under them compute for drawn inputs, to compare their two forms."""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import replace
+
+import numpy as np
+from rig import GAINS, LAWS, ROBOTS, Bench, moved_by
+
+from skillc_runtime.controllers.virtual_arm import virtual_model
+from skillc_runtime.motion.guide import Guide
+from skillc_runtime.motion.overlays import Circle
+from skillc_runtime.motion.path import path
+from skillc_runtime.motion.pose import exp
+from skillc_runtime.motion.reference import Compliance, Reference
+from skillc_runtime.motion.segments import MotionLimits
+from skillc_runtime.robots.guard import are_numbers
+from skillc_runtime.simulation.hand import Hand, carry, see_hand
+from skillc_runtime.simulation.wrist import external_wrench
+
+
+def laws(robot: str, count: int) -> list[list[float]]:
+    """What one law commands for drawn postures, references and compliances, one after the other."""
+    chance, bench, told = np.random.default_rng(5), Bench(robot), []
+    home = bench.data.qpos.copy()
+    model = virtual_model(ROBOTS / f"{robot}.xml")
+    for step in range(count):
+        if step % 20 == 0:
+            state = bench.state()
+            law = GAINS[robot].law.laws(GAINS[robot], bench.limits, model, state, 0.001)
+            law.tool.reset(state, state.q)
+        bench.data.qpos[:] = home + chance.uniform(-0.05, 0.05, home.size)
+        bench.data.qvel[:] = chance.uniform(-0.3, 0.3, home.size)
+        state = replace(bench.state_at_rest(), wrench=chance.uniform(-20, 20, 6))
+        twist, acceleration = chance.uniform(-0.5, 0.5, (2, 6))
+        pose = moved_by(state.tool, *chance.uniform(-0.06, 0.06, 3), turn=chance.uniform(-0.3, 0.3, 3))
+        released = chance.choice([0.0, 0.01, 1.0], 6)
+        stiffness = released * np.repeat([GAINS[robot].linear_stiffness, GAINS[robot].rotational_stiffness], 3)
+        compliance = Compliance(stiffness, chance.uniform(-20, 20, 6), exp(chance.uniform(-3, 3, 3)))
+        command = law.tool.command(state, Reference(pose, twist, acceleration), compliance, 0.001)
+        told.append([*(command.tau if LAWS[robot] == "impedance" else command.q), *law.tool.contact_wrench])
+    return told
+
+
+def references(count: int) -> list[list[float]]:
+    """Where a guide's reference is on a blended, turning path, with an overlay that comes and goes."""
+    start = Bench("iiwa14").state().tool
+    corners = (moved_by(start, 0.2, 0, 0, turn=(0, 0.5, 0)), moved_by(start, 0.2, 0.1, 0, turn=(0.4, 0.5, 0.0)))
+    guide = Guide(start, 0.5)
+    guide.follow(path([start, *corners, start], MotionLimits(0.1, 0.4), 0.01), 0.0)
+    handle, found = guide.add(Circle(0.01, 1.0), exp(np.array([0.1, 0.2, 0.3])), 0.5, 0.1), []
+    for step in range(count):
+        now = 0.1 + 8.0 * step / count
+        if step == count // 2:
+            guide.remove(handle, now)
+            guide.pause(now)
+        motion = guide.sample(now)
+        found.append([*motion.pose.position, *motion.pose.rotation.ravel(), *motion.twist, *motion.acceleration])
+    return found
+
+
+def measurements(count: int) -> list[list[float]]:
+    """What an arm makes of link, base, payload and wrist readings."""
+    chance, hand, found = np.random.default_rng(6), Hand(), []
+    for _ in range(count):
+        hand.on_link[:] = chance.uniform(-1, 1, (8, 3))
+        J, (bias, carrying), wrench = np.zeros((6, 7)), np.zeros((2, 7)), np.zeros((2, 3))
+        link, base = exp(chance.uniform(-3, 3, 3)), exp(chance.uniform(-3, 3, 3))
+        axes, (centre, position, origin, weight) = chance.uniform(-1, 1, (7, 6)), chance.uniform(-1, 1, (4, 3))
+        see_hand(hand.in_base, J, hand.on_link, axes, centre, position, link, origin, base)
+        carry(bias, carrying, weight, base, hand.lever, J)
+        external_wrench(wrench, chance.uniform(-1, 1, (6, 9)), chance.uniform(-20, 20, 9), hand.wrist_axes)
+        numbers = are_numbers(bias, bias, bias, position), are_numbers(bias, bias, bias * np.nan, position)
+        found.append([*hand.in_base.ravel(), *J.ravel(), *bias, *wrench.ravel(), *map(float, numbers)])
+    return found
+
+
+def everything(count: int) -> dict[str, list[list[float]]]:
+    """All of it, a row for each input."""
+    results = {robot: laws(robot, count) for robot in LAWS}
+    return {**results, "references": references(count), "measurements": measurements(count)}
+
+
+if __name__ == "__main__":
+    json.dump(everything(int(sys.argv[1])), sys.stdout)
