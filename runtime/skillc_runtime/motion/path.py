@@ -1,4 +1,4 @@
-"""A path through poses: straight segments whose ends overlap in time, so that corners are cut by a bounded distance.
+"""A path through poses: lines and arcs whose ends overlap in time, so that corners are cut by a bounded distance.
 
 Overlapping displacements add up: x_d = x_0 + sum s_i(t - t0_i) u_i. Rotations compose on the left in the same order.
 Two neighbours overlap by min(fall_i, rise_(i+1), sqrt(8 blend / (a |u_(i+1) - u_i|))), which keeps the corner within
@@ -15,6 +15,7 @@ from math import sqrt
 
 import numpy as np
 
+from skillc_runtime.motion.arc import Arc
 from skillc_runtime.motion.pose import Array, Pose, exp, skew
 from skillc_runtime.motion.reference import Reference, at_rest
 from skillc_runtime.motion.segments import MotionLimits, Segment, segment
@@ -25,7 +26,7 @@ class Path:
     """Segments with their start times in s; `corners[i]` is the pose where segment i would start without blending."""
 
     corners: tuple[Pose, ...]
-    segments: tuple[Segment, ...]
+    segments: tuple[Segment | Arc, ...]
     starts: tuple[float, ...]
 
     @property
@@ -77,13 +78,19 @@ def path(poses: Sequence[Pose], limits: MotionLimits, blend_m: float = 0.0) -> P
     if not poses or blend_m < 0:
         raise ValueError("a path needs a start and a blend of at least 0 m")
     corners = _without_repetition(poses)
-    segments = tuple(segment(start, end, limits) for start, end in pairwise(corners))
+    return joined(corners, [segment(start, end, limits) for start, end in pairwise(corners)], limits, blend_m)
+
+
+def joined(
+    corners: Sequence[Pose], pieces: Sequence[Segment | Arc], limits: MotionLimits, blend_m: float = 0.0
+) -> Path:
+    """Return lines and arcs, one from each corner to the next, as one path; corners are cut by at most `blend_m`."""
     starts, time = [], 0.0
-    for i, piece in enumerate(segments):
+    for i, piece in enumerate(pieces):
         starts.append(time)
-        if i + 1 < len(segments):
-            time += piece.duration - _overlap(piece, segments[i + 1], limits.acceleration, blend_m)
-    return Path(tuple(corners), segments, tuple(starts))
+        if i + 1 < len(pieces):
+            time += piece.duration - _overlap(piece, pieces[i + 1], limits.acceleration, blend_m)
+    return Path(tuple(corners), tuple(pieces), tuple(starts))
 
 
 def _without_repetition(poses: Sequence[Pose]) -> list[Pose]:
@@ -96,8 +103,13 @@ def _without_repetition(poses: Sequence[Pose]) -> list[Pose]:
     return corners
 
 
-def _overlap(before: Segment, after: Segment, acceleration: float, blend_m: float) -> float:
-    """Return how many seconds `after` starts before `before` has ended."""
-    turn = float(np.linalg.norm(after.axes[0] - before.axes[0]))
+def _overlap(before: Segment | Arc, after: Segment | Arc, acceleration: float, blend_m: float) -> float:
+    """Return how many seconds `after` starts before `before` has ended.
+
+    Where one of them bends, the corner is cut by no more than half an overlap leads away from it: a (t/2)^2 / 2.
+    """
+    turn = float(np.linalg.norm(after.leaving - before.arriving))
+    if isinstance(before, Arc) or isinstance(after, Arc):
+        turn = max(turn, 1.0)
     longest = min(before.fall, after.rise)
     return min(longest, sqrt(8 * blend_m / (acceleration * turn))) if turn > 1e-9 else longest * (blend_m > 0)

@@ -3,21 +3,33 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose, log
 from skillc_runtime.motion.profile import Profile, trapezoid
+from skillc_runtime.motion.smooth import Smooth, smoothed, window_for
 
 
 @dataclass(frozen=True, slots=True)
 class MotionLimits:
-    """How fast a planned motion may be: m/s, m/s^2, rad/s, rad/s^2."""
+    """How fast a planned motion may be: m/s, m/s^2, rad/s, rad/s^2, m/s^3, rad/s^3; without end unless stated.
+
+    Where motions are blended, acceleration and jerk of both add up.
+    """
 
     speed: float
     acceleration: float
     turn_speed: float = 0.8
     turn_acceleration: float = 2.0
+    jerk: float = inf
+    turn_jerk: float = inf
+
+    @property
+    def window(self) -> float:
+        """Seconds over which motions are averaged so that their jerk stays within limits."""
+        return max(window_for(self.acceleration, self.jerk), window_for(self.turn_acceleration, self.turn_jerk))
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,8 +39,8 @@ class Segment:
     axes (2, 6): [direction, 0] of the displacement and [0, axis] of the turn, unit vectors in the parent frame or zero.
     """
 
-    way: Profile
-    turn: Profile
+    way: Profile | Smooth
+    turn: Profile | Smooth
     axes: Array
 
     @property
@@ -45,6 +57,16 @@ class Segment:
     def fall(self) -> float:
         """Seconds in which whatever moves is decelerating."""
         return min((part.fall for part in (self.way, self.turn) if part.length > 0), default=0.0)
+
+    @property
+    def leaving(self) -> Array:
+        """The unit vector (3,) in which it starts; zero for a turn on the spot."""
+        return self.axes[0, :3]
+
+    @property
+    def arriving(self) -> Array:
+        """The unit vector (3,) in which it ends."""
+        return self.axes[0, :3]
 
     def at(self, time: float) -> Array:
         """Return way, twist and acceleration (3, 6), [linear; angular], `time` s after the start."""
@@ -66,7 +88,8 @@ def segment(start: Pose, end: Pose, limits: MotionLimits) -> Segment:
     turn = trapezoid(angle, limits.turn_speed, limits.turn_acceleration)
     duration = max(way.duration, turn.duration)
     axes = np.array([[*direction, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, *axis]])
-    return Segment(way.stretched(duration), turn.stretched(duration), axes)
+    window = limits.window
+    return Segment(smoothed(way.stretched(duration), window), smoothed(turn.stretched(duration), window), axes)
 
 
 def _unit(vector: Array) -> tuple[Array, float]:

@@ -1,0 +1,122 @@
+"""One circular piece of motion between two poses, translation and rotation starting and ending together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import atan2, cos, pi, sin, sqrt
+
+import numpy as np
+
+from skillc_runtime.motion.pose import Array, Pose, log
+from skillc_runtime.motion.profile import Profile, trapezoid
+from skillc_runtime.motion.segments import MotionLimits
+from skillc_runtime.motion.smooth import Smooth, smoothed
+
+STRAIGHT = 1e-6
+"""Sine below which three points count as lying on a line."""
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """A way along a circle and a turn about a fixed axis; all vectors in the parent frame.
+
+    spoke (3,) m: from the centre to the start; across (3,) m: the spoke turned by a right angle towards the end;
+    axis (3,): unit vector of the turn, or zero.
+    """
+
+    way: Profile | Smooth
+    turn: Profile | Smooth
+    spoke: Array
+    across: Array
+    axis: Array
+
+    @property
+    def radius(self) -> float:
+        """The circle's, in m."""
+        return float(np.linalg.norm(self.spoke))
+
+    @property
+    def duration(self) -> float:
+        """Seconds from rest to rest."""
+        return max(self.way.duration, self.turn.duration)
+
+    @property
+    def rise(self) -> float:
+        """Seconds in which whatever moves is accelerating."""
+        return min(part.rise for part in (self.way, self.turn) if part.length > 0)
+
+    @property
+    def fall(self) -> float:
+        """Seconds in which whatever moves is decelerating."""
+        return min(part.fall for part in (self.way, self.turn) if part.length > 0)
+
+    @property
+    def leaving(self) -> Array:
+        """The unit vector (3,) in which it starts."""
+        return self.across / self.radius
+
+    @property
+    def arriving(self) -> Array:
+        """The unit vector (3,) in which it ends."""
+        angle = self.way.length / self.radius
+        return (cos(angle) * self.across - sin(angle) * self.spoke) / self.radius
+
+    def at(self, time: float) -> Array:
+        """Return way, twist and acceleration (3, 6), [linear; angular], `time` s after the start."""
+        angle, rate, change = (part / self.radius for part in self.way.at(time))
+        c, s = cos(angle), sin(angle)
+        along, inward = c * self.across - s * self.spoke, -c * self.spoke - s * self.across
+        motion = np.zeros((3, 6))
+        motion[0, :3] = s * self.across + (c - 1) * self.spoke
+        motion[1, :3] = rate * along
+        motion[2, :3] = change * along + rate * rate * inward
+        motion[:, 3:] = np.multiply.outer(self.turn.at(time), self.axis)
+        return motion
+
+    def moved(self, frame: Pose) -> Arc:
+        """Return the same motion, given in `frame`, in the frame's parent."""
+        R = frame.rotation
+        return Arc(self.way, self.turn, R @ self.spoke, R @ self.across, R @ self.axis)
+
+
+def arc_through(start: Pose, via: Array, end: Pose, limits: MotionLimits) -> Arc:
+    """Return the motion from a pose to another along the circle through a point `via` (3,) m between them.
+
+    ValueError where the three points lie on a line or coincide.
+    """
+    one, other = via - start.position, end.position - start.position
+    normal = np.cross(one, other)
+    size = float(np.linalg.norm(normal))
+    if size <= STRAIGHT * float(np.linalg.norm(one)) * float(np.linalg.norm(other)) or size == 0:
+        raise ValueError("three points on a line make no circle")
+    to_centre = np.cross(one @ one * other - other @ other * one, normal) / (2 * size**2)
+    return arc_around(
+        start, start.position + to_centre, normal / size, _angle(-to_centre, other, normal / size), end, limits
+    )
+
+
+def arc_around(start: Pose, centre: Array, normal: Array, angle: float, end: Pose, limits: MotionLimits) -> Arc:
+    """Return the motion around a centre (3,) m by `angle` > 0 rad about a unit normal (3,); `end` tells the rotation.
+
+    ValueError where the start is the centre. The tool slows down for the pull towards the centre to stay within limits.
+    """
+    spoke = start.position - centre
+    spoke = spoke - (spoke @ normal) * normal
+    radius = float(np.linalg.norm(spoke))
+    if radius < 1e-9 or angle <= 0:
+        raise ValueError(f"an arc needs a radius and an angle above 0: {radius:g} m, {angle:g} rad")
+    rotation = log(end.rotation @ start.rotation.T)
+    turned = float(np.linalg.norm(rotation))
+    acceleration = limits.acceleration / sqrt(2)
+    way = trapezoid(radius * angle, min(limits.speed, sqrt(acceleration * radius)), acceleration)
+    turn = trapezoid(turned, limits.turn_speed, limits.turn_acceleration)
+    duration, window = max(way.duration, turn.duration), limits.window
+    axis = rotation / turned if turned > 1e-9 else np.zeros(3)
+    moving, turning = smoothed(way.stretched(duration), window), smoothed(turn.stretched(duration), window)
+    return Arc(moving, turning, spoke, np.cross(normal, spoke), axis)
+
+
+def _angle(spoke: Array, chord: Array, normal: Array) -> float:
+    """Return the angle in rad, 0 to 2 pi, about the normal from a spoke to that at the end of a chord from it."""
+    end = spoke + chord
+    return atan2(float(np.cross(spoke, end) @ normal), float(spoke @ end)) % (2 * pi)

@@ -1,0 +1,79 @@
+"""A profile whose acceleration changes evenly instead of jumping: the trapezoid, averaged over a window of time.
+
+s_w(t) = 1/w int_(t-w)^t s;  v_w = (s(t) - s(t-w)) / w;  a_w = (v(t) - v(t-w)) / w;  jerk <= 2 a / w.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isinf
+
+from skillc_runtime.motion.profile import Profile
+
+
+@dataclass(frozen=True, slots=True)
+class Smooth:
+    """A profile averaged over a window in s, by which it lasts longer; speed and acceleration do not grow.
+
+    Rise and fall are half of the time each where it does not cruise.
+    """
+
+    profile: Profile
+    window: float
+
+    @property
+    def length(self) -> float:
+        """The way in m or rad."""
+        return self.profile.length
+
+    @property
+    def rise(self) -> float:
+        """Seconds until it cruises."""
+        return min(self.profile.rise + self.window, self.duration / 2) if self.length > 0 else 0.0
+
+    @property
+    def fall(self) -> float:
+        """Seconds from cruising to rest."""
+        return min(self.profile.fall + self.window, self.duration / 2) if self.length > 0 else 0.0
+
+    @property
+    def duration(self) -> float:
+        """Seconds from rest to rest; 0 for no length."""
+        return self.profile.duration + self.window if self.length > 0 else 0.0
+
+    def at(self, time: float) -> tuple[float, float, float]:
+        """Return place, speed and acceleration at `time` s."""
+        if time >= self.duration:
+            return self.length, 0.0, 0.0
+        now, before = self.profile.at(time), self.profile.at(time - self.window)
+        way = (_area(self.profile, time) - _area(self.profile, time - self.window)) / self.window
+        return way, (now[0] - before[0]) / self.window, (now[1] - before[1]) / self.window
+
+
+def smoothed(profile: Profile, window: float) -> Profile | Smooth:
+    """Return the profile averaged over `window` s >= 0."""
+    return Smooth(profile, window) if window > 0 and profile.length > 0 else profile
+
+
+def window_for(acceleration: float, jerk: float) -> float:
+    """Return the window in s that keeps the jerk below a limit > 0, which may be infinite."""
+    if jerk <= 0:
+        raise ValueError(f"a jerk must be above 0, not {jerk:g}")
+    return 0.0 if isinf(jerk) else 2 * acceleration / jerk
+
+
+def _area(profile: Profile, time: float) -> float:
+    """Return the integral of the way until `time` s."""
+    if time <= 0:
+        return 0.0
+    speed, end = profile.rate * profile.peak, profile.duration
+    rise, fall = profile.rise, profile.fall
+    if time < rise:
+        return speed / rise * time**3 / 6
+    cruised = min(time, end - fall) - rise
+    area = speed * (rise * rise / 6 + rise * cruised / 2 + cruised * cruised / 2)
+    if time <= end - fall:
+        return area
+    left = max(end - time, 0.0)
+    braked = profile.length * (fall - left) - speed / fall * (fall**3 - left**3) / 6
+    return area + braked + profile.length * max(time - end, 0.0)
