@@ -43,8 +43,8 @@ def release(there: SimulatedCell, scene: str) -> Release:
 @pytest.mark.parametrize("scene", SCENES)
 def test_a_grasped_eraser_is_lifted_and_let_go(scene: str) -> None:
     there = at_the_eraser(scene)
-    lying = eraser_height(there)
     reach_for_eraser(there, scene)
+    lying = eraser_height(there)
     assert there.gripper(GRIPPER[scene]).touches(ERASER)
     assert there.gripper(GRIPPER[scene]).opening_m == pytest.approx(0.025, abs=0.003)
     grasp(there, scene)

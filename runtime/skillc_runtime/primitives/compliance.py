@@ -27,10 +27,10 @@ RAMP_S = 0.4
 REST_S = 0.3
 """Time after aligning in which springs and reference settle."""
 
-FLUSH_RAD, FLUSH_S = 0.001, 1.0
+FLUSH_RAD, FLUSH_S = 0.0008, 2.0
 """A tool that is turned, in one half of this time, by less than this from the other, lies flush; noise averages out."""
 
-LEAST_ALIGN_S = 1.5
+LEAST_ALIGN_S = 2.5
 """Before that, a tool that hardly turns may just be starting."""
 
 
