@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import ceil
+from typing import Literal, TypeAlias, assert_never
 
 import numpy as np
 
@@ -16,24 +17,46 @@ corners are cut as well. More would let the tool hang over the edge, which it th
 """
 
 
-def lanes(surface: Array, tool: Array, overlap: float, overhang: tuple[float, float] = OVERHANG_M) -> list[Pose]:
+Direction: TypeAlias = Literal["longer", "x", "y"]
+"""Along which side of a surface lanes run."""
+
+
+def lanes(
+    surface: Array,
+    tool: Array,
+    overlap: float,
+    overhang: tuple[float, float] = OVERHANG_M,
+    direction: Direction = "longer",
+) -> list[Pose]:
     """Return the two ends of each lane in the surface frame: origin in the middle, z the outward normal.
 
-    surface (2,), tool (2,): sizes in m, the tool's first one along the lane. Lanes run along the longer side.
+    surface (2,), tool (2,): sizes in m, the tool's first one along the lane.
     overlap: share of the tool's width that neighbours have in common, 0 .. 0.9. The tool's x points along the
     lane, its z into the surface; it does not turn between lanes. Raises ValueError for sizes that are not positive.
     """
     if min(*surface[:2], *tool[:2]) <= 0 or not 0 <= overlap <= 0.9:
         raise ValueError(f"lanes need positive sizes and an overlap of 0 to 0.9: {surface}, {tool}, {overlap}")
-    longer = 0 if surface[0] >= surface[1] else 1
-    half_length = max(float(surface[longer]) / 2 - (float(tool[0]) / 2 - overhang[0]), 0.0)
-    half_width = max(float(surface[1 - longer]) / 2 - (float(tool[1]) / 2 - overhang[1]), 0.0)
+    side = _side(surface, direction)
+    half_length = max(float(surface[side]) / 2 - (float(tool[0]) / 2 - overhang[0]), 0.0)
+    half_width = max(float(surface[1 - side]) / 2 - (float(tool[1]) / 2 - overhang[1]), 0.0)
     pitch = float(tool[1]) * (1 - overlap)
     count = ceil(2 * half_width / pitch - 1e-9) + 1
-    along, across = np.eye(3)[longer], np.eye(3)[1 - longer]
+    along, across = np.eye(3)[side], np.eye(3)[1 - side]
     rotation = np.column_stack([along, np.cross([0.0, 0.0, -1.0], along), [0.0, 0.0, -1.0]])
     ends: list[Pose] = []
     for i, offset in enumerate(np.linspace(-half_width, half_width, count) if count > 1 else [0.0]):
         way = half_length if i % 2 else -half_length
-        ends += [Pose(offset * across + side * way * along, rotation) for side in (1, -1)]
+        ends += [Pose(offset * across + end * way * along, rotation) for end in (1, -1)]
     return ends
+
+
+def _side(surface: Array, direction: Direction) -> int:
+    match direction:
+        case "longer":
+            return 0 if surface[0] >= surface[1] else 1
+        case "x":
+            return 0
+        case "y":
+            return 1
+        case _:
+            assert_never(direction)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.robots.feasible import Infeasible
 
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
@@ -26,7 +27,10 @@ class ArmMotion(Primitive):
     def start(self) -> None:
         """Go, unless the arm has a fault that nobody has been told of yet."""
         raise_fault(self.arm)
-        self.go()
+        try:
+            self.go()
+        except Infeasible as why:
+            raise SkillFailure(str(why)) from why
 
     def go(self) -> None:
         """Give the motion to the arm; SkillFailure before anything moves."""

@@ -28,9 +28,6 @@ from skillc_runtime.robots.tool_task import ToolTask
 JOINT_RAMP_S = 0.5
 """Seconds in which a joint motion reaches its full speed."""
 
-STILL_RAD_S = 0.03
-"""Joints slower than this rest; the noise of a force sensor alone moves those of a compliant arm with 0.02 rad/s."""
-
 TOOL_JUMP_M_S = 3.0
 """No tool moves this fast; one that seems to was moved on the hand."""
 
@@ -184,7 +181,7 @@ class ArmDriver(Measured):
     def at_rest(self) -> bool:
         """Whether nothing moves or pushes any more: neither the reference nor what skills want, nor the arm."""
         still = (self._joints or self._tool.guide).at_rest(self._now) and not self._tool.yielding.pushing
-        return still and bool(np.abs(self._state.dq).max() < STILL_RAD_S)
+        return still and self.still
 
     @property
     def behind(self) -> str | None:
@@ -195,9 +192,13 @@ class ArmDriver(Measured):
         return self._tool.behind(self._state, self._now)
 
     def move_along(self, trajectory: Trajectory) -> None:
-        """Move the tool along a trajectory, which must start at `anchor`; ValueError where it does not."""
+        """Move the tool along a trajectory, which must start at `anchor`, more slowly where a joint would be too fast.
+
+        ValueError where it does not start there; Infeasible where the arm cannot follow.
+        """
         self._move_tool()
-        self._tool.guide.follow(trajectory.moved(self._base().inverse()), self._now)
+        q, local = self._laws.joints_now(self._state), trajectory.moved(self._base().inverse())
+        self._tool.guide.follow(self._reach.feasible(local, q, self.limits, self._state), self._now)
 
     def move_joints(self, goal: Array, share: float) -> None:
         """Move the joints to `goal` (nv,) with a share, above 0 to 1, of their greatest speeds."""

@@ -35,20 +35,21 @@ def _descend(arm: VirtualArm, target: Pose, start: Array, seed: Array, limits: A
     q = np.clip(start, limits[:, 0], limits[:, 1])
     for _ in range(STEPS):
         arm.move(q)
-        error = _error(arm.tool, target)
+        error = turned_and_moved(arm.tool, target)
         if np.abs(error[:3]).max() < CLOSE_M and np.abs(error[3:]).max() < CLOSE_RAD:
             return _unwound(q, seed, limits)
-        step = _step(arm.jacobian, error, PULL * (seed - q))
+        step = step_towards(arm.jacobian, error, PULL * (seed - q))
         longest = float(np.abs(step).max())
         q = np.clip(q + step * min(1.0, LONGEST_STEP_RAD / longest), limits[:, 0], limits[:, 1])
     return None
 
 
-def _error(tool: Pose, target: Pose) -> Array:
+def turned_and_moved(tool: Pose, target: Pose) -> Array:
+    """Return what leads a tool to its target: way and turn (6,) in m and rad."""
     return np.concatenate([target.position - tool.position, log(target.rotation @ tool.rotation.T)])
 
 
-def _step(J: Array, error: Array, pull: Array) -> Array:
+def step_towards(J: Array, error: Array, pull: Array) -> Array:
     """dq = J^T (J J^T + lam^2 I)^-1 (e - J p) + p, lam falling with the error; p: where the posture is pulled."""
     damping = 1e-9 + 1e-2 * float(error @ error)
     gram = J @ J.T + damping * np.eye(6)

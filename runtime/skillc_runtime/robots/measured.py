@@ -12,6 +12,9 @@ from skillc_runtime.robots.arm import ArmState
 NEAR_JOINT_RAD = 0.02
 """How far a joint may be from its reference to count as there."""
 
+STILL_RAD_S = 0.03
+"""Joints slower than this rest; the noise of a force sensor alone moves those of a compliant arm with 0.02 rad/s."""
+
 
 class Measured:
     """The last state of an arm, in world axes, SI units; `base` tells where the arm stands."""
@@ -33,6 +36,11 @@ class Measured:
     def q(self) -> Array:
         """The measured joints (nv,) in rad."""
         return self._state.q.copy()
+
+    @property
+    def still(self) -> bool:
+        """Whether no joint moves."""
+        return bool(np.abs(self._state.dq).max() < STILL_RAD_S)
 
     def at_joints(self, q: Array) -> bool:
         """Tell whether the joints are measured to be at q (nv,)."""
