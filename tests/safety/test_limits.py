@@ -9,6 +9,7 @@ from safety.test_faults import is_safe
 from simulation.cells import ARM, GRIPPER, LAB, SCENES, cell, run, world
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.move import MoveLinear
+from skillc_runtime.primitives.overlay import OverlayCircle
 from skillc_runtime.primitives.primitive import SkillFailure
 from skillc_runtime.robots.driver import ArmDriver
 from skillc_runtime.robots.safety import Box
@@ -80,6 +81,13 @@ def test_a_tool_that_is_too_fast_is_stopped(scene: str) -> None:
     with pytest.raises(SkillFailure, match=r"moves with 0\.1\d m/s, beyond the 0\.1 m/s"):
         run(there, MoveLinear(there, arm=ARM[scene], target=moved(arm, 0.0, 0.0, -0.1), speed=0.3))
     is_safe(there, scene)
+
+
+def test_an_overlay_that_is_too_fast_is_refused() -> None:
+    there = cell("iiwa_table")
+    circle = OverlayCircle(there, arm=ARM["iiwa_table"], plane=np.array([0.0, 0.0, 1.0]), radius=0.05, rate=2.0)
+    with pytest.raises(SkillFailure, match=r"50 mm at 2 Hz runs with 0\.63 m/s, faster than the 0\.5 m/s"):
+        circle.start()
 
 
 @pytest.mark.parametrize("scene", SCENES)

@@ -20,6 +20,11 @@ class Circle:
     radius: float
     rate: float
 
+    @property
+    def speed(self) -> float:
+        """With how many m/s it is run."""
+        return 2 * pi * self.radius * self.rate
+
     def at(self, time: float) -> Array:
         """Return offset, velocity and acceleration (3, 3)."""
         w = 2 * pi * self.rate

@@ -8,7 +8,7 @@ import numpy as np
 
 from skillc_runtime.motion.overlays import Circle
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.primitives.primitive import Primitive, Status
+from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
@@ -26,7 +26,12 @@ class OverlayCircle(Primitive):
         self._handle = 0
 
     def start(self) -> None:
-        """Begin, growing from nothing."""
+        """Begin, growing from nothing; SkillFailure where the circle is faster than the arm allows."""
+        if self._circle.speed > self.arm.gains.speed_limit:
+            raise SkillFailure(
+                f"a circle of {1000 * self._circle.radius:g} mm at {self._circle.rate:g} Hz runs with "
+                f"{self._circle.speed:.2f} m/s, faster than the {self.arm.gains.speed_limit:g} m/s the arm allows"
+            )
         self._handle = self.arm.add_overlay(self._circle, axes_across(self._plane), FADE_S)
 
     def tick(self) -> Status:
