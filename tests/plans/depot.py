@@ -69,6 +69,9 @@ class Depot:
     watchdog: Watchdog = field(default_factory=Watchdog)
     log: list[str] = field(default_factory=list)
 
+    def secure(self) -> None:
+        """Have nothing that moves."""
+
     def advance(self, seconds: float) -> None:
         """Let time pass."""
         self.now += seconds
