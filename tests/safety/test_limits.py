@@ -83,6 +83,23 @@ def test_a_tool_that_is_too_fast_is_stopped(scene: str) -> None:
     is_safe(there, scene)
 
 
+@pytest.mark.parametrize("scene", SCENES)
+def test_joints_go_more_slowly_where_the_tool_would_be_too_fast(scene: str) -> None:
+    sheet = next(iter(world(scene).objects(ARM[scene], HAS_SHEET)))
+    there = cell_with(scene, [SetProperty(sheet, TOOL_SPEED_LIMIT, 0.4)])
+    arm, fastest = there.arm(ARM[scene]), 0.0
+    goal = arm.q + 0.4
+    arm.move_joints(goal, 1.0)
+    for _ in range(400):
+        there.advance(0.01)
+        fastest = max(fastest, float(np.linalg.norm(arm.velocity[:3])))
+        if arm.done:
+            break
+    assert arm.fault is None
+    assert arm.at_joints(goal)
+    assert 0.25 < fastest < 0.4
+
+
 def test_an_overlay_that_is_too_fast_is_refused() -> None:
     there = cell("iiwa_table")
     circle = OverlayCircle(there, arm=ARM["iiwa_table"], plane=np.array([0.0, 0.0, 1.0]), radius=0.05, rate=2.0)

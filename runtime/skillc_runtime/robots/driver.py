@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import dist
-from typing import TypeAlias
 
 import mujoco
 import numpy as np
@@ -20,7 +19,7 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
 from skillc_runtime.robots.arm import Arm, ArmLimits, ArmState, Command
 from skillc_runtime.robots.guard import Guard
-from skillc_runtime.robots.measured import NEAR_JOINT_RAD, Measured
+from skillc_runtime.robots.measured import NEAR_JOINT_RAD, Measured, Observer
 from skillc_runtime.robots.reach import Reach
 from skillc_runtime.robots.safety import SafetyLimits
 from skillc_runtime.robots.tool_task import ToolTask
@@ -30,9 +29,6 @@ JOINT_RAMP_S = 0.5
 
 TOOL_JUMP_M_S = 3.0
 """No tool moves this fast; one that seems to was moved on the hand."""
-
-Observer: TypeAlias = Callable[[ArmState], None]
-"""Sees what was measured, in the arm's base frame, after every control period."""
 
 
 class ArmDriver(Measured):
@@ -201,9 +197,11 @@ class ArmDriver(Measured):
         self._tool.guide.follow(self._reach.feasible(local, q, self.limits, self._state), self._now)
 
     def move_joints(self, goal: Array, share: float) -> None:
-        """Move the joints to `goal` (nv,) with a share, above 0 to 1, of their greatest speeds."""
-        speed, joints = share * self.limits.velocity, self._move_joints()
-        joints.follow(joint_motion(joints.anchor(self._now), goal, speed, speed / JOINT_RAMP_S), self._now)
+        """Move the joints to `goal` (nv,) with a share, above 0 to 1, of their greatest speeds, or the tool's."""
+        joints = self._move_joints()
+        start, most = joints.anchor(self._now), self._guard.limits.tool_speed_m_s
+        speed = self._reach.calmed(start, goal, share * self.limits.velocity, most, self._state)
+        joints.follow(joint_motion(start, goal, speed, speed / JOINT_RAMP_S), self._now)
 
     def stop(self) -> None:
         """Come to rest within the acceleration limit; compliance, push and overlays stay."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TypeAlias
 
 import numpy as np
 
@@ -14,6 +15,9 @@ NEAR_JOINT_RAD = 0.02
 
 STILL_RAD_S = 0.03
 """Joints slower than this rest; the noise of a force sensor alone moves those of a compliant arm with 0.02 rad/s."""
+
+Observer: TypeAlias = Callable[[ArmState], None]
+"""Sees what was measured, in the arm's base frame, after every control period."""
 
 
 class Measured:

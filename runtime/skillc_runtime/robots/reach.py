@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import mujoco
+import numpy as np
 
 from skillc_runtime.controllers.virtual_arm import VirtualArm
 from skillc_runtime.motion.pose import Array, Pose
@@ -10,6 +11,9 @@ from skillc_runtime.motion.reference import Trajectory
 from skillc_runtime.robots.arm import ArmLimits, ArmState
 from skillc_runtime.robots.feasible import feasible
 from skillc_runtime.robots.inverse import inverse
+
+LOOKS, CALM = 20, 0.85
+"""How often a joint motion is looked at for its tool's speed, and which share of the limit that may be."""
 
 
 class Reach:
@@ -28,6 +32,16 @@ class Reach:
         """Return a motion from joints q (nv,), slowed where a joint would be too fast; Infeasible where none fits."""
         self._arm.mount(state.q, state.tool)
         return feasible(self._arm, trajectory, q, limits)
+
+    def calmed(self, start: Array, goal: Array, speed: Array, most_m_s: float, state: ArmState) -> Array:
+        """Return joint speeds (nv,), lowered alike, with which a joint motion keeps the tool below a speed."""
+        change, fastest = goal - start, 0.0
+        way = np.maximum(np.abs(change), 1e-12)
+        self._arm.mount(state.q, state.tool)
+        for share in np.linspace(0.0, 1.0, LOOKS):
+            self._arm.move(start + share * change)
+            fastest = max(fastest, float(np.linalg.norm(self._arm.jacobian[:3] @ change)))
+        return speed * min(1.0, CALM * most_m_s / max(fastest * float((speed / way).min()), 1e-12))
 
     def joints_for(self, target: Pose, seed: Array, limits: Array, state: ArmState) -> Array | None:
         """Return joints (nv,) within limits (nv, 2) that put the tool at `target`, near `seed`; or None."""
