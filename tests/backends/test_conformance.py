@@ -16,7 +16,13 @@ from skillc_runtime.robots.arm import JointPosition, Mode, ModeRefused, Torque
 LIMITS = MotionLimits(speed=0.2, acceleration=0.5)
 
 
-@pytest.fixture(params=sorted(BACKENDS))
+def _backends() -> list[object]:
+    """Return all of them; one of each mode is fast, the others belong to the simulations."""
+    fast = ("mujoco iiwa14", "mujoco ur5e")
+    return [pytest.param(name, marks=() if name in fast else pytest.mark.sim) for name in sorted(BACKENDS)]
+
+
+@pytest.fixture(params=_backends())
 def backend(request: pytest.FixtureRequest) -> Backend:
     made = BACKENDS[request.param]()
     made.driver.hold_position()
