@@ -61,6 +61,35 @@ def test_a_plan_that_may_not_be_the_shortest_is_labelled_and_with_a_proof_the_sc
     assert narrow.at_least_s <= proven.plan.duration_s < narrow.plan.duration_s
 
 
+def test_a_small_scene_is_widened_until_the_plan_is_proven() -> None:
+    quick = msgspec.structs.replace(PICK, duration=PropertyOf(Variable("object"), iri("weight")))
+    wipers = range(8)
+    light = CROWD.changed(
+        [
+            *(individual(f"wiper-{n}", "Eraser") for n in wipers),
+            *(fact("dock", "contain", f"wiper-{n}") for n in wipers),
+            *(assign(f"wiper-{n}", "weight", 1.9 if n < 7 else 0.2) for n in wipers),
+        ]
+    )
+    skills, things = library(DRIVE, quick, CLEAN), len(light.individuals)
+    proven = solve(skills, light, CLEANED, (AStar(),), breadth=Breadth(10, 2, things))
+    assert isinstance(proven, Solved) and proven.optimal == "proven"
+    assert proven.plan.duration_s == pytest.approx(0.2 + 12 + 40)
+    larger = solve(skills, light, CLEANED, (AStar(),), breadth=Breadth(10, 2, 10))
+    assert isinstance(larger, Solved) and larger.optimal == "optimal for the filtered problem"
+
+
+def test_a_stand_in_has_what_one_of_those_has_whom_it_stands_for() -> None:
+    narrow = pose_problem(WIPING, HEAVY.changed([assign("board", "isClean", True)]), CLEANED, (), SMALL)
+    assert narrow.narrowed and narrow.things == len(narrow.problem.objects) + len(
+        next(each for each in narrow.left_out if not each.harmless).what
+    )
+    bound = relaxed_scene(narrow, CROWD)
+    assert bound is not None
+    (other,) = {each.name for each in bound.objects} & {each for each in bound.names if "location" in each}
+    assert any(other in each.terms and "contain" in each.predicate for each in bound.init)
+
+
 def test_that_a_large_scene_has_no_plan_is_proved_from_a_part_and_said_of_the_whole() -> None:
     result = solve(WIPING, HEAVY, CLEANED, (AStar(),), breadth=SMALL)
     assert isinstance(result, Unsolvable)

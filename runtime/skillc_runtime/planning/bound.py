@@ -11,8 +11,7 @@ What an axiom forbids is used to come closer: an assertion of a functional relat
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import product
 from math import prod
 from typing import assert_never
@@ -62,15 +61,14 @@ def relaxed_scene(posed: Posed, state: WorldState) -> Problem | None:
 class _StandIns:
     def __init__(self, posed: Posed, state: WorldState) -> None:
         self._posed, self._state = posed, state
-        by_type: dict[str, list[str]] = defaultdict(list)
-        for iri, type_ in sorted(posed.others.items()):
-            by_type[type_].append(iri)
         taken = {*posed.problem.names, *posed.problem.domain.names}
-        self._typed = tuple(Typed(fresh(f"other-{type_}", taken), type_) for type_ in sorted(by_type))
-        self._members = {each.name: by_type[each.type] for each in self._typed}
+        self._typed = tuple(Typed(fresh(f"other-{type_}", taken), type_) for type_ in sorted(posed.others))
+        self._members = {each.name: posed.others[each.type] for each in self._typed}
         self._objects = tuple(sorted((*posed.problem.objects, *self._typed), key=lambda each: each.name))
-        kept = {iri: name for name, iri in posed.problem.names.items()}
-        self._names = kept | {iri: name for name, iris in self._members.items() for iri in iris}
+        self._kept = {iri: name for name, iri in posed.problem.names.items()}
+        self._others: dict[str, str] = {}
+        for name, iris in self._members.items():
+            self._others.update(dict.fromkeys(iris, name))
 
     def problem(self, domain: PlanningDomain, weakening: Weakening) -> Problem:
         """Return the problem of a weakened domain."""
@@ -87,7 +85,7 @@ class _StandIns:
             name="bound",
             domain=domain,
             objects=self._objects,
-            names={**problem.names, **{name: members[0] for name, members in self._members.items()}},
+            names={**problem.names, **{name: min(members) for name, members in self._members.items()}},
             init=tuple(sorted(may | exactly | marks, key=lambda each: (each.predicate, each.terms))),
             costs=(*problem.costs, *(value for each in domain.costs for value in self._costs(each))),
             goal=weakening.formula(problem.goal),
@@ -97,19 +95,17 @@ class _StandIns:
         """Yield what a predicate says of stand-ins."""
         match predicate.meaning:
             case RelationFact(relation=relation):
-                names, others = self._names, self._posed.others
-                for subject, object_ in self._state.pairs(relation):
-                    if (subject in others or object_ in others) and subject in names and object_ in names:
-                        yield Atom(predicate.name, (names[subject], names[object_]))
+                yield from (Atom(predicate.name, pair) for pair in self._linked(relation))
             case PropertyFact(property=property_, value=value):
-                state = self._state
-                yield from self._of_some(predicate.name, lambda iri: has(property_of(state, iri, property_), value))
+                yield from (Atom(predicate.name, (name,)) for name in self._valued(property_, value))
             case ClassFact(cls=cls):
-                yield from self._of_some(predicate.name, lambda iri: self._state.is_a(iri, cls))
+                found = self._state.instances(cls)
+                holding = (name for name, members in self._members.items() if not found.isdisjoint(members))
+                yield from (Atom(predicate.name, (name,)) for name in holding)
             case GuardFact(variables=(variable,), condition=condition):
-                fits = {each.name for each in self._fitting(predicate.parameters[0])}
-                found = self._of_some(predicate.name, lambda iri: evaluate(condition, self._state, {variable: iri}))
-                yield from (atom for atom in found if atom.terms[0] in fits)
+                fits = (each.name for each in self._fitting(predicate.parameters[0]) if each.name in self._members)
+                accepted = self._of_some(fits, lambda iri: evaluate(condition, self._state, {variable: iri}))
+                yield from (Atom(predicate.name, (name,)) for name in accepted)
             case GuardFact():
                 yield from (Atom(predicate.name, names) for names in self._choices(predicate.parameters))
             case GoalFact():
@@ -117,10 +113,24 @@ class _StandIns:
             case _:
                 assert_never(predicate.meaning)
 
-    def _of_some(self, predicate: str, holds: Callable[[str], bool]) -> Iterator[Atom]:
-        for name, members in self._members.items():
-            if any(_decided(holds, iri) for iri in members):
-                yield Atom(predicate, (name,))
+    def _linked(self, relation: str) -> set[tuple[str, str]]:
+        """Return the pairs of objects, one of them a stand-in at least, of which a relation may hold."""
+        kept, others = self._kept, self._others
+        found = set()
+        for subject, object_ in self._state.pairs(relation):
+            if subject in others or object_ in others:
+                found.add((others.get(subject) or kept.get(subject), others.get(object_) or kept.get(object_)))
+        return {(subject, object_) for subject, object_ in found if subject is not None and object_ is not None}
+
+    def _valued(self, property_: str, value: bool | str) -> Iterable[str]:
+        """Return the stand-ins for somebody of whom a property may have a value."""
+        if self._state.vocabulary.properties[property_].computed_by is None:
+            return {self._others[iri] for iri in self._state.having(property_, value) if iri in self._others}
+        return self._of_some(self._members, lambda iri: has(property_of(self._state, iri, property_), value))
+
+    def _of_some(self, names: Iterable[str], holds: Callable[[str], bool]) -> Iterator[str]:
+        """Yield those stand-ins of which something holds for one at least that they stand for."""
+        return (name for name in names if any(_decided(holds, iri) for iri in self._members[name]))
 
     def _costs(self, function: CostFunction) -> Iterator[CostValue]:
         for names in self._choices(function.parameters):

@@ -58,9 +58,9 @@ class Initial:
             case RelationFact(relation, narrower):
                 return self._relation(relation, narrower)
             case PropertyFact(property_, value):
-                return ((self._names[iri],) for iri in self._with_value(property_, value) if iri in self._names)
+                return ((self._names[iri],) for iri in self._with_value(property_, value))
             case ClassFact(cls):
-                return ((self._names[iri],) for iri in self._state.instances(cls) if iri in self._names)
+                return ((name,) for iri, name in self._names.items() if self._state.is_a(iri, cls))
             case GuardFact():
                 return self._guard(predicate, predicate.meaning)
             case GoalFact():
@@ -70,7 +70,7 @@ class Initial:
 
     def _relation(self, relation: str, narrower: tuple[tuple[str, bool], ...]) -> Iterator[tuple[str, ...]]:
         names, holds = self._names, self._state.holds
-        for subject, object_ in self._state.pairs(relation):
+        for subject, object_ in self._pairs(relation):
             if subject in names and object_ in names:
                 said_by_others = any(
                     holds(object_, other, subject) if swapped else holds(subject, other, object_)
@@ -79,12 +79,18 @@ class Initial:
                 if not said_by_others:
                     yield names[subject], names[object_]
 
-    def _with_value(self, property_: str, value: bool | str) -> Iterable[str]:
-        term = self._state.vocabulary.properties[property_]
-        if term.computed_by is None:
-            return self._state.having(property_, value)
-        owners = (each for domain in term.domains for each in self._state.instances(domain))
-        return {each for each in owners if has(property_of(self._state, each, property_), value)}
+    def _pairs(self, relation: str) -> Iterator[tuple[str, str]]:
+        """Yield the pairs of a relation; of a written one those alone that begin with an object of the problem."""
+        if relation in self._state.axioms.computed:
+            return self._state.pairs(relation)
+        objects = self._state.objects
+        return ((subject, object_) for subject in self._names for object_ in objects(subject, relation))
+
+    def _with_value(self, property_: str, value: bool | str) -> Iterator[str]:
+        state, term = self._state, self._state.vocabulary.properties[property_]
+        computed = term.computed_by is not None
+        owners = (iri for iri in self._names if not computed or any(state.is_a(iri, each) for each in term.domains))
+        return (iri for iri in owners if has(property_of(state, iri, property_), value))
 
     def _guard(self, predicate: Predicate, fact: GuardFact) -> Iterator[tuple[str, ...]]:
         for names in self._choices(predicate.parameters, f"condition `{fact.label}` of {fact.skill}"):

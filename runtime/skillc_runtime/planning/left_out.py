@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
 class LeftOut:
-    """Individuals (IRIs) or skills that a problem leaves out for one reason.
+    """Individuals (IRIs) or skills, in any order, that a problem leaves out for one reason.
 
     `harmless` says that it is proved: with them no plan would be cheaper, and there would be none if there is none.
     """
 
-    what: tuple[str, ...]
+    members: Collection[str]
     why: str
     harmless: bool
+
+    @property
+    def what(self) -> tuple[str, ...]:
+        """Return them sorted: there may be a million, and most answers tell none."""
+        return tuple(sorted(self.members))

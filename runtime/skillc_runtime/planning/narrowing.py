@@ -1,4 +1,4 @@
-"""Chooses the objects of a large scene that a plan probably needs: those near what the goal speaks of.
+"""Chooses the objects of a scene that a plan probably needs: those near what the goal speaks of.
 
 Kept are the things that the goal names, all things of which there are few (robots, arms, grippers, tools), what stands
 in a relation to these with few others (the place of a thing, the arm of a robot), step by step, and for each parameter
@@ -9,8 +9,9 @@ proves nothing: see `bound`.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from heapq import nsmallest
 
 from skillc_compiler.library.pddl.domain import GuardFact, PlanningDomain, RelationFact
 from skillc_runtime.world.conditions import evaluate
@@ -26,29 +27,43 @@ RANKED = 500
 
 @dataclass(frozen=True, slots=True)
 class Breadth:
-    """How much is kept: every thing of a type that has up to `few`, and no more neighbours than makes `objects`."""
+    """How much is kept: every thing of a type that has up to `few`, and no more neighbours than makes `objects`.
+
+    A scene of up to `whole` things is planned for as a whole where a part of it does not prove that its plan is the
+    shortest.
+    """
 
     objects: int
     few: int
+    whole: int = 0
 
     def wider(self) -> Breadth:
         """Return the breadth to try next."""
-        return Breadth(self.objects * 8, self.few * 8)
+        return Breadth(self.objects * 8, self.few * 8, self.whole)
 
 
-NARROW = Breadth(100, 8)
+NARROW = Breadth(40, 8, 100)
+
+AT_ONCE = Breadth(100, 8)
+"""For questions that are asked once and never of a wider part."""
 
 
 def near(
-    domain: PlanningDomain, state: WorldState, types: Mapping[str, str], named: Iterable[str], breadth: Breadth
+    domain: PlanningDomain,
+    state: WorldState,
+    by_type: Mapping[str, Sequence[str]],
+    named: Iterable[str],
+    breadth: Breadth,
 ) -> frozenset[str]:
-    """Return the individuals to keep, out of those that have a type; the individuals of `named` are among them."""
-    return _Near(domain, state, types, breadth).found(named)
+    """Return the individuals to keep, out of those of a type; the individuals of `named` are among them."""
+    return _Near(domain, state, by_type, breadth).found(named)
 
 
 class _Near:
-    def __init__(self, domain: PlanningDomain, state: WorldState, types: Mapping[str, str], breadth: Breadth) -> None:
-        self._state, self._types, self._breadth = state, types, breadth
+    def __init__(
+        self, domain: PlanningDomain, state: WorldState, by_type: Mapping[str, Sequence[str]], breadth: Breadth
+    ) -> None:
+        self._state, self._breadth = state, breadth
         self._relations = sorted(
             {each.meaning.relation for each in domain.predicates if isinstance(each.meaning, RelationFact)}
         )
@@ -58,17 +73,18 @@ class _Near:
             if isinstance(each.meaning, GuardFact) and len(each.meaning.variables) == 1
         ]
         wanted = sorted({each.type for action in domain.actions for each in action.parameters})
-        fitting = {each: {type_ for type_ in set(types.values()) if domain.is_a(type_, each)} for each in wanted}
-        self._members = [sorted(iri for iri, type_ in types.items() if type_ in fits) for fits in fitting.values()]
+        self._members = [tuple(by_type[type_] for type_ in by_type if domain.is_a(type_, each)) for each in wanted]
+        self._known = frozenset().union(*by_type.values())
 
     def found(self, named: Iterable[str]) -> frozenset[str]:
         few = self._breadth.few
-        start = {*named, *(iri for members in self._members if len(members) <= few for iri in members)}
+        start = set(named).union(*(each for types in self._members if sum(map(len, types)) <= few for each in types))
         kept = self._grown(start, self._breadth.objects)
         spare: set[str] = set()
-        for members in self._members:
-            missing = few // 2 - len(kept.intersection(members))
-            others = [iri for iri in members if iri not in kept][:RANKED] if missing > 0 else []
+        for types in self._members:
+            missing = few // 2 - sum(len(kept.intersection(each)) for each in types)
+            missed = (iri for each in types for iri in each if iri not in kept)
+            others = nsmallest(RANKED, missed) if missing > 0 else []
             spare.update(sorted(others, key=lambda iri: (-self._rank(iri), iri))[:missing])
         return frozenset(self._grown(kept | spare, self._breadth.objects + len(spare)))
 
@@ -85,7 +101,7 @@ class _Near:
         for relation in self._relations:
             for found in (self._state.objects(individual, relation), self._state.subjects(relation, individual)):
                 if len(found) <= PARTNERS:
-                    yield from (each for each in found if each in self._types)
+                    yield from (each for each in found if each in self._known)
 
     def _rank(self, individual: str) -> int:
         """Return of how many conditions the individual is likely to be accepted."""

@@ -24,7 +24,7 @@ from skillc_runtime.planning.left_out import LeftOut
 from skillc_runtime.planning.narrowing import Breadth
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.relevance import Helpful, helpful
-from skillc_runtime.planning.selecting import lowest_of, select
+from skillc_runtime.planning.selecting import Kinds, kinds_of, lowest_of, select
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.expressions import EvaluationError
 from skillc_runtime.world.state import WorldState
@@ -40,19 +40,24 @@ class Posed:
 
     `undecided` are static conditions and durations that have no value for some individuals, which are left out.
     `left_out` lists what the scene and the library have beyond the problem, with reasons; `others` are those
-    individuals of it that might make a difference, with their types: where there are any, the problem is `narrowed`.
+    individuals of it that might make a difference, by their types: where there are any, the problem is `narrowed`.
     """
 
     problem: Problem
     library: SkillLibrary
     undecided: tuple[str, ...]
     left_out: tuple[LeftOut, ...] = ()
-    others: dict[str, str] = field(default_factory=dict)
+    others: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
     @property
     def narrowed(self) -> bool:
         """Whether a cheaper plan or any plan at all may need something that was left out."""
         return bool(self.others)
+
+    @property
+    def things(self) -> int:
+        """How many individuals of the scene might make a difference."""
+        return len(self.problem.objects) + sum(map(len, self.others.values()))
 
 
 def pose_problem(
@@ -69,11 +74,12 @@ def pose_problem(
     """
     library = _in_the_words_of(state.vocabulary, library)
     named = _named(goal, state)
-    domain = domain_of(library, _combined(state))
+    kinds = kinds_of(state)
+    domain = domain_of(library, _combined(kinds, state.vocabulary))
     wanted = _ground(goal, library, domain, named, state)
     domain = with_predicates_of(wanted, library, domain)
     useful = Helpful(domain, ()) if wanted == TRUE else helpful(domain, wanted)
-    selection = select(useful.domain, state, named, breadth)
+    selection = select(useful.domain, state, kinds, named, breadth)
     types = selection.kept
     names = object_names(types, state.vocabulary, domain.names.keys() | {each.name for each in domain.predicates})
     by_iri = {iri: name for name, iri in names.items()}
@@ -115,9 +121,8 @@ def _named(goal: Condition, state: WorldState) -> frozenset[str]:
     return named
 
 
-def _combined(state: WorldState) -> frozenset[frozenset[str]]:
-    kinds = {classes for _, classes in state.direct.items()}
-    lowest = {lowest_of(each, state.vocabulary) for each in kinds}
+def _combined(kinds: Kinds, vocabulary: Vocabulary) -> frozenset[frozenset[str]]:
+    lowest = {lowest_of(each, vocabulary) for each in kinds}
     return frozenset(each for each in lowest if len(each) > 1)
 
 

@@ -13,7 +13,7 @@ from skillc_runtime.planning.bound import relaxed_scene
 from skillc_runtime.planning.diagnose import LONGEST_S, why_unsolvable
 from skillc_runtime.planning.grounding import Grounding, TimeIsUp
 from skillc_runtime.planning.initial import TooManyValues
-from skillc_runtime.planning.narrowing import NARROW
+from skillc_runtime.planning.narrowing import AT_ONCE
 from skillc_runtime.planning.problem import GoalError, pose_problem
 from skillc_runtime.world.state import WorldState
 
@@ -24,7 +24,7 @@ def why_unreachable(library: SkillLibrary, state: WorldState, goal: Condition) -
     Of a large scene the part near the goal is looked at, the rest stood in for. None also where that cannot be told.
     """
     try:
-        posed = pose_problem(library, state, goal, (), NARROW)
+        posed = pose_problem(library, state, goal, (), AT_ONCE)
     except GoalError as error:
         return str(error)
     except TooManyValues:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Set
+from collections import defaultdict
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
+from itertools import chain
+from typing import TypeAlias
 
 from skillc_compiler.library.pddl.domain import PlanningDomain
 from skillc_compiler.library.vocabulary import Vocabulary
@@ -17,40 +20,65 @@ NO_USE = "no useful action, no condition of one and no goal can speak of them"
 NO_FACT = "they fit no parameter, and no fact that a condition reads speaks of them"
 FAR = "they are far from what the goal speaks of"
 
+Kinds: TypeAlias = Mapping[frozenset[str], Sequence[str]]
+"""The individuals of a scene by the classes that they were declared to be of."""
+
 
 @dataclass(frozen=True, slots=True)
 class Selection:
-    """The types of the individuals that are kept, and of the `others` that may make a difference but are not."""
+    """The types of the individuals that are kept, and by type the `others` that may make a difference but are not."""
 
     kept: dict[str, str]
-    others: dict[str, str]
+    others: dict[str, tuple[str, ...]]
     left_out: tuple[LeftOut, ...]
 
 
-def select(domain: PlanningDomain, state: WorldState, named: Set[str], breadth: Breadth | None) -> Selection:
+def kinds_of(state: WorldState) -> Kinds:
+    """Return the individuals by their classes: of these there are few, however large the scene is."""
+    kinds: dict[frozenset[str], list[str]] = defaultdict(list)
+    for iri, classes in state.direct.items():
+        kinds[classes].append(iri)
+    return kinds
+
+
+def select(
+    domain: PlanningDomain, state: WorldState, kinds: Kinds, named: Set[str], breadth: Breadth | None
+) -> Selection:
     """Return the individuals to plan with; those of `named` are kept, and with a breadth what is near them."""
-    types = dict(_types(domain, state))
-    told, ranged = told_types(domain, state.vocabulary), {each.type for each in variables(domain)}
-    counts = {each: _fits(domain, each, told) for each in set(types.values())}
-    may_count = {each: _fits(domain, each, ranged) for each in counts}
-    candidates = {iri: each for iri, each in types.items() if may_count[each] or iri in named}
-    silent = {
-        iri
-        for iri, each in candidates.items()
-        if not counts[each] and iri not in named and not is_spoken_of(iri, domain, state)
-    }
-    kept = {iri: each for iri, each in candidates.items() if iri not in silent} if silent else candidates
-    found = frozenset(kept)
-    if breadth is not None and len(kept) > breadth.objects:
-        found = near(domain, state, kept, named, breadth)
-    others = {iri: each for iri, each in kept.items() if iri not in found}
+    candidates, useless, silent = _candidates(domain, state, kinds, named)
+    others: dict[str, tuple[str, ...]] = {}
+    if breadth is not None and sum(map(len, candidates.values())) > breadth.objects:
+        found = near(domain, state, candidates, named, breadth)
+        far = {each: tuple(iri for iri in iris if iri not in found) for each, iris in candidates.items()}
+        others = {each: iris for each, iris in far.items() if iris}
+        candidates = {each: [iri for iri in iris if iri in found] for each, iris in candidates.items()}
     reasons = (
-        LeftOut(tuple(sorted(types.keys() - candidates.keys())), NO_USE, harmless=True),
-        LeftOut(tuple(sorted(silent)), NO_FACT, harmless=True),
-        LeftOut(tuple(sorted(others)), FAR, harmless=False),
+        LeftOut(useless, NO_USE, harmless=True),
+        LeftOut(silent, NO_FACT, harmless=True),
+        LeftOut(tuple(chain.from_iterable(others.values())), FAR, harmless=False),
     )
-    chosen = {iri: each for iri, each in kept.items() if iri in found} if others else kept
-    return Selection(chosen, others, tuple(each for each in reasons if each.what))
+    kept = {iri: each for each, iris in candidates.items() for iri in iris}
+    return Selection(kept, others, tuple(each for each in reasons if each.members))
+
+
+def _candidates(
+    domain: PlanningDomain, state: WorldState, kinds: Kinds, named: Set[str]
+) -> tuple[dict[str, list[str]], list[str], list[str]]:
+    """Return by type who may make a difference; those whom nothing can speak of; those of whom nothing is said."""
+    candidates: dict[str, list[str]] = {}
+    useless: list[str] = []
+    silent: list[str] = []
+    told, ranged = told_types(domain, state.vocabulary), {each.type for each in variables(domain)}
+    for type_, iris in _by_type(domain, kinds, state.vocabulary).items():
+        if _fits(domain, type_, told):
+            candidates[type_] = iris
+            continue
+        may_count = _fits(domain, type_, ranged)
+        rest = silent if may_count else useless
+        spoken_of = {iri for iri in iris if iri in named or (may_count and is_spoken_of(iri, domain, state))}
+        candidates[type_] = list(spoken_of)
+        rest.extend(iri for iri in iris if iri not in spoken_of)
+    return candidates, useless, silent
 
 
 def lowest_of(classes: frozenset[str], vocabulary: Vocabulary) -> frozenset[str]:
@@ -62,13 +90,12 @@ def lowest_of(classes: frozenset[str], vocabulary: Vocabulary) -> frozenset[str]
     )
 
 
-def _types(domain: PlanningDomain, state: WorldState) -> Iterator[tuple[str, str]]:
-    """Yield the individuals with their most specific types."""
-    known: dict[frozenset[str], str] = {}
-    for iri, classes in state.direct.items():
-        if classes not in known:
-            known[classes] = domain.type_of(lowest_of(classes, state.vocabulary))
-        yield iri, known[classes]
+def _by_type(domain: PlanningDomain, kinds: Kinds, vocabulary: Vocabulary) -> dict[str, list[str]]:
+    """Return the individuals by their most specific types."""
+    found: dict[str, list[str]] = {}
+    for classes, iris in kinds.items():
+        found.setdefault(domain.type_of(lowest_of(classes, vocabulary)), []).extend(iris)
+    return found
 
 
 def _fits(domain: PlanningDomain, type_: str, wanted: Set[str]) -> bool:

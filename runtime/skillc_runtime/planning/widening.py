@@ -49,8 +49,8 @@ class Means:
 def in_stages(means: Means, state: WorldState, end: float, breadth: Breadth | None, *, prove: bool) -> PlanResult:
     """Return the answer for the smallest part of the scene that has one, until the time `end` of the monotonic clock.
 
-    The first part has a `breadth`; without one it is the whole scene. With `prove` the part is widened until a plan is
-    proven to be the cheapest, or nothing is left out.
+    The first part has a `breadth`; without one it is the whole scene. With `prove`, and in a scene that is small, the
+    part is widened until a plan is proven to be the cheapest, or nothing is left out.
     """
     best: Solved | None = None
     while True:
@@ -64,7 +64,7 @@ def in_stages(means: Means, state: WorldState, end: float, breadth: Breadth | No
         match answer:
             case Solved():
                 best = _labelled(answer, posed, means, state, end)
-                if best.optimal == "proven" or not prove:
+                if best.optimal == "proven" or not (prove or posed.things <= breadth.whole):
                     return best
             case Unsolvable():
                 why = _out_of_reach(posed, means, state, end)

@@ -11,7 +11,7 @@ from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.planning.choose import Planners
 from skillc_runtime.planning.initial import TooManyValues
-from skillc_runtime.planning.narrowing import NARROW
+from skillc_runtime.planning.narrowing import AT_ONCE
 from skillc_runtime.planning.plan import GaveUp, Plan, Solved, Step, Unsolvable
 from skillc_runtime.planning.problem import Posed, pose_problem
 from skillc_runtime.planning.schedule import Schedule, Scheduled, Scheduler
@@ -65,7 +65,7 @@ def quickest(
     if isinstance(least, Unsolvable):
         return least
     try:
-        posed = pose_problem(library, state, goal, without, NARROW)
+        posed = pose_problem(library, state, goal, without, AT_ONCE)
     except TooManyValues as why:
         return GaveUp(str(why))
     question = replace(question, library=posed.library)
