@@ -6,12 +6,16 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 
+import numpy as np
+
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
-from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare
+from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, prepare
 from skillc_runtime.commands import _library
+from skillc_runtime.motion.pose import Array
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import Execution, execute
+from skillc_runtime.world.changes import SetProperty
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
 from skillc_runtime.world.state import Value
@@ -52,14 +56,22 @@ def run(
     seed: int = 0,
     change: Callable[[SimulatedCell], None] = lambda cell: None,
     watch: Callable[[SimulatedCell], None] = lambda cell: None,
+    *,
+    once: bool = False,
 ) -> Outcome:
-    """Run a task in a cell that `change` has changed before; `watch` sees the cell after every tick."""
+    """Run a task in a cell that `change` has changed before; `watch` sees the cell after every tick.
+
+    When its plan fails it is planned again, unless it shall be tried `once` only.
+    """
     task = library().tasks[name]
     assert task.scene is not None
     assert task.goal is not None
     state = load_scene(catalogue.scene(task.scene), library().vocabulary)
     prepared = prepare(Assignment(name, state, Reach(task.goal)), library())
     assert isinstance(prepared, Prepared), prepared
+    if once:
+        prepared = prepare(Assignment(name, state, Perform(prepared.body)), library())
+        assert isinstance(prepared, Prepared), prepared
     cell = SimulatedCell(WorldModel(state), seed)
     change(cell)
     return Outcome(execute(prepared, library(), cell, watch=lambda: watch(cell)), cell)
@@ -79,3 +91,23 @@ def vanish(cell: SimulatedCell, fixture: str) -> None:
     geoms = [g for g in range(cell.model.ngeom) if cell.model.geom(g).name.startswith(prefix)]
     assert geoms
     cell.model.geom_contype[geoms] = cell.model.geom_conaffinity[geoms] = 0
+
+
+def displace(cell: SimulatedCell, body: str, by: tuple[float, float, float]) -> None:
+    """Put something elsewhere that nothing moves, m along the axes of the world."""
+    cell.model.body(body).pos += by
+
+
+def tell(cell: SimulatedCell, individual: str, property_: str, value: float) -> None:
+    """Let the world model say something else."""
+    cell.world.commit([SetProperty(LAB + individual, CONTACT + property_, value)], "the test")
+
+
+def strongest(signal: Array, step_s: float) -> tuple[float, float]:
+    """Return frequency in Hz and amplitude of the strongest oscillation above 1 Hz in a signal (n,)."""
+    window = np.hanning(len(signal))
+    spectrum = np.abs(np.fft.rfft((signal - signal.mean()) * window)) * 2 / window.sum()
+    frequency = np.fft.rfftfreq(len(signal), step_s)
+    spectrum[frequency < 1.0] = 0.0
+    at = int(spectrum.argmax())
+    return float(frequency[at]), float(spectrum[at])

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
-from contact_runs import at_rest, run, vanish
+from contact_runs import LAB, at_rest, displace, run, strongest, tell, vanish
 
+from skillc_runtime.motion.pose import Pose
 from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.simulation.fixtures import true_pose
 
 pytestmark = pytest.mark.sim
 
@@ -29,7 +32,7 @@ def test_a_button_that_jams_is_told_with_the_force_it_was_pressed_with() -> None
     def jam(cell: SimulatedCell) -> None:
         cell.model.jnt_range[cell.model.joint("lab:Button-1/cap").id] = (0.0, 0.001)
 
-    done = run("press_button", change=jam)
+    done = run("press_button", change=jam, once=True)
     assert not done.succeeded
     assert done.why.startswith("lab:Button-1 has not switched within 2 s, pressed with ")
     assert done.value("Button-1", "isOn") is False
@@ -37,7 +40,66 @@ def test_a_button_that_jams_is_told_with_the_force_it_was_pressed_with() -> None
 
 
 def test_a_button_that_is_not_there_is_told() -> None:
-    done = run("press_button", change=lambda cell: vanish(cell, "Button-1"))
+    done = run("press_button", change=lambda cell: vanish(cell, "Button-1"), once=True)
     assert not done.succeeded
     assert "nothing to push against within 10 cm" in done.why
+    assert at_rest(done.cell)
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_a_sheet_is_polished_with_an_even_force_and_a_swing_across_the_lanes(seed: int) -> None:
+    done = run("polish_sheet", seed)
+    assert done.succeeded, done.why
+    share = done.value("Sheet-1", "polishedShare")
+    assert isinstance(share, float)
+    assert share >= 0.99
+    recorded = done.cell.recording(LAB + "Polisher-1")
+    swinging = recorded.between(done.cell.now - 25.0, done.cell.now - 10.0)
+    assert len(swinging.time) > 10_000
+    assert swinging.force.mean() == pytest.approx(15.0, rel=0.02)
+    assert swinging.force.min() > 0.5
+    across = swinging.position[:, 1]
+    frequency, amplitude = strongest(across, 0.001)
+    assert frequency == pytest.approx(2.0, abs=0.1)
+    assert 0.0075 < amplitude < 0.0105
+    assert at_rest(done.cell)
+
+
+def test_a_sheet_that_wants_more_rubbing_is_not_called_polished() -> None:
+    done = run("polish_sheet", change=lambda cell: tell(cell, "Sheet-1", "polishTime", 60.0), once=True)
+    assert not done.succeeded
+    assert "isPolished" in done.why
+    assert at_rest(done.cell)
+
+
+@pytest.mark.parametrize("seed", [0, 3])
+def test_a_peg_finds_its_hole_and_stands_at_its_bottom(seed: int) -> None:
+    done = run("insert_peg", seed)
+    assert done.succeeded, done.why
+    (socket,) = done.cell.facts.fixtures
+    block = done.cell.data.body("lab:Peg-1/block")
+    end = Pose(block.xpos, block.xmat.reshape(3, 3)).at(np.array([0.0, 0.0, -0.03]))
+    in_socket = true_pose(socket, seed).inverse().at(end)
+    assert in_socket[2] == pytest.approx(-0.030, abs=0.0005)
+    assert abs(in_socket[:2]).max() < 0.0005
+    measured = done.value("Peg-1", "insertedDepth")
+    assert isinstance(measured, float)
+    assert measured == pytest.approx(0.030, abs=0.002)
+    assert done.cell.recording(LAB + "Peg-1").force.max() < 40.0
+    assert at_rest(done.cell)
+
+
+def test_a_hole_that_is_not_where_it_is_searched_for_is_told() -> None:
+    done = run("insert_peg", change=lambda cell: displace(cell, "lab:Socket-1/block", (0.03, 0.0, 0.0)), once=True)
+    assert not done.succeeded
+    assert "nothing gave way within 45 s" in done.why
+    assert done.value("Peg-1", "isSeated") is False
+    assert at_rest(done.cell)
+
+
+def test_a_hole_that_is_too_shallow_is_told_with_the_depth_that_was_reached() -> None:
+    done = run("insert_peg", change=lambda cell: tell(cell, "Socket-1", "depth", 0.04), once=True)
+    assert not done.succeeded
+    assert "rests 3" in done.why
+    assert "mm deep in lab:Socket-1, which is 40.0 mm deep" in done.why
     assert at_rest(done.cell)

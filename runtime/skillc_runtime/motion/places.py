@@ -42,10 +42,26 @@ def facing(state: WorldState, target: str) -> Pose:
     return pose(state, target) @ Pose(np.zeros(3), np.diag([1.0, -1.0, -1.0]))
 
 
+def x_axis(_state: WorldState, of: Pose) -> Array:
+    """Return the direction (3,) of a pose's x axis in the world."""
+    return of.rotation[:, 0].copy()
+
+
+def y_axis(_state: WorldState, of: Pose) -> Array:
+    """Return the direction (3,) of a pose's y axis in the world."""
+    return of.rotation[:, 1].copy()
+
+
 def lanes(state: WorldState, surface: str, tool: str, overlap: float) -> list[Pose]:
     """Return the tool's poses along lanes that cover a surface; `overlap`: the share neighbours have in common."""
     frame = pose(state, surface)
     return [frame @ lane for lane in lane_pattern(size(state, surface)[:2], size(state, tool)[:2], overlap)]
+
+
+def across(state: WorldState, surface: str) -> Array:
+    """Return the direction (3,) of the world across the lanes of a surface."""
+    extent = size(state, surface)
+    return pose(state, surface).rotation[:, 1 if extent[0] >= extent[1] else 0].copy()
 
 
 def _tool_axes(extent: Array) -> Array:

@@ -60,16 +60,18 @@ class ReleaseAxis(Primitive):
 
 
 class Push(Primitive):
-    """Approach what lies opposite to `along` (3,) gently, then press on it with `force` N until the scope ends.
+    """Approach what lies opposite to `along` (3,) at `approach` m/s, then press on it with `force` N in the scope.
 
     Fails when nothing is met within `travel` m; stops the arm when, later, contact is lost and it sinks by as much.
     """
 
-    def __init__(self, cell: Cell, *, arm: str, along: Array, force: float, travel: float) -> None:
+    def __init__(
+        self, cell: Cell, *, arm: str, along: Array, force: float, travel: float, approach: float = APPROACH_M_S
+    ) -> None:
         super().__init__(cell)
         self.arm = cell.arm(arm)
         self._along, self._force, self._travel = along, force, travel
-        self._approach = Approach(APPROACH_M_S, travel)
+        self._approach = Approach(approach, travel)
         self._axis = along
         self._now = self._touched_at = 0.0
         self._surface: float | None = None
@@ -84,7 +86,7 @@ class Push(Primitive):
         if self._force > self.arm.gains.force_limit:
             raise SkillFailure(f"{self._force:g} N is more than the {self.arm.gains.force_limit:g} N the arm allows")
         self._axis = self.arm.in_base(self._along)
-        self.arm.push(self._along, APPROACH_M_S * self.arm.gains.release_damping)
+        self.arm.push(self._along, self._approach.speed * self.arm.gains.release_damping)
         self.arm.watch(self._observe)
 
     def tick(self) -> Status:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from math import pi
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from skillc_runtime.motion.overlays import Circle
+from skillc_runtime.motion.overlays import Circle, Lissajous, Spiral
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.motion.reference import Overlay
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 
 if TYPE_CHECKING:
@@ -16,23 +18,26 @@ if TYPE_CHECKING:
 FADE_S = 0.5
 
 
-class OverlayCircle(Primitive):
-    """Circle in the plane with the normal `plane` (3,): `radius` m, `rate` turns per s. Runs until it is halted."""
+class AddedMotion(Primitive):
+    """A motion that is added along `axes` (3, 3) of the world and runs until it is halted.
 
-    def __init__(self, cell: Cell, *, arm: str, plane: Array, radius: float, rate: float) -> None:
+    `name` says what it is, `speed` m/s how fast at most.
+    """
+
+    def __init__(self, cell: Cell, arm: str, overlay: Overlay, axes: Array, name: str, speed: float) -> None:
         super().__init__(cell)
         self.arm = cell.arm(arm)
-        self._plane, self._circle = plane, Circle(radius, rate)
-        self._handle = 0
+        self._overlay, self._axes, self._handle = overlay, axes, 0
+        self._name, self._speed = name, speed
 
     def start(self) -> None:
-        """Begin, growing from nothing; SkillFailure where the circle is faster than the arm allows."""
-        if self._circle.speed > self.arm.gains.speed_limit:
+        """Begin, growing from nothing; SkillFailure where the motion is faster than the arm allows."""
+        if self._speed > self.arm.gains.speed_limit:
             raise SkillFailure(
-                f"a circle of {1000 * self._circle.radius:g} mm at {self._circle.rate:g} Hz runs with "
-                f"{self._circle.speed:.2f} m/s, faster than the {self.arm.gains.speed_limit:g} m/s the arm allows"
+                f"{self._name} runs with {self._speed:.2f} m/s, "
+                f"faster than the {self.arm.gains.speed_limit:g} m/s the arm allows"
             )
-        self._handle = self.arm.add_overlay(self._circle, axes_across(self._plane), FADE_S)
+        self._handle = self.arm.add_overlay(self._overlay, self._axes, FADE_S)
 
     def tick(self) -> Status:
         """Go on."""
@@ -41,6 +46,31 @@ class OverlayCircle(Primitive):
     def halt(self, reason: str) -> None:
         """Fade out."""
         self.arm.remove_overlay(self._handle)
+
+
+class OverlayCircle(AddedMotion):
+    """Circle in the plane with the normal `plane` (3,): `radius` m, `rate` turns per s."""
+
+    def __init__(self, cell: Cell, *, arm: str, plane: Array, radius: float, rate: float) -> None:
+        circle = Circle(radius, rate)
+        name = f"a circle of {1000 * radius:g} mm at {rate:g} Hz"
+        super().__init__(cell, arm, circle, axes_across(plane), name, circle.speed)
+
+
+class OverlaySine(AddedMotion):
+    """Swing along `along` (3,): `amplitude` m to either side, `rate` times per s."""
+
+    def __init__(self, cell: Cell, *, arm: str, along: Array, amplitude: float, rate: float) -> None:
+        sine = Lissajous(np.array([0.0, 0.0, amplitude]), np.full(3, rate), np.zeros(3))
+        name = f"a swing of {1000 * amplitude:g} mm at {rate:g} Hz"
+        super().__init__(cell, arm, sine, axes_across(along), name, 2 * pi * rate * amplitude)
+
+
+class OverlaySpiral(AddedMotion):
+    """Spiral outwards in the plane with the normal `plane` (3,): turns `pitch` m apart, `speed` m/s, to `radius` m."""
+
+    def __init__(self, cell: Cell, *, arm: str, plane: Array, pitch: float, speed: float, radius: float) -> None:
+        super().__init__(cell, arm, Spiral(pitch, speed, radius), axes_across(plane), "a spiral", speed)
 
 
 def axes_across(normal: Array) -> Array:

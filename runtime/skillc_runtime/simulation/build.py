@@ -47,7 +47,7 @@ def build(scene: SceneFacts, variation: Variation, timestep_s: float = 0.001) ->
         body, frame = mounts.get(arm.robot or "", (spec.worldbody, Pose(np.zeros(3), np.eye(3))))
         add_arm(spec, scene.names, arm, body, frame.inverse() @ arm.base)
     for tool in scene.tools:
-        add_tool(spec, scene.names, tool, variation.pad_stiffness(tool))
+        add_tool(spec, scene.names, tool, None if tool.rigid else variation.pad_stiffness(tool))
     _add_welds(spec, scene)
     return spec.compile()
 

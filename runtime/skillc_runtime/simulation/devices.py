@@ -39,14 +39,18 @@ def add_arm(spec: Any, names: Mapping[str, str], arm: ArmFacts, mount: Any, base
         _add_gripper(spec, names, arm, arm.gripper)
 
 
-def add_tool(spec: Any, names: Mapping[str, str], tool: ToolFacts, pad_stiffness: float) -> None:
-    """Add a tool, free to move, with its mass, sensors of the truth, and under its working face a pad in N/m."""
+def add_tool(spec: Any, names: Mapping[str, str], tool: ToolFacts, pad_stiffness: float | None) -> None:
+    """Add a tool, free to move, with its mass and sensors of the truth.
+
+    Under its working face is a pad in N/m, None for a tool that does not yield.
+    """
     name, model = names[tool.individual], mujoco.MjSpec.from_file(str(tool.model))
     _check_face(model, name, tool)
     scale = tool.mass_kg / sum(body.mass for body in model.bodies)
     for body in model.bodies[1:]:
         body.mass, body.inertia = body.mass * scale, body.inertia * scale
-    _set_foundation(model, tool, pad_stiffness)
+    if pad_stiffness is not None:
+        _set_foundation(model, tool, pad_stiffness)
     root = model.worldbody.first_body()
     root.add_freejoint(name="free")
     face = working_face(tool.size)

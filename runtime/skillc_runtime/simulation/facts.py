@@ -29,6 +29,7 @@ from skillc_runtime.world.terms import (
     OFFSET_RANGE,
     POSITION_CONTROLLED_ARM,
     POSTURE_RANGE,
+    RIGID_TOOL_SHEET,
     STIFFNESS_RANGE,
     SURFACE,
     TILT_RANGE,
@@ -91,7 +92,8 @@ class BaseFacts:
 class ToolFacts:
     """A tool: the frame in the middle of its block in the world, size (3,) m of the block, mass kg, its sheet.
 
-    Its working face may be stiffer or softer than its sheet says by the share `stiffness_range`.
+    Its working face may be stiffer or softer than its sheet says by the share `stiffness_range`; that of a rigid one
+    does not yield.
     """
 
     individual: str
@@ -101,6 +103,7 @@ class ToolFacts:
     mass_kg: float
     sheet: Sheet
     stiffness_range: float = 0.0
+    rigid: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -211,6 +214,7 @@ def _tool(state: WorldState, tool: str) -> ToolFacts:
         mass_kg=number(state, tool, WEIGHT),
         sheet=sheet,
         stiffness_range=number(state, tool, STIFFNESS_RANGE, default=0.0),
+        rigid=state.is_a(sheet.individual, RIGID_TOOL_SHEET),
     )
 
 

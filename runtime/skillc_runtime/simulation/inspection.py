@@ -16,3 +16,7 @@ class SimulatedCamera:
     def inspect(self, surface: str) -> float:
         """Return the share of the surface that is wiped; KeyError for a surface that is not there."""
         return self._coverage[surface].fraction
+
+    def rubbed(self, surface: str, seconds: float) -> float:
+        """Return the share that was under a pressed tool for so long; KeyError for a surface that is not there."""
+        return float((self._coverage[surface].dose >= seconds).mean())
