@@ -30,7 +30,7 @@ def laws(robot: str, count: int) -> list[list[float]]:
         if step % 20 == 0:
             state = bench.state()
             law = GAINS[robot].law.laws(GAINS[robot], bench.limits, model, state, 0.001)
-            law.tool.reset(state, state.q)
+            law.tool.reset(state, state.q, np.zeros_like(state.q))
         bench.data.qpos[:] = home + chance.uniform(-0.05, 0.05, home.size)
         bench.data.qvel[:] = chance.uniform(-0.3, 0.3, home.size)
         state = replace(bench.state_at_rest(), wrench=chance.uniform(-20, 20, 6))

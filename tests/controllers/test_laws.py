@@ -28,7 +28,7 @@ def fresh(robot):
     state = replace(bench.state(), wrench=np.zeros(6))
     model = virtual_model(ROBOTS / f"{robot}.xml")
     law = GAINS[robot].law.laws(GAINS[robot], bench.limits, model, state, 0.001).tool
-    law.reset(state, state.q)
+    law.reset(state, state.q, np.zeros_like(state.q))
     return bench, state, law
 
 

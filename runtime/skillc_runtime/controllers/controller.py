@@ -27,8 +27,8 @@ class Controller(Protocol):
         """What the environment does to the tool (6,), measured or estimated; N and N m, base axes, at the tool."""
         ...
 
-    def reset(self, state: ArmState, q: Array) -> None:
-        """Start from rest at joint positions q (nv,): those commanded last, or the measured ones."""
+    def reset(self, state: ArmState, q: Array, dq: Array) -> None:
+        """Start from joint positions and speeds q, dq (nv,): those commanded last, or the measured ones."""
         ...
 
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Command:

@@ -84,11 +84,11 @@ class ForwardDynamics:
         """The measured wrench (6,)."""
         return self._felt.copy()
 
-    def reset(self, state: ArmState, q: Array) -> None:
-        """Start from rest at q."""
+    def reset(self, state: ArmState, q: Array, dq: Array) -> None:
+        """Start from q and dq."""
         self._arm.mount(state.q, state.tool)
         self._arm.move(q)
-        self._dq[:] = 0.0
+        self._dq[:] = dq
 
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> JointPosition:
         """Return the joint positions."""

@@ -1,12 +1,14 @@
 """Cartesian impedance for torque-controlled arms: the tool is held by springs and dampers, and pushes open loop.
 
 F_C = -K sat(e) - D (J_C dq - nu_d) + W + Lam_C a_d;  tau = J_C^T F_C + tau_null + bias
+The first term of tau moves the arm with no more power than skills may ask for: force limit times speed limit.
 Albu-Schaeffer et al. 2003, Mayr and Salt-Ducaju 2022; with velocity and acceleration feed-forward. C: compliance frame.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import sqrt
 
 import mujoco
 import numpy as np
@@ -26,6 +28,9 @@ from skillc_runtime.robots.laws import Laws
 
 INERTIA_PERIOD_S = 0.01
 """Inertia and damping change slowly; they are computed this often."""
+
+FASTEST_DECAY = 1.5
+"""Share of a control period's inverse that dampers may decay with: from 2 on they overshoot, the more the longer."""
 
 LEAST_MOBILITY = 1e-3
 """Added to the tool's inverse inertia, 1/kg and 1/(kg m^2): at a singularity the tool seems heavy, not immovable."""
@@ -79,12 +84,13 @@ class Impedance:
 
     def __init__(self, gains: Gains, law: ImpedanceGains, limit: TorqueLimit, joints: int) -> None:
         self._limit = limit
+        self._power_w = gains.force_limit * gains.speed_limit
         self._floor = np.repeat([law.damping_floor, law.rotational_damping_floor], 3)
         self._task = TaskError(np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3))
         self._damping = Lag(self._floor, gains.command_time)
         self._nullspace = Nullspace(law.nullspace_stiffness, joints) if joints > 6 else None
         self._age, self._tool = INERTIA_PERIOD_S, Pose.of((0, 0, 0))
-        self._inertia = np.zeros((6, 6))
+        self._inertia, self._mobility = np.zeros((6, 6)), np.zeros((6, 6))
         self._exerted, self._tau = np.zeros(6), np.zeros(joints)
 
     @property
@@ -97,8 +103,8 @@ class Impedance:
         """An estimate (6,): the opposite of what springs, dampers and push exert; exact at constant speed."""
         return (self._exerted.reshape(2, 3) @ -self._task.axes.T).ravel()
 
-    def reset(self, state: ArmState, q: Array) -> None:
-        """Start from rest; `q` becomes the rest posture."""
+    def reset(self, state: ArmState, q: Array, dq: Array) -> None:
+        """Start; `q` becomes the rest posture."""
         self._see(state)
         self._age = INERTIA_PERIOD_S
         self._damping.value[:] = self._floor
@@ -115,7 +121,7 @@ class Impedance:
             state.tool.position, state.tool.rotation, state.jacobian, state.dq,
             reference.pose.position, reference.pose.rotation, reference.twist, reference.acceleration,
             compliance.stiffness, compliance.wrench, compliance.frame, task.softness,
-            self._damping.value, self._inertia,
+            self._damping.value, self._inertia, self._power_w,
         )  # fmt: skip
         if self._nullspace:
             self._tau += self._nullspace.torque(state)
@@ -126,13 +132,20 @@ class Impedance:
         self._tool.position[:], self._tool.rotation[:] = state.tool.position, state.tool.rotation
 
     def _renew(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> None:
-        """Lam_C = (J_C M^-1 J_C^T)^-1; D_i = 2 zeta sqrt(K_i Lam_C,ii), at least the floor; every so often."""
+        """Lam_C = (J_C M^-1 J_C^T)^-1; D_i = 2 zeta sqrt(K_i Lam_C,ii), at least the floor; every so often.
+
+        Where Lam_C^-1 D would decay too fast for the period, by its greatest possible eigenvalue, D is less.
+        """
         self._age += period
         if self._age < INERTIA_PERIOD_S:
             return
-        tool_inertia(self._inertia, state.jacobian, state.mass_matrix, reference.pose.rotation, compliance.frame)
+        rotation, mobility = reference.pose.rotation, self._mobility
+        tool_inertia(self._inertia, mobility, state.jacobian, state.mass_matrix, rotation, compliance.frame)
         damping = 2 * compliance.damping_ratio * np.sqrt(compliance.stiffness * self._inertia.diagonal())
-        self._damping.step(np.maximum(damping, self._floor), self._age)
+        added = np.maximum(damping - self._floor, 0.0)
+        D = self._floor + added
+        decay = sqrt(D @ (mobility * mobility) @ D)
+        self._damping.step(self._floor + min(1.0, FASTEST_DECAY / (decay * period)) * added, self._age)
         self._age = 0.0
 
 
@@ -157,8 +170,12 @@ def impedance_torque(
     softness: Vector,
     damping: Vector,
     inertia: Matrix,
+    power_w: float,
 ) -> None:
-    """exerted (6,) = W - K sat(e) - D (J_C dq - nu_d), along C; tau (nv,) = J_C^T (exerted + Lam_C a_d)."""
+    """exerted (6,) = W - K sat(e) - D (J_C dq - nu_d), along C; tau (nv,) = J_C^T (exerted + Lam_C a_d).
+
+    Torques that would move the arm with more than `power_w` are scaled down as a whole.
+    """
     velocity, force, in_base = np.empty(6), np.empty(6), np.empty(6)
     times(J, dq, velocity)
     task_error(
@@ -170,14 +187,19 @@ def impedance_torque(
     force += exerted
     product(force.reshape(2, 3), axes.T, in_base.reshape(2, 3))
     transposed_times(J, in_base, tau)
+    power = (tau * dq).sum()
+    if power > power_w:
+        tau *= power_w / power
 
 
 @compiled
-def tool_inertia(inertia: OutMatrix, J: Matrix, mass_matrix: Matrix, rotation: Matrix, frame: Matrix) -> None:
-    """inertia (6, 6) = (J_C M^-1 J_C^T + least mobility)^-1, C being the reference's `rotation` turned by `frame`."""
+def tool_inertia(
+    inertia: OutMatrix, mobility: OutMatrix, J: Matrix, mass_matrix: Matrix, rotation: Matrix, frame: Matrix
+) -> None:
+    """mobility (6, 6) = J_C M^-1 J_C^T, inertia its inverse but for the least mobility; C: rotation @ frame."""
     joints = J.shape[1]
     axes, J_C, factor, column = np.empty((3, 3)), np.empty((6, joints)), mass_matrix.copy(), np.empty(joints)
-    mobility, unit = np.empty((6, 6)), np.eye(6)
+    unit = np.eye(6)
     product(rotation, frame, axes)
     product(axes.T, J[:3], J_C[:3])
     product(axes.T, J[3:], J_C[3:])
@@ -186,9 +208,10 @@ def tool_inertia(inertia: OutMatrix, J: Matrix, mass_matrix: Matrix, rotation: M
         cholesky_solve(factor, J_C[i], column)
         times(J_C, column, mobility[i])
         mobility[i, i] += LEAST_MOBILITY
-    cholesky(mobility)
+    whole = mobility.copy()
+    cholesky(whole)
     for i in range(6):
-        cholesky_solve(mobility, unit[i], inertia[i])
+        cholesky_solve(whole, unit[i], inertia[i])
 
 
 def damping_rate(state: ArmState, damping: float, rotational_damping: float) -> float:

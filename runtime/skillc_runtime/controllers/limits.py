@@ -36,22 +36,22 @@ class TorqueLimit:
 
 
 class JointLimit:
-    """Limits joint positions in range and speed. `q` (nv,) is what was commanded last; laws continue from there."""
+    """Limits joint positions in range and speed. Laws continue from q and dq (nv,), which were commanded last."""
 
     def __init__(self, limits: ArmLimits, q: Array) -> None:
         self._low, self._high = limits.range[:, 0].copy(), limits.range[:, 1].copy()
         self.velocity = limits.velocity.copy()
-        self.q = q.copy()
+        self.q, self.dq = q.copy(), np.zeros_like(q)
 
     def step(self, q: Array, state: ArmState, period: float) -> Array:
         """Return what to command (nv,) in rad, a new array.
 
         ControlError when the arm does not follow; it is then commanded to stay where it is.
         """
-        if limit_joints(self.q, q, state.q, self._low, self._high, self.velocity, period):
+        if limit_joints(self.q, self.dq, q, state.q, self._low, self._high, self.velocity, period):
             return self.q.copy()
         lag = np.abs(self.q - state.q).max()
-        self.q[:] = state.q
+        self.q[:], self.dq[:] = state.q, 0.0
         raise ControlError(f"a joint is {lag:.2f} rad away from where it was commanded to be; is the arm blocked?")
 
 
@@ -76,13 +76,22 @@ def limit_torque(
 
 @compiled
 def limit_joints(
-    told: OutVector, q: Vector, measured: Vector, low: Vector, high: Vector, velocity: Vector, period: float
+    told: OutVector,
+    dq: OutVector,
+    q: Vector,
+    measured: Vector,
+    low: Vector,
+    high: Vector,
+    velocity: Vector,
+    period: float,
 ) -> bool:
-    """Let `told` follow q within speed and range; return False, and do nothing, when the arm is too far from it."""
+    """Let `told`, with speeds dq, follow q within limits; return False, and do nothing, when the arm is too far."""
     lag = told - measured
     if (lag * lag).sum() > GREATEST_LAG_RAD * GREATEST_LAG_RAD:
         return False
     longest = velocity * period
-    told += np.minimum(np.maximum(q - told, -longest), longest)
-    told[:] = np.minimum(np.maximum(told, low), high)
+    wanted = told + np.minimum(np.maximum(q - told, -longest), longest)
+    inside = np.minimum(np.maximum(wanted, low), high)
+    dq[:] = (inside - told) / period
+    told[:] = inside
     return True

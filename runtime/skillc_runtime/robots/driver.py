@@ -30,6 +30,9 @@ JOINT_RAMP_S = 0.5
 TOOL_JUMP_M_S = 3.0
 """No tool moves this fast; one that seems to was moved on the hand."""
 
+LONGEST_GAP_S = 0.02
+"""When a control period comes later than this after the one before, or earlier, motions wait for the time lost."""
+
 
 class ArmDriver(Measured):
     """One arm, stepped every `period` s. Poses, directions and wrenches are in world axes, SI units.
@@ -62,12 +65,15 @@ class ArmDriver(Measured):
         self._laws = gains.law.laws(gains, limits, virtual, state, period)
         self._reach, self._tool = Reach(virtual), ToolTask(gains, self._laws.tool, state.tool)
         self._observers: tuple[Observer, ...] = ()
-        self._now = 0.0
+        self._now = self._seen = self._lost = 0.0
         self._joints: JointGuide | None = self._joint_guide(state.q, np.zeros_like(state.q))
 
     def step(self, now: float) -> None:
         """Do one control period at `now` s. ControlError when a measurement or a command is not a number."""
-        self._now = now
+        gap, self._seen = now - self._seen, now
+        if not 0 <= gap <= max(LONGEST_GAP_S, 2 * self.period):
+            self._lost += gap - self.period
+        self._now = now - self._lost
         state = self._arm.state()
         try:
             self._guard.check(state)
@@ -285,13 +291,13 @@ class ArmDriver(Measured):
             return
         reference = self._joints.sample(self._now)
         tool, jacobian = self._reach.tool_at(reference.q, self._state)
-        self._tool.take_up(self._state, reference.q, tool, jacobian @ reference.dq, self._now)
+        self._tool.take_up(self._state, reference, tool, jacobian @ reference.dq, self._now)
         self._joints = None
 
     def _move_joints(self) -> JointGuide:
         """Hand over from tool to joint control: the joints go on as the tool moved them."""
         if self._joints is None:
-            self._joints = self._joint_guide(self._laws.joints_now(self._state), self._state.dq)
+            self._joints = self._joint_guide(self._laws.joints_now(self._state), self._laws.speeds_now(self._state))
         return self._joints
 
     def _joint_guide(self, q: Array, dq: Array) -> JointGuide:

@@ -21,3 +21,7 @@ class Laws:
     def joints_now(self, state: ArmState) -> Array:
         """Return the joints (nv,) from which a motion goes on: those commanded last, else the measured ones."""
         return (self.limit.q if isinstance(self.limit, JointLimit) else state.q).copy()
+
+    def speeds_now(self, state: ArmState) -> Array:
+        """Return the joint speeds (nv,) with which a motion goes on: those commanded last, else the measured ones."""
+        return (self.limit.dq if isinstance(self.limit, JointLimit) else state.dq).copy()

@@ -7,6 +7,7 @@ import numpy as np
 from skillc_runtime.controllers.controller import Controller
 from skillc_runtime.controllers.gains import Gains
 from skillc_runtime.motion.guide import Guide
+from skillc_runtime.motion.joint import JointReference
 from skillc_runtime.motion.pose import Array, Pose, log
 from skillc_runtime.robots.arm import ArmState, Command
 from skillc_runtime.robots.yielding import Yielding
@@ -33,15 +34,15 @@ class ToolTask:
         self.reference = self.guide.sample(now)
         return self._law.command(state, self.reference, self.yielding.compliance, period)
 
-    def take_up(self, state: ArmState, q: Array, tool: Pose, twist: Array, now: float) -> None:
-        """Begin from joints q (nv,), where the tool is at `tool` and moves with a twist (6,), and come to rest."""
-        self._law.reset(state, q)
+    def take_up(self, state: ArmState, joints: JointReference, tool: Pose, twist: Array, now: float) -> None:
+        """Begin from joints where the tool is at `tool` and moves with a twist (6,), and come to rest."""
+        self._law.reset(state, joints.q, joints.dq)
         self.guide.take_up(tool, twist, now)
         self.reference = self.guide.sample(now)
 
     def retake(self, state: ArmState, q: Array, now: float) -> None:
         """Hold the tool where it is: its centre point was moved on the hand."""
-        self._law.reset(state, q)
+        self._law.reset(state, q, np.zeros_like(q))
         self.guide.take_up(self._law.tool, np.zeros(6), now)
 
     def hold(self, state: ArmState, q: Array, now: float) -> None:
