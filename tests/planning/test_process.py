@@ -25,14 +25,16 @@ def program(folder: Path, name: str, script: str) -> str:
     return str(path)
 
 
-def plan(folder: Path, translate: str = TRANSLATE, search: str = "exit 12", driver: str = "exit 12") -> PlanResult:
+def plan(
+    folder: Path, translate: str = TRANSLATE, search: str = "exit 12", driver: str = "exit 12", seconds: float = 3.0
+) -> PlanResult:
     """Plan with shell scripts in the place of Fast Downward's programs."""
     programs = Programs(
         (program(folder, "translate", translate),),
         program(folder, "search", search),
         (program(folder, "driver", driver),),
     )
-    return FastDownward(programs).plan(PROBLEM, 3.0)
+    return FastDownward(programs).plan(PROBLEM, seconds)
 
 
 BROKEN = [
@@ -97,7 +99,7 @@ def test_what_a_program_leaves_running_is_killed_too(tmp_path: Path) -> None:
 
 
 def test_a_planner_that_hangs_gives_up_in_time(tmp_path: Path) -> None:
-    result = plan(tmp_path, search="sleep 60", driver="sleep 60")
+    result = plan(tmp_path, search="sleep 60", driver="sleep 60", seconds=0.5)
     assert isinstance(result, GaveUp) and "time was up" in result.why
 
 

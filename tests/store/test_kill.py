@@ -15,7 +15,7 @@ from store.processes import Actor
 from store.worlds import facts_of, model_of
 from world.lab import SCENE, iri
 
-KILLS = int(os.environ.get("SKILLC_STORE_KILLS", "2"))
+KILLS = int(os.environ.get("SKILLC_STORE_KILLS", "1"))
 """How often the moments are chosen anew; 60 make more than 6,000 writes."""
 
 

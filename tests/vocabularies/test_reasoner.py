@@ -23,7 +23,7 @@ NOTHING = "http://www.w3.org/2002/07/owl#Nothing"
 HEAD = """@prefix owl: <http://www.w3.org/2002/07/owl#> . @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
 """
 
-pytestmark = needs_java
+pytestmark = [needs_java, pytest.mark.reasoner]
 
 
 def generated(number: int, single: bool) -> Iterator[str]:
