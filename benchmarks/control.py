@@ -1,9 +1,13 @@
-"""How fast the simulated loop runs for both arms: the whole loop and the law against bare physics of the same model."""
+"""How fast the simulated loop runs: loop and law against bare physics of the same model, by part; whole tasks.
+
+Without arguments the scenes at rest and all tasks; `control.py NAME ...` runs these tasks only.
+"""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
-from time import perf_counter
+from time import perf_counter, process_time
 
 import mujoco
 import numpy as np
@@ -11,15 +15,19 @@ import numpy as np
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
+from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare
+from skillc_runtime.commands import _library
 from skillc_runtime.motion.path import path
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.task import execute
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
 
 SCENES = ("iiwa_table", "ur5e_whiteboard")
-REPEATS, BURST = 2000, 2
+TASKS = ("clean_whiteboard", "clean_table", "clean_desk")
+REPEATS, BURST = 1000, 2
 
 
 def moving(scene: str) -> tuple[SimulatedCell, str]:
@@ -46,20 +54,47 @@ def costs_us(calls: tuple[Callable[[], object], ...]) -> list[float]:
     return [1e6 * cost for cost in least]
 
 
-def measure(scene: str) -> tuple[float, float, float]:
-    """Return what a simulated millisecond costs in us: the whole loop, the arm's controller in it, the physics."""
+def measure(scene: str) -> dict[str, float]:
+    """Return what a simulated millisecond costs in us: the whole loop, the arm's controller, its parts, the physics."""
     cell, name = moving(scene)
-    driver, model, data = cell.arm(name), cell.model, cell.data
+    driver, arm, model, data = cell.arm(name), cell.arms[name], cell.model, cell.data
+    law, guide, compliance = driver._laws.tool, driver._tool.guide, driver._tool.yielding.compliance
+    state, reference = arm.state(), driver._tool.reference
 
     def physics() -> None:
         mujoco.mj_step2(model, data)
         mujoco.mj_step1(model, data)
 
-    whole, law, bare = costs_us((lambda: cell.advance(0.001), lambda: driver.step(data.time), physics))
-    return whole, law, bare
+    parts: dict[str, Callable[[], object]] = {
+        "loop": lambda: cell.advance(0.001),
+        "controller": lambda: driver.step(data.time),
+        "measuring": arm.state,
+        "reference": lambda: guide.sample(driver._now),
+        "law": lambda: law.command(state, reference, compliance, 0.001),
+        "mj_step": physics,
+    }
+    return dict(zip(parts, costs_us(tuple(parts.values())), strict=True))
+
+
+def real_time(task: str) -> float:
+    """Return how many simulated seconds a whole task takes per second of the processor, tree and records included."""
+    library = _library.compile_library(_library.find(_library.SHIPPED / "wiping")).value
+    goal, scene = library.tasks[task].goal, library.tasks[task].scene
+    assert goal is not None
+    assert scene is not None
+    state = load_scene(catalogue.scene(scene), library.vocabulary)
+    prepared = prepare(Assignment(task, state, Reach(goal)), library)
+    assert isinstance(prepared, Prepared), prepared
+    cell = SimulatedCell(WorldModel(state), seed=0)
+    began = process_time()
+    execute(prepared, library, cell)
+    return cell.now / (process_time() - began)
 
 
 if __name__ == "__main__":
-    for scene in SCENES:
-        whole, law, bare = measure(scene)
-        print(f"{scene}: loop {whole / bare:.1f} x mj_step, law {law / bare:.1f} x, {1000 / whole:.1f} x real time")
+    for scene in () if sys.argv[1:] else SCENES:
+        costs = measure(scene)
+        ratios = ", ".join(f"{part} {cost / costs['mj_step']:.2f}" for part, cost in costs.items() if part != "mj_step")
+        print(f"{scene}: {ratios} x mj_step; {1000 / costs['loop']:.1f} x real time")
+    for task in sys.argv[1:] or TASKS:
+        print(f"{task}: {real_time(task):.1f} x real time")
