@@ -1,10 +1,14 @@
-"""The skills of arms in simulation, ticked as the tree does it, with a cell and a world made for the test."""
+"""The skills of arms in simulation, ticked as the tree does it, with a cell made for the test."""
+
+from functools import cache
 
 import numpy as np
 import pytest
 from rig import HOMES, Bench, moved_by
 
-from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.vocabulary.load import load
+from skillc_dsl.source import Source
+from skillc_ontology.catalogue import vocabulary_files
 from skillc_runtime.motion.pose import Pose, exp, log, quaternion_of
 from skillc_runtime.primitives.compliance import Align, Push, ReleaseAxis
 from skillc_runtime.primitives.localise import touched
@@ -12,8 +16,11 @@ from skillc_runtime.primitives.move import MoveJoints, MoveLinear, TakePosture
 from skillc_runtime.primitives.overlay import OverlayCircle
 from skillc_runtime.primitives.path import FollowPath
 from skillc_runtime.primitives.primitive import SkillFailure, Status
-from skillc_runtime.world.changes import SetProperty
+from skillc_runtime.world.changes import AddIndividual, AddRelation, SetProperty
+from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.terms import (
+    ARM_DEVICE,
     BASE_FRAME_ID,
     HAS_POSTURE,
     HAS_SHEET,
@@ -21,44 +28,38 @@ from skillc_runtime.world.terms import (
     ORIENTATION,
     POSITION,
     POSTURE_NAME,
+    SKILLC,
+    SURFACE,
 )
 
-ARM, BOARD = "lab:Arm", "lab:Board"
+ARM, BOARD, SHEET, HOME = (f"http://example.org/lab#{name}" for name in ("Arm", "Board", "Sheet", "Home"))
+DATA_SHEET, POSTURE = SKILLC + "ArmSheet", SKILLC + "Posture"
 FORCE_N = {"iiwa14": 18.0, "ur5e": 8.0}
 
 
-class World:
-    """Facts in two dictionaries, with as much of the world model's interface as these skills use."""
+@cache
+def vocabulary():
+    return load([Source(path, text) for path, text in vocabulary_files()]).value
 
-    vocabulary = Vocabulary()
 
-    def __init__(self, robot: str) -> None:
-        self.values: dict[tuple[str, str], object] = {
-            ("home", POSTURE_NAME): "home",
-            ("home", JOINT_VALUES): " ".join(map(str, HOMES[robot])),
-        }
-        self.relations = {(ARM, HAS_SHEET): {"sheet"}, ("sheet", HAS_POSTURE): {"home"}}
-
-    def snapshot(self):
-        return self
-
-    def value(self, individual, name):
-        return self.values.get((individual, name))
-
-    def objects(self, subject, relation):
-        return self.relations.get((subject, relation), set())
-
-    def commit(self, changes, origin=""):
-        for change in changes:
-            assert isinstance(change, SetProperty)
-            self.values[change.individual, change.property] = change.value
+def world(robot):
+    """The world of an arm whose sheet knows one posture, and of a board that is somewhere."""
+    individuals = {ARM: ARM_DEVICE, BOARD: SURFACE, SHEET: DATA_SHEET, HOME: POSTURE}
+    facts = [
+        *(AddIndividual(individual, (cls,)) for individual, cls in individuals.items()),
+        AddRelation(ARM, HAS_SHEET, SHEET),
+        AddRelation(SHEET, HAS_POSTURE, HOME),
+        SetProperty(HOME, POSTURE_NAME, "home"),
+        SetProperty(HOME, JOINT_VALUES, " ".join(map(str, HOMES[robot]))),
+    ]
+    return WorldModel(WorldState.empty(vocabulary()).changed(facts))
 
 
 class OneArm:
     """A cell with one arm, and what a tree does with a primitive."""
 
     def __init__(self, robot: str, **options) -> None:
-        self.bench, self.world = Bench(robot, **options), World(robot)
+        self.bench, self.world = Bench(robot, **options), world(robot)
         self.bench.run(0.02)
 
     @property
@@ -110,7 +111,7 @@ def test_out_of_reach_is_said_before_anything_moves(cell):
         cell.run(MoveJoints(cell, arm=ARM, target=Pose.of((3.0, 0.0, 0.5)), pace=0.5))
     with pytest.raises(SkillFailure, match="no posture 'away'; it has home"):
         cell.run(TakePosture(cell, arm=ARM, posture="away", pace=0.5))
-    cell.world.values["home", JOINT_VALUES] = "0.0 zero"
+    cell.world.commit([SetProperty(HOME, JOINT_VALUES, "0.0 zero")])
     with pytest.raises(SkillFailure, match=r"posture home of .* is not numbers"):
         cell.run(TakePosture(cell, arm=ARM, posture="home", pace=0.5))
     with pytest.raises(SkillFailure, match=r"faster than the 0\.5 m/s"):
@@ -269,7 +270,7 @@ def test_an_align_that_fails_or_is_halted_holds_the_tool(robot, fails):
     align.halt("stopped by the user")
     cell.bench.run(1.0)
     assert cell.arm(ARM).behind is None
-    assert (BOARD, POSITION[0]) not in cell.world.values
+    assert cell.world.snapshot().value(BOARD, POSITION[0]) is None
 
 
 def test_touching_corrects_what_it_can_tell():
@@ -293,9 +294,9 @@ def _facing(normal):
 
 def _write(world, pose):
     values = zip(POSITION + ORIENTATION, (*pose.position, *quaternion_of(pose.rotation)), strict=True)
-    world.values |= {(BOARD, name): float(value) for name, value in values}
-    world.values[BOARD, BASE_FRAME_ID] = "map"
+    world.commit([SetProperty(BOARD, BASE_FRAME_ID, "map"), *(SetProperty(BOARD, k, float(v)) for k, v in values)])
 
 
 def _read(world):
-    return Pose.of([world.values[BOARD, p] for p in POSITION], [world.values[BOARD, o] for o in ORIENTATION])
+    read = world.snapshot().value
+    return Pose.of([read(BOARD, name) for name in POSITION], [read(BOARD, name) for name in ORIENTATION])

@@ -42,8 +42,8 @@ lab:Arm-2 a rparts:ArmDevice ; skiros:at lab:Shelf-4 ; skillc:hasSheet skillc:ii
     skiros:DriverAddress "/driver" ; skiros:StateProperty "Idle" ; skiros:hasA lab:Gripper-3 .
 lab:Gripper-3 a rparts:GripperEffector ; skiros:ContainerState "Empty" .
 lab:Shelf-4 a skiros:Workstation ; skiros:PushToFrameId "map" ; skiros:LinkedToFrameId "marker" ;
-    skiros:BaseFrameId "map" ; skiros:PositionX 0 ; skiros:PositionY 0 ; skiros:PositionZ 0 ; skiros:OrientationW 1 ; skiros:OrientationX 0 ;
-    skiros:OrientationY 0 ; skiros:OrientationZ 0 .
+    skiros:BaseFrameId "map" ; skiros:PositionX 0 ; skiros:PositionY 0 ; skiros:PositionZ 0 ; skiros:OrientationW 1 ;
+    skiros:OrientationX 0 ; skiros:OrientationY 0 ; skiros:OrientationZ 0 .
 lab:Peg a owl:class ; rdfs:subClassOf skiros:Part .
 lab:Peg-5 a lab:Peg ; skiros:CadModel "peg.stl" ; skiros:ForceX "1.5"^^xsd:float ; skiros:ForceY 0 ; skiros:ForceZ 0.0 ;
     skiros:VelocityX "0.25"^^xsd:double ; skiros:VelocityY 0.0 ; skiros:VelocityZ 0.0 ; skiros:Weight 3 .
