@@ -60,5 +60,5 @@ clean:           ## remove the environment and all output
 	@touch $@
 
 .venv/.dev: .venv/.runtime
-	$(INSTALL) -e '.[planner,temporal,video,editor,dev]'
+	$(INSTALL) -e '.[planner,temporal,fast,video,editor,dev]'
 	@touch $@
