@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from contact_runs import LAB, at_rest, displace, run, strongest, tell, vanish
 
-from skillc_runtime.motion.pose import Pose
+from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.fixtures import true_pose
+from skillc_runtime.world.frames import pose
 
 pytestmark = pytest.mark.sim
 
@@ -102,4 +103,36 @@ def test_a_hole_that_is_too_shallow_is_told_with_the_depth_that_was_reached() ->
     assert not done.succeeded
     assert "rests 3" in done.why
     assert "mm deep in lab:Socket-1, which is 40.0 mm deep" in done.why
+    assert at_rest(done.cell)
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_a_person_leads_the_tool_with_little_force_to_the_pose_that_is_taught(seed: int) -> None:
+    forces: list[float] = []
+    path: list[Array] = []
+
+    def watch(cell: SimulatedCell) -> None:
+        force = float(np.linalg.norm(cell.data.body("lab:Robotiq-1/palm").xfrc_applied[:3]))
+        if force > 0.0:
+            forces.append(force)
+            path.append(cell.arm(LAB + "Iiwa-1").pose.position)
+
+    done = run("teach_pose", seed, watch=watch)
+    assert done.succeeded, done.why
+    (person,) = done.cell.people
+    taught = pose(done.cell.world.snapshot(), LAB + "Taught-1").position
+    assert np.linalg.norm(taught - person.place) < 0.005
+    assert np.linalg.norm(path[-1] - path[0]) > 0.05
+    assert max(forces) < 25.0
+    assert at_rest(done.cell)
+
+
+def test_an_arm_that_nobody_leads_says_so_and_stays() -> None:
+    def alone(cell: SimulatedCell) -> None:
+        cell.people = ()
+
+    done = run("teach_pose", change=alone, once=True)
+    assert not done.succeeded
+    assert "nobody led the tool of lab:Iiwa-1 to a place within 30 s: it is 0 mm away" in done.why
+    assert done.value("Taught-1", "isTaught") is False
     assert at_rest(done.cell)

@@ -52,6 +52,11 @@ def y_axis(_state: WorldState, of: Pose) -> Array:
     return of.rotation[:, 1].copy()
 
 
+def z_axis(_state: WorldState, of: Pose) -> Array:
+    """Return the direction (3,) of a pose's z axis in the world."""
+    return of.rotation[:, 2].copy()
+
+
 def lanes(state: WorldState, surface: str, tool: str, overlap: float) -> list[Pose]:
     """Return the tool's poses along lanes that cover a surface; `overlap`: the share neighbours have in common."""
     frame = pose(state, surface)

@@ -20,6 +20,7 @@ from skillc_runtime.simulation.fixtures import SimulatedButton, buttons
 from skillc_runtime.simulation.gripper import SimulatedGripper
 from skillc_runtime.simulation.inspection import SimulatedCamera
 from skillc_runtime.simulation.observer import ToolObserver
+from skillc_runtime.simulation.person import people, read_people
 from skillc_runtime.simulation.recorder import Recording
 from skillc_runtime.simulation.variation import Variation, draw
 from skillc_runtime.world.changes import SetProperty
@@ -67,6 +68,9 @@ class SimulatedCell:
         self._camera = SimulatedCamera(self.coverage)
         self.watchdog = Watchdog()
         self._buttons = buttons(facts.fixtures, names, self.data)
+        self.people = people(
+            read_people(world.snapshot()), facts.arms, names, self._drivers, self.data, self.variation.seed
+        )
         world.commit([SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(self._drivers)], "start of the cell")
 
     @property
@@ -163,6 +167,8 @@ class SimulatedCell:
             gripper.step(self._timestep)
         for arm in self.arms.values():
             arm.before_step()
+        for person in self.people:
+            person.step(now)
         mujoco.mj_step2(self.model, self.data)
         for arm in self.arms.values():
             arm.after_step()
