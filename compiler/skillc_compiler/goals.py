@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import msgspec
 
-from skillc_compiler.asking.pddl_text import Group, PddlGoalError, Word, goal, read_group
+from skillc_compiler.asking.pddl_text import COMPARING, Group, PddlGoalError, Word, goal, read_group
 from skillc_compiler.asking.setting import setting
 from skillc_compiler.asking.slips import EXAMPLES, Asked, slips, told_plainly
 from skillc_compiler.checks import check
@@ -82,6 +82,8 @@ def _is_pddl(group: Group, names: Names) -> bool:
         case [Word(text="exists" | "forall"), Word(text=first), *_]:
             return not first.endswith(":")
         case [Word(text="and" | "or" | "imply" | "exists" | "forall" | "="), *_]:
+            return True
+        case [Word(text=operator), Group(), _] | [Word(text=operator), _, Group()] if operator in COMPARING:
             return True
         case [Word(text=first), Word(text=second), Word()]:
             return names.is_term("relation", first) or not (second in BETWEEN or names.is_term("relation", second))

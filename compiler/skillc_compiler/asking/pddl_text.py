@@ -11,6 +11,7 @@ from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 
+COMPARING = frozenset(("<", "<=", ">", ">=", "="))
 _TOKEN = re.compile(r"[()]|[^\s()]+")
 
 
@@ -81,6 +82,8 @@ def goal(group: Group, is_class: Callable[[str], bool]) -> s.Condition:
             return _quantified("forall", variables, goal(_group(body), is_class), group)
         case [Word(text="="), Word() as left, Word() as right]:
             return s.Compare(_reference(left), "==", _reference(right), group.span)
+        case [Word(text=operator), left, right] if operator in COMPARING:
+            raise _comparison(operator, left, right, group.span)
         case [Word() as relation, Word() as subject, Word() as object_]:
             return s.Relation(_reference(subject), _name(relation), _reference(object_), group.span)
         case [Word() as name, Word() as subject] if is_class(name.text):
@@ -132,6 +135,24 @@ def _name(word: Word) -> s.Name:
 def _refusal(span: Span, message: str) -> PddlGoalError:
     help_ = "a goal is `(relation subject object)` or `(property individual)`, joined by and, or, not, exists, forall"
     return PddlGoalError(Diagnostic("syntax", span, message, help_))
+
+
+def _comparison(operator: str, left: Expression, right: Expression, span: Span) -> PddlGoalError:
+    """Refuse what compares values: PDDL has no units to do it in."""
+    own = f"{_said(left)} {'==' if operator == '=' else operator} {_said(right)}"
+    help_ = f"write it as in a .skill file, numbers with their units: `{own}`, and all around it in that way too"
+    return PddlGoalError(Diagnostic("syntax", span, "a PDDL goal compares no values of properties", help_))
+
+
+def _said(expression: Expression) -> str:
+    """Return a value as the language says it: `(p x)` is `x.p`."""
+    match expression:
+        case Word(text=text):
+            return text.removeprefix("?")
+        case Group(parts=[Word(text=name), Word(text=owner)]):
+            return f"{owner.removeprefix('?')}.{name}"
+        case Group():
+            return ".."
 
 
 def _words(text: str, path: str) -> Iterator[Word]:

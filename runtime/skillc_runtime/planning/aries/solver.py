@@ -75,7 +75,7 @@ class Aries:
                 (Path(folder) / "problem.upp").write_bytes(problem_message(flat))
                 return self._deeper_and_deeper(flat, Path(folder), end)
         except NotTemporal as why:
-            return GaveUp(f"aries does not take the problem: {why}")
+            return GaveUp(f"aries does not take the problem: {why}; the planners for --minimise work do")
         except OSError as error:
             return GaveUp(f"aries has no place to work in: {error.filename}: {error.strerror}")
 
