@@ -11,8 +11,9 @@ import click
 import pytest
 
 from planners.test_rehearsal import BOTH, GOOD, WORLD, carry, in_order, step
+from planning.samples import LAB, library, post, skill
 from plans import depot
-from skillc_compiler.library.conditions import Condition
+from skillc_compiler.library.conditions import Condition, Holds, Individual
 from skillc_compiler.library.pddl.problem import Problem
 from skillc_compiler.library.tree import Sequence
 from skillc_compiler.library.vocabulary import Position
@@ -35,6 +36,7 @@ from skillc_runtime.plans.quickest import ScheduleResult, quickest
 from skillc_runtime.plans.rehearsal import rehearse
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.state import WorldState
+from world.lab import holds, iri, parameter
 
 LIBRARY = depot.library()
 TWO_AWAY = depot.world({"carl": "a", "dora": "b"}, {"crate": "a", "box": "a"}, "a b c")
@@ -111,6 +113,18 @@ def test_a_wrong_schedule_is_rejected_and_reported() -> None:
         why = "its time was up" if isinstance(each, GaveUp) else "somebody returned a schedule that does not work"
         assert why in (answer.note or "")
     assert len(wrong) == 4
+
+
+def test_effects_that_depend_on_what_there_is_are_refused_with_who_takes_them() -> None:
+    jump = skill(
+        "Jump", (parameter("robot", "Robot"), parameter("to", "Location")), (), (post(holds("robot", "at", "to")),), 1.0
+    )
+    goal = Holds(Individual(iri("robot")), iri("at"), Individual(iri("wall")))
+    problem = pose_problem(library(jump), LAB, goal).problem
+    assert isinstance(AStar().plan(problem, 20.0), Solved)
+    refused = Aries("never started").schedule(problem, 20.0)
+    assert isinstance(refused, GaveUp)
+    assert "Jump changes depends on what there is" in refused.why and "--minimise work do" in refused.why
 
 
 def test_what_has_no_plan_has_no_schedule() -> None:
