@@ -18,19 +18,31 @@ from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.compliance import ReleaseAxis
+from skillc_runtime.primitives.overlay import AddedMotion
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.robots.cell import Cell
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import execute
 from skillc_runtime.trace.events import Event, NodeEnded, Note, TaskEnded
-from skillc_runtime.world.terms import ARM_DEVICE, BUTTON, MOBILE_ROBOT, RPARTS, SKILLC, SKIROS, SURFACE, TOOL, WEIGHT
+from skillc_runtime.world.terms import (
+    ARM_DEVICE,
+    BUTTON,
+    CONTACT,
+    MOBILE_ROBOT,
+    RPARTS,
+    SKILLC,
+    SKIROS,
+    SURFACE,
+    TOOL,
+    WEIGHT,
+)
 from tree.stage import Library, call, par, with_
 
 GRIPPER_EFFECTOR, WORKSTATION = RPARTS + "GripperEffector", SKILLC + "Workstation"
 GRASPING_POSE = SKIROS + "GraspingPose"
-SCENES = ("iiwa_table", "ur5e_whiteboard", "ur5e_button")
+SCENES = ("iiwa_table", "ur5e_whiteboard", "ur5e_button", "panda_peg", "iiwa_guiding")
 
-ABSTRACT = {Primitive, ArmMotion}
+ABSTRACT = {Primitive, ArmMotion, AddedMotion}
 TICKS = 3
 """Ticks before a break or a halt."""
 
@@ -54,11 +66,14 @@ KINDS = {
     "to": WORKSTATION,
     "grasp": GRASPING_POSE,
     "button": BUTTON,
+    "socket": CONTACT + "Socket",
+    "pose": CONTACT + "TaughtPose",
 }
 """Of which classes the things are that parameters of these names stand for."""
 
 MOTION = {"posture": "home", "pace": 0.5, "speed": 0.2, "blend": 0.01, "settle": 5.0, "patience": 5.0, "travel": 0.5}
-CONTACT = {"stiffness": 0.0, "force": 10.0, "radius": 0.01, "rate": 1.0, "opening": 0.02}
+PRESSING = {"stiffness": 0.0, "force": 10.0, "opening": 0.02, "approach": 0.05, "depth": 0.02, "still": 1.5}
+SWINGING = {"radius": 0.01, "rate": 1.0, "amplitude": 0.01, "pitch": 0.001}
 
 
 def things(scene: str) -> dict[str, str]:
@@ -85,7 +100,7 @@ def arguments(scene: str, cell: Cell) -> dict[str, object]:
     tool = cell.arm(things(scene)["arm"]).anchor
     raised = Pose(tool.position + np.array([0.0, 0.0, 0.05]), tool.rotation)
     poses = {"target": raised, "path": [raised, tool], "along": -tool.rotation[:, 2], "plane": tool.rotation[:, 2]}
-    return {**things(scene), **MOTION, **CONTACT, **poses}
+    return {**things(scene), **MOTION, **PRESSING, **SWINGING, **poses}
 
 
 class Pushing(Primitive):

@@ -25,11 +25,11 @@ SEATED_SHARE = 0.9
 
 
 class SinkBelow(Primitive):
-    """Wait up to `patience` s until the tool is `depth` m below a place, against the unit direction `along` (3,)."""
+    """Wait up to `patience` s until the tool is `depth` m below a target, against the unit direction `along` (3,)."""
 
-    def __init__(self, cell: Cell, *, arm: str, place: Pose, along: Array, depth: float, patience: float) -> None:
+    def __init__(self, cell: Cell, *, arm: str, target: Pose, along: Array, depth: float, patience: float) -> None:
         super().__init__(cell)
-        self.arm, self._place, self._along = cell.arm(arm), place.position, along
+        self.arm, self._target, self._along = cell.arm(arm), target.position, along
         self._depth, self._patience, self._began, self._deepest = depth, patience, 0.0, -np.inf
 
     def start(self) -> None:
@@ -40,14 +40,14 @@ class SinkBelow(Primitive):
     def tick(self) -> Status:
         """Return SUCCESS once the tool is deep enough."""
         raise_fault(self.arm)
-        depth = float(self._along @ (self._place - self.arm.pose.position))
+        depth = float(self._along @ (self._target - self.arm.pose.position))
         self._deepest = max(self._deepest, depth)
         if depth >= self._depth:
             return Status.SUCCESS
         if self.cell.now - self._began > self._patience:
             raise SkillFailure(
                 f"nothing gave way within {self._patience:g} s: the tool sank {self._deepest * 1e3:.1f} mm "
-                f"below the place, not {self._depth * 1e3:g} mm"
+                f"below the target, not {self._depth * 1e3:g} mm"
             )
         return Status.RUNNING
 
