@@ -1,9 +1,14 @@
 """What holds for all tests."""
 
+import os
 import signal
 
 
 def pytest_configure() -> None:
-    """Let processes that tests start listen to Ctrl-C, even where the tests run in the background and do not."""
+    """Let output have no edge, and processes that tests start listen to Ctrl-C.
+
+    In the background, where tests may run, they would not.
+    """
+    os.environ.pop("COLUMNS", None)
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
