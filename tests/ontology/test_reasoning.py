@@ -52,7 +52,7 @@ def impossible(graph: Graph, folder: Path) -> list[str] | None:
 def test_rules_find_no_contradiction(scene: str) -> None:
     graph = with_scene(scene)
     assert contradictions(graph) == []
-    assert (LAB["Eraser-1"], SKILLC.within, LAB["Scene-1"]) in graph, "the rules ran"
+    assert set(graph.subjects(SKILLC.within, LAB["Scene-1"])), "the rules ran"
 
 
 @pytest.mark.parametrize("wrong", BAD.values(), ids=BAD)
