@@ -26,7 +26,7 @@ reasoners: .venv/.dev ## what reasoners of OWL find in the ontology and the desc
 	$(BIN)/pytest -m reasoner -n 2
 
 sim: .venv/.dev  ## whole tasks on both arms, in simulation
-	$(BIN)/pytest -m sim
+	$(BIN)/pytest -m sim -n 2
 
 wheel: .venv/.dev ## build the wheel and use it in a clean environment
 	$(BIN)/pytest -m wheel
