@@ -26,6 +26,7 @@ def wiping(surface: str = "lab:Table-1", **changes: float) -> WipingResult:
         "vibration_mm_s": 0.2,
         "tilt_rms_deg": 0.2,
         "first_impact_n": 11.0,
+        "tracking_rms_mm": 5.0,
         "lane_dwell_s": None,
     }
     return WipingResult(surface=surface, **{**good, **changes})  # type: ignore[arg-type]

@@ -19,7 +19,8 @@ TURN_DECELERATION = 2.0
 class Guide:
     """The reference of one tool. A motion starts where the one before it comes to rest; the two overlap without a jump.
 
-    Motion time starts with each motion, overlay time runs on; a pause slows both to a standstill.
+    Motion time starts with each motion, overlay time runs on; a pause slows both to a standstill. `path` is the last
+    sample, overlays aside.
     """
 
     def __init__(self, pose: Pose, deceleration: float) -> None:
@@ -37,6 +38,7 @@ class Guide:
         self._rest = at_rest(Pose(pose.position + self._way.way, exp(self._turn.way) @ pose.rotation))
         self._trajectory: Trajectory | None = None
         self._ends = max(self._way.duration, self._turn.duration)
+        self.path = self._rest
 
     def follow(self, trajectory: Trajectory, now: float) -> None:
         """Follow a trajectory from now on; it must start at `anchor`, else ValueError."""
@@ -115,8 +117,8 @@ class Guide:
 
     def sample(self, now: float) -> Reference:
         """Return the reference."""
-        motion = self._motion(now)
-        return self._overlaid(motion, now) if self._overlays else motion
+        self.path = self._motion(now)
+        return self._overlaid(self.path, now) if self._overlays else self.path
 
     def _motion(self, now: float) -> Reference:
         time, rate, slope = self._tempo.at(now)

@@ -34,7 +34,11 @@ class ChoiceResult(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class WipingResult(msgspec.Struct, frozen=True, kw_only=True):
-    """How well a surface was wiped, measured by the simulator and not by the controller."""
+    """How well a surface was wiped, measured by the simulator and not by the controller.
+
+    `lane_dwell_s` is the time lost at each corner of the lanes, None where there is none; an overlay hides what the
+    tool did there, so that it is then the dwell of the path that the tool was asked for.
+    """
 
     surface: str
     coverage: float
@@ -45,7 +49,9 @@ class WipingResult(msgspec.Struct, frozen=True, kw_only=True):
     vibration_mm_s: float
     tilt_rms_deg: float
     first_impact_n: float
-    lane_dwell_s: float | None
+    tracking_rms_mm: float
+    lane_dwell_s: float | None = None
+    lane_dwell_of: Literal["tool", "path"] = "tool"
 
 
 class TaskResult(msgspec.Struct, frozen=True, kw_only=True):

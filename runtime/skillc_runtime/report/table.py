@@ -89,4 +89,13 @@ def _wiping_rows(wiping: WipingResult, one_of_several: bool) -> list[tuple[str, 
         ("first impact", f"{wiping.first_impact_n:.1f} N"),
         ("vibration", f"{wiping.vibration_mm_s:.2f} mm/s"),
         ("tilt", f"{wiping.tilt_rms_deg:.2f} deg rms"),
+        ("tracking", f"{wiping.tracking_rms_mm:.1f} mm rms behind the reference, in the plane"),
+        *_dwell_rows(wiping),
     ]
+
+
+def _dwell_rows(wiping: WipingResult) -> list[tuple[str, str]]:
+    if wiping.lane_dwell_s is None:
+        return []
+    whose = "" if wiping.lane_dwell_of == "tool" else ", of the path: an overlay hides the tool's"
+    return [("lane-end dwell", f"{wiping.lane_dwell_s:.3f} s a corner{whose}")]

@@ -58,6 +58,7 @@ def judge(wiping: Wiping, cell: SimulatedCell) -> WipingResult:
     """Measure how good the wiping was."""
     recording = cell.recording(wiping.tool).between(wiping.began, wiping.end)
     metrics = wiping_metrics(recording, wiping.start, wiping.end, described(wiping, cell))
+    dwell = metrics.lane_dwell
     return WipingResult(
         surface=cell.world.snapshot().vocabulary.short(wiping.surface),
         coverage=metrics.coverage,
@@ -68,7 +69,9 @@ def judge(wiping: Wiping, cell: SimulatedCell) -> WipingResult:
         vibration_mm_s=metrics.vibration_mm_s,
         tilt_rms_deg=metrics.tilt_rms_deg,
         first_impact_n=metrics.first_impact_n,
-        lane_dwell_s=metrics.lane_dwell_s,
+        tracking_rms_mm=metrics.tracking_mm,
+        lane_dwell_s=dwell.seconds if dwell else None,
+        lane_dwell_of=dwell.of if dwell else "tool",
     )
 
 

@@ -169,6 +169,11 @@ class ArmDriver(Measured):
         return Reference(tool, jacobian @ reference.dq, jacobian @ reference.ddq).moved(self._base())
 
     @property
+    def path(self) -> Reference:
+        """The same, overlays aside."""
+        return self._tool.guide.path.moved(self._base()) if self._joints is None else self.reference
+
+    @property
     def anchor(self) -> Pose:
         """Where a new motion of the tool starts: where its reference rests when stopped now."""
         self._move_tool()

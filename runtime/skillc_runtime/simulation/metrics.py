@@ -8,6 +8,7 @@ import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose, rotation_of
 from skillc_runtime.simulation.coverage import PRESSED_N, CoverageMap
+from skillc_runtime.simulation.dwell import LaneDwell, lane_dwell
 from skillc_runtime.simulation.highpass import highpass
 from skillc_runtime.simulation.recorder import Recording
 
@@ -20,18 +21,12 @@ COVERAGE_PERIOD_S = 0.01
 
 @dataclass(frozen=True, slots=True)
 class Wiped:
-    """What was wiped, with what and how: the true frame of the surface in the world, sizes (2,) m, force N.
-
-    `lane_speed` m/s, `acceleration` m/s^2 and the number of inner `corners` describe lanes without overlay motion.
-    """
+    """What was wiped, with what and how: the true frame of the surface in the world, sizes (2,) m, force N."""
 
     surface: Pose
     extent: Array
     tool: Array
     force_command_n: float
-    lane_speed: float | None = None
-    acceleration: float | None = None
-    corners: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +36,7 @@ class WipingMetrics:
     coverage: share of 5 mm cells wiped. Forces in N: mean, root mean square about the command, lost contact included,
     greatest from first contact to the start of wiping. contact_lost: share of time. Vibration of the tool above 15 Hz,
     rms in mm/s. Tilt of the tool against the true normal. Tracking: rms distance in the plane from the reference.
-    lane_dwell_s: time lost at each inner corner, None when an overlay hides it.
+    lane_dwell: time lost at each corner, None where the path has none.
     """
 
     coverage: float
@@ -54,7 +49,7 @@ class WipingMetrics:
     tilt_rms_deg: float
     tilt_max_deg: float
     tracking_mm: float
-    lane_dwell_s: float | None
+    lane_dwell: LaneDwell | None
     duration_s: float
 
 
@@ -78,7 +73,7 @@ def wiping_metrics(recording: Recording, start: float, end: float, wiped: Wiped)
         tilt_rms_deg=_rms(tilt),
         tilt_max_deg=float(tilt.max()),
         tracking_mm=1000 * _tracking(window, wiped.surface),
-        lane_dwell_s=_lane_dwell(window, wiped),
+        lane_dwell=lane_dwell(window),
         duration_s=end - start,
     )
 
@@ -120,12 +115,3 @@ def _tracking(window: Recording, surface: Pose) -> float:
     """Return the rms distance in the plane of the surface between tool and reference, m."""
     in_plane = (window.position - window.reference) @ surface.rotation[:, :2]
     return _rms(np.linalg.norm(in_plane, axis=1))
-
-
-def _lane_dwell(window: Recording, wiped: Wiped) -> float | None:
-    """Return the time below half the lane speed, without start and end, for each inner corner, s."""
-    if wiped.lane_speed is None or wiped.acceleration is None or wiped.corners == 0:
-        return None
-    speed = np.linalg.norm(window.velocity, axis=1)
-    slow = float((speed < wiped.lane_speed / 2).sum()) * _step(window)
-    return (slow - wiped.lane_speed / wiped.acceleration) / wiped.corners

@@ -12,8 +12,8 @@ from skillc_runtime.motion.reference import Reference
 MEASURED = 12
 """time; normal force; face position 3, quaternion 4, velocity 3."""
 
-COLUMNS = 18
-"""Those, then reference position 3, reference velocity 3."""
+COLUMNS = 24
+"""Those, then position 3 and velocity 3 of the reference, and the same of the path: the reference without overlays."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,7 +22,7 @@ class Recording:
 
     force (n,): N, normal force of all contacts of the tool's working face. position (n, 3), quaternion (n, 4),
     velocity (n, 3): of the middle of that face, z out of the tool. reference, reference_velocity (n, 3): what the
-    arm's controller was asked for.
+    arm's controller was asked for; path, path_velocity (n, 3): the same without overlays.
     """
 
     rows: Array
@@ -62,6 +62,16 @@ class Recording:
         """Velocity the controller was asked for (n, 3) in m/s."""
         return self.rows[:, 15:18]
 
+    @property
+    def path(self) -> Array:
+        """Position the controller was asked for, overlays aside (n, 3) in m."""
+        return self.rows[:, 18:21]
+
+    @property
+    def path_velocity(self) -> Array:
+        """Velocity the controller was asked for, overlays aside (n, 3) in m/s."""
+        return self.rows[:, 21:24]
+
     def between(self, start: float, end: float) -> Recording:
         """Return the rows with start <= time < end."""
         first, last = np.searchsorted(self.time, (start, end))
@@ -76,7 +86,7 @@ class Recorder:
         self._truth = truth
         self._rows = np.empty((expected_steps, MEASURED))
         self._count = 0
-        self._references: list[tuple[float, Array, Array]] = []
+        self._references: list[tuple[float, Array]] = []
 
     def sample(self, time: float) -> None:
         """Take the row of one step that began at `time` s."""
@@ -86,17 +96,18 @@ class Recorder:
         row[0], row[1:] = time, self._truth
         self._count += 1
 
-    def sample_reference(self, time: float, reference: Reference) -> None:
-        """Take what the arm is asked for at `time` s, in the world."""
-        self._references.append((time, reference.pose.position, reference.twist[:3]))
+    def sample_reference(self, time: float, reference: Reference, path: Reference) -> None:
+        """Take what the arm is asked for at `time` s, and the same without overlays, in the world."""
+        asked = (reference.pose.position, reference.twist[:3], path.pose.position, path.twist[:3])
+        self._references.append((time, np.concatenate(asked)))
 
     def recording(self) -> Recording:
         """Return what was taken so far, as a read-only copy; between two samples a reference is interpolated."""
         rows = np.empty((self._count, COLUMNS))
         rows[:, :MEASURED] = self._rows[: self._count]
         if self._references:
-            times = np.array([time for time, _, _ in self._references])
-            asked = np.array([[*position, *velocity] for _, position, velocity in self._references])
+            times = np.array([time for time, _ in self._references])
+            asked = np.array([values for _, values in self._references])
             for column, values in enumerate(asked.T, start=MEASURED):
                 rows[:, column] = np.interp(rows[:, 0], times, values)
         rows.flags.writeable = False

@@ -18,7 +18,7 @@ WIDTH, HEIGHT, MARGIN = 420, 34, 8
 class Strip:
     """A spread with its drawing: px of each trial, from left to right as the seeds are up and down, and of the target.
 
-    The scale goes from `low` to `high` in the unit of the metric.
+    The scale goes from `low` to `high` in the unit of the metric; some metrics have no target.
     """
 
     spread: Spread
@@ -26,7 +26,7 @@ class Strip:
     high: float
     dots: tuple[tuple[float, float], ...]
     median: float
-    target: float
+    target: float | None
 
 
 def render(series: Series) -> str:
@@ -45,14 +45,14 @@ def render(series: Series) -> str:
 def strip(spread: Spread) -> Strip:
     """Return the drawing of one spread: every trial a dot, the target a line."""
     wanted = next(metric.target for metric in METRICS if metric.name == spread.metric)
-    low, high = _scale((*spread.values, wanted))
+    low, high = _scale(spread.values if wanted is None else (*spread.values, wanted))
 
     def at(value: float) -> float:
         return round(MARGIN + (WIDTH - 2 * MARGIN) * (value - low) / (high - low), 1)
 
     lines = _lines(len(spread.values))
     dots = tuple((at(value), line) for value, line in zip(spread.values, lines, strict=True))
-    return Strip(spread, low, high, dots, at(spread.median), at(wanted))
+    return Strip(spread, low, high, dots, at(spread.median), None if wanted is None else at(wanted))
 
 
 def _scale(values: Sequence[float]) -> tuple[float, float]:

@@ -14,23 +14,27 @@ from skillc_runtime.trials.trial import Trial
 class Metric:
     """A number of one wiping, in `unit`; None where it was not measured.
 
-    It shall be `sense` the `target` in every trial, and the median of all trials the `median_target` if there is one.
+    It shall be `sense` the `target` in every trial, and the median of all trials the `median_target`, if there is one.
     """
 
     name: str
     unit: str
     of: Callable[[WipingResult], float | None]
     sense: Literal["at least", "at most"]
-    target: float
+    target: float | None = None
     median_target: float | None = None
 
     def met(self, value: float) -> bool:
         """Tell whether a value is as good as the target."""
+        if self.target is None:
+            return True
         return value >= self.target if self.sense == "at least" else value <= self.target
 
     @property
     def wanted(self) -> str:
         """The target in words."""
+        if self.target is None:
+            return "no target"
         return f"{self.sense} {self.target:g} {self.unit}"
 
 
@@ -42,6 +46,7 @@ METRICS = (
     Metric("first impact", "x F", lambda w: w.first_impact_n / w.force_command_n, "at most", 2.0),
     Metric("vibration", "mm/s", lambda w: w.vibration_mm_s, "at most", 1.0),
     Metric("tilt", "deg rms", lambda w: w.tilt_rms_deg, "at most", 0.5),
+    Metric("tracking", "mm rms", lambda w: w.tracking_rms_mm, "at most"),
     Metric("lane-end dwell", "s", lambda w: w.lane_dwell_s, "at most", 0.02),
 )
 
