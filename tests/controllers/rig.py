@@ -35,6 +35,7 @@ SHEETS = {
         "admittanceTime": 0.02,
     },
 }
+SERVO_KP, SERVO_KV = 10000.0, 200.0
 LAWS = {"iiwa14": "impedance", "ur5e": "forward_dynamics"}
 HOMES = {"iiwa14": [0.0, 0.5, 0.0, -1.6, 0.0, 1.04, 0.0], "ur5e": [0.0, -1.9, 2.2, -1.87, -1.5708, 0.0]}
 GAINS = {robot: gains(LAWS[robot], sheet.__getitem__) for robot, sheet in SHEETS.items()}
@@ -162,6 +163,8 @@ def _model(robot: str, gap, tilt, friction, base: Pose) -> mujoco.MjModel:
     spec.option.timestep, spec.option.cone = 0.001, mujoco.mjtCone.mjCONE_ELLIPTIC
     root = spec.worldbody.first_body()
     root.pos, root.quat = base.position, quaternion_of(base.rotation)
+    if LAWS[robot] == "forward_dynamics":
+        _give_servos(spec)
     flange = spec.site("flange")
     tool = flange.parent.add_body(name="eraser", pos=flange.pos, quat=flange.quat)
     tool.add_geom(
@@ -191,3 +194,9 @@ def _model(robot: str, gap, tilt, friction, base: Pose) -> mujoco.MjModel:
         face = plate.add_geom(name="plate", type=mujoco.mjtGeom.mjGEOM_BOX, size=[0.4, 0.4, 0.02], pos=[0, 0, -0.02])
         face.contype, face.conaffinity = 1, 2
     return spec.compile()
+
+
+def _give_servos(spec: mujoco.MjSpec) -> None:
+    """Give a position-controlled arm servos that take a command every few steps without smoothing."""
+    for actuator in spec.actuators:
+        actuator.gainprm[0], actuator.biasprm[1], actuator.biasprm[2] = SERVO_KP, -SERVO_KP, -SERVO_KV

@@ -44,7 +44,7 @@ def test_flange_jacobian_mass_matrix_and_gravity_agree_with_pinocchio(robot: str
 
 @pytest.mark.parametrize("robot", TOTAL_MASS_KG)
 def test_the_first_body_is_where_the_world_is(robot: str) -> None:
-    """pinocchio 4.1 drops the pose of a first body without joint: one elsewhere would be compared with the wrong place."""
+    """pinocchio 4.1 drops the pose of a first body without joint: one elsewhere would be compared wrongly."""
     model = mujoco.MjModel.from_xml_path(str(ROBOTS / f"{robot}.xml"))
     np.testing.assert_array_equal(model.body_pos[1], 0.0)
     np.testing.assert_array_equal(model.body_quat[1], (1.0, 0.0, 0.0, 0.0))
