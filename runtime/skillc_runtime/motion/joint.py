@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -19,6 +20,29 @@ class JointReference:
     ddq: Array
 
 
+class JointTrajectory(Protocol):
+    """A motion of the joints, from rest to rest, as a pure function of time."""
+
+    @property
+    def start(self) -> Array:
+        """Where it begins, (nv,) in rad."""
+        ...
+
+    @property
+    def end(self) -> Array:
+        """Where it ends, (nv,) in rad."""
+        ...
+
+    @property
+    def duration(self) -> float:
+        """Seconds from rest to rest."""
+        ...
+
+    def at(self, time: float) -> JointReference:
+        """Return the reference `time` s after the start; before it the start, after the end the end."""
+        ...
+
+
 @dataclass(frozen=True, slots=True)
 class JointMotion:
     """A motion from `start` by `change`, both (nv,) in rad; the profile runs from 0 to 1."""
@@ -26,6 +50,11 @@ class JointMotion:
     start: Array
     change: Array
     profile: Profile
+
+    @property
+    def end(self) -> Array:
+        """Where it ends, (nv,) in rad."""
+        return self.start + self.change
 
     @property
     def duration(self) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from skillc_runtime.motion.brake import brake
-from skillc_runtime.motion.joint import JointMotion, JointReference
+from skillc_runtime.motion.joint import JointReference, JointTrajectory
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.tempo import Tempo
 
@@ -22,10 +22,10 @@ class JointGuide:
         self._tempo = Tempo(since=now)
         self._brake = brake(dq, self._deceleration)
         self._rest = _at_rest(q + self._brake.way)
-        self._motion: JointMotion | None = None
+        self._motion: JointTrajectory | None = None
         self._ends = self._brake.duration
 
-    def follow(self, motion: JointMotion, now: float) -> None:
+    def follow(self, motion: JointTrajectory, now: float) -> None:
         """Follow a motion from now on; it must start at `anchor`, else ValueError."""
         far = float(np.abs(motion.start - self.anchor(now)).max())
         if far > 1e-3:
@@ -33,7 +33,7 @@ class JointGuide:
         self.stop(now)
         self._motion = motion
         self._ends = max(self._ends, motion.duration)
-        self._rest = _at_rest(motion.start + motion.change)
+        self._rest = _at_rest(motion.end)
 
     def stop(self, now: float) -> None:
         """Give up the motion and come to rest."""

@@ -5,7 +5,7 @@ Primitives speak of the world; inside, all is in the arm's base frame, so that a
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import dist
 
 import mujoco
@@ -13,19 +13,16 @@ import numpy as np
 
 from skillc_runtime.controllers.controller import ControlError
 from skillc_runtime.controllers.gains import Gains
-from skillc_runtime.motion.joint import joint_motion
+from skillc_runtime.motion.joint import JointTrajectory
 from skillc_runtime.motion.joint_guide import JointGuide
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
 from skillc_runtime.robots.arm import Arm, ArmLimits, ArmState, Command
 from skillc_runtime.robots.guard import Guard
 from skillc_runtime.robots.measured import NEAR_JOINT_RAD, Measured, Observer
-from skillc_runtime.robots.reach import Reach
+from skillc_runtime.robots.reach import JOINT_RAMP_S, Reach
 from skillc_runtime.robots.safety import SafetyLimits
 from skillc_runtime.robots.tool_task import ToolTask
-
-JOINT_RAMP_S = 0.5
-"""Seconds in which a joint motion reaches its full speed."""
 
 TOOL_JUMP_M_S = 3.0
 """No tool moves this fast; one that seems to was moved on the hand."""
@@ -180,6 +177,11 @@ class ArmDriver(Measured):
         return self._base() @ self._tool.guide.anchor(self._now)
 
     @property
+    def joint_anchor(self) -> Array:
+        """Where a new motion of the joints starts, (nv,) in rad; asking moves nothing."""
+        return (self._joints or self._joints_as_they_move()).anchor(self._now)
+
+    @property
     def done(self) -> bool:
         """Whether the reference rests."""
         return (self._joints or self._tool.guide).done(self._now)
@@ -209,10 +211,19 @@ class ArmDriver(Measured):
 
     def move_joints(self, goal: Array, share: float) -> None:
         """Move the joints to `goal` (nv,) with a share, above 0 to 1, of their greatest speeds, or the tool's."""
-        joints = self._move_joints()
-        start, most = joints.anchor(self._now), self._guard.limits.tool_speed_m_s
-        speed = self._reach.calmed(start, goal, share * self.limits.velocity, most, self._state)
-        joints.follow(joint_motion(start, goal, speed, speed / JOINT_RAMP_S), self._now)
+        self.follow_joints(self.joint_motion((goal,), share))
+
+    def joint_motion(self, way: Sequence[Array], share: float, blend: float = 0.0) -> JointTrajectory:
+        """Return the motion of the joints from where they come to rest through all of `way`, each (nv,), to its end.
+
+        Speed as for `move_joints`; on the way it goes past postures without stopping if `blend` > 0, to 1 at most.
+        """
+        speed, most = share * self.limits.velocity, self._guard.limits.tool_speed_m_s
+        return self._reach.joint_path((self.joint_anchor, *way), speed, most, blend, self._state)
+
+    def follow_joints(self, motion: JointTrajectory) -> None:
+        """Move the joints as a motion says, which must start at `joint_anchor`, else ValueError."""
+        self._move_joints().follow(motion, self._now)
 
     def stop(self) -> None:
         """Come to rest within the acceleration limit; compliance, push and overlays stay."""
@@ -302,8 +313,11 @@ class ArmDriver(Measured):
     def _move_joints(self) -> JointGuide:
         """Hand over from tool to joint control: the joints go on as the tool moved them."""
         if self._joints is None:
-            self._joints = self._joint_guide(self._laws.joints_now(self._state), self._laws.speeds_now(self._state))
+            self._joints = self._joints_as_they_move()
         return self._joints
+
+    def _joints_as_they_move(self) -> JointGuide:
+        return self._joint_guide(self._laws.joints_now(self._state), self._laws.speeds_now(self._state))
 
     def _joint_guide(self, q: Array, dq: Array) -> JointGuide:
         return JointGuide(q, dq, float(self.limits.velocity.min()) / JOINT_RAMP_S, self._now)

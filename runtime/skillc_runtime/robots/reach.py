@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import pairwise
+
 import mujoco
 import numpy as np
 
 from skillc_runtime.controllers.virtual_arm import VirtualArm
+from skillc_runtime.motion.joint_path import JointPath, joint_path
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Trajectory
 from skillc_runtime.robots.arm import ArmLimits, ArmState
 from skillc_runtime.robots.feasible import feasible
 from skillc_runtime.robots.inverse import inverse
+
+JOINT_RAMP_S = 0.5
+"""Seconds in which a joint motion reaches its full speed."""
 
 LOOKS, CALM = 20, 0.85
 """How often a joint motion is looked at for its tool's speed, and which share of the limit that may be."""
@@ -42,6 +49,17 @@ class Reach:
             self._arm.move(start + share * change)
             fastest = max(fastest, float(np.linalg.norm(self._arm.jacobian[:3] @ change)))
         return speed * min(1.0, CALM * most_m_s / max(fastest * float((speed / way).min()), 1e-12))
+
+    def joint_path(
+        self, postures: Sequence[Array], speed: Array, most_m_s: float, blend: float, state: ArmState
+    ) -> JointPath:
+        """Return a joint motion through postures, each (nv,), at joint speeds (nv,), the tool below a speed.
+
+        It passes those on the way without stopping where `blend` is above 0, to 1 at most.
+        """
+        calm = [self.calmed(*piece, speed, most_m_s, state) for piece in pairwise(postures)]
+        slowest = np.min(calm, axis=0)
+        return joint_path(postures, slowest, slowest / JOINT_RAMP_S, [blend] * (len(postures) - 2))
 
     def joints_for(self, target: Pose, seed: Array, limits: Array, state: ArmState) -> Array | None:
         """Return joints (nv,) within limits (nv, 2) that put the tool at `target`, near `seed`; or None."""
