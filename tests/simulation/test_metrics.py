@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import butter, sosfiltfilt
 
+from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Pose, exp, quaternion_of
 from skillc_runtime.simulation.coverage import CoverageMap
 from skillc_runtime.simulation.highpass import highpass
@@ -34,7 +35,7 @@ def lane(offset: float, count: int = 3000) -> np.ndarray:
 
 
 def wiped(force: float = 10.0) -> Wiped:
-    return Wiped(SURFACE, EXTENT, TOOL, force)
+    return Wiped(SURFACE, Layout(EXTENT), TOOL, force)
 
 
 def test_one_lane_covers_its_share_of_the_surface() -> None:
@@ -108,7 +109,7 @@ def test_an_empty_window_is_refused() -> None:
 
 def test_a_turned_tool_wipes_what_it_covers() -> None:
     turned = exp(np.array([0.0, 0.0, 0.6]))
-    coverage = CoverageMap(SURFACE, EXTENT)
+    coverage = CoverageMap(SURFACE, Layout(EXTENT))
     coverage.add(SURFACE.position, SURFACE.rotation @ turned @ INTO, TOOL, 0.01)
     x, y = np.meshgrid(coverage.x, coverage.y)
     u, v = np.cos(0.6) * x + np.sin(0.6) * y, np.cos(0.6) * y - np.sin(0.6) * x

@@ -36,12 +36,12 @@ def lanes(
     """
     if min(*surface[:2], *tool[:2]) <= 0 or not 0 <= overlap <= 0.9:
         raise ValueError(f"lanes need positive sizes and an overlap of 0 to 0.9: {surface}, {tool}, {overlap}")
-    side = _side(surface, direction)
-    half_length = max(float(surface[side]) / 2 - (float(tool[0]) / 2 - overhang[0]), 0.0)
-    half_width = max(float(surface[1 - side]) / 2 - (float(tool[1]) / 2 - overhang[1]), 0.0)
+    first = side(surface, direction)
+    half_length = max(float(surface[first]) / 2 - (float(tool[0]) / 2 - overhang[0]), 0.0)
+    half_width = max(float(surface[1 - first]) / 2 - (float(tool[1]) / 2 - overhang[1]), 0.0)
     pitch = float(tool[1]) * (1 - overlap)
     count = ceil(2 * half_width / pitch - 1e-9) + 1
-    along, across = np.eye(3)[side], np.eye(3)[1 - side]
+    along, across = np.eye(3)[first], np.eye(3)[1 - first]
     rotation = np.column_stack([along, np.cross([0.0, 0.0, -1.0], along), [0.0, 0.0, -1.0]])
     ends: list[Pose] = []
     for i, offset in enumerate(np.linspace(-half_width, half_width, count) if count > 1 else [0.0]):
@@ -50,7 +50,8 @@ def lanes(
     return ends
 
 
-def _side(surface: Array, direction: Direction) -> int:
+def side(surface: Array, direction: Direction) -> int:
+    """Return the axis of a surface of a size (2,) in m along which lanes run: 0 for x, 1 for y."""
     match direction:
         case "longer":
             return 0 if surface[0] >= surface[1] else 1

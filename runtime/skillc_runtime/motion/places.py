@@ -5,13 +5,17 @@ The tool frame has its z axis along the direction in which the tool points and x
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from skillc_runtime.motion.lanes import Direction, side
 from skillc_runtime.motion.lanes import lanes as lane_pattern
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.frames import pose, size
+from skillc_runtime.motion.strokes import over
+from skillc_runtime.world.areas import direction, layout
+from skillc_runtime.world.frames import normal, pose, size
 
 if TYPE_CHECKING:
     from skillc_runtime.world.state import WorldState
@@ -32,9 +36,14 @@ def first(_state: WorldState, path: list[Pose]) -> Pose:
     return path[0]
 
 
+def last(_state: WorldState, path: list[Pose]) -> Pose:
+    """Return the last pose of a path."""
+    return path[-1]
+
+
 def centre(state: WorldState, surface: str) -> Pose:
     """Return the tool's pose in the middle of a surface, flush with it."""
-    return pose(state, surface) @ Pose(np.zeros(3), _tool_axes(size(state, surface)))
+    return pose(state, surface) @ Pose(np.zeros(3), _tool_axes(size(state, surface), direction(state, surface)))
 
 
 def facing(state: WorldState, target: str) -> Pose:
@@ -59,18 +68,45 @@ def z_axis(_state: WorldState, of: Pose) -> Array:
 
 def lanes(state: WorldState, surface: str, tool: str, overlap: float) -> list[Pose]:
     """Return the tool's poses along lanes that cover a surface; `overlap`: the share neighbours have in common."""
-    frame = pose(state, surface)
-    return [frame @ lane for lane in lane_pattern(size(state, surface)[:2], size(state, tool)[:2], overlap)]
+    frame, along = pose(state, surface), direction(state, surface)
+    found = lane_pattern(size(state, surface)[:2], size(state, tool)[:2], overlap, direction=along)
+    return [frame @ lane for lane in found]
+
+
+def strokes(state: WorldState, surface: str, tool: str, overlap: float) -> list[list[Pose]]:
+    """Return the tool's poses along lanes that cover a surface's patches, without its holes, in pieces.
+
+    Between two pieces the tool must be lifted. ValueError where the tool fits nowhere.
+    """
+    frame, along = pose(state, surface), direction(state, surface)
+    found = over(layout(state, surface), size(state, tool)[:2], overlap, Pose(np.zeros(3), np.eye(3)), along)
+    if not found:
+        short = state.vocabulary.short
+        raise ValueError(f"{short(tool)} fits nowhere on {short(surface)} beside the holes that it has")
+    return [[frame @ place for place in stroke] for stroke in found]
+
+
+def lifted(state: WorldState, surface: str, start: Pose, height: float) -> Pose:
+    """Return the pose moved out of a surface by a height in m above all that is known to stand out of it."""
+    return Pose(start.position + (height + layout(state, surface).height) * normal(state, surface), start.rotation)
+
+
+def landing(state: WorldState, surface: str, paths: list[list[Pose]]) -> Pose:
+    """Return where a tool on paths lies well inside a surface: half way on the lane nearest to its middle."""
+    middle = pose(state, surface).position
+    ways = [way for path in paths for way in pairwise(path)] or [(path[0], path[0]) for path in paths]
+    places = [Pose((start.position + end.position) / 2, start.rotation) for start, end in ways]
+    return min(places, key=lambda place: float(np.linalg.norm(place.position - middle)))
 
 
 def across(state: WorldState, surface: str) -> Array:
     """Return the direction (3,) of the world across the lanes of a surface."""
-    extent = size(state, surface)
-    return pose(state, surface).rotation[:, 1 if extent[0] >= extent[1] else 0].copy()
+    along = side(size(state, surface), direction(state, surface))
+    return pose(state, surface).rotation[:, 1 - along].copy()
 
 
-def _tool_axes(extent: Array) -> Array:
-    """Return the tool's axes (3, 3) in the surface frame: z into the surface, x along the longer side."""
-    if extent[0] >= extent[1]:
+def _tool_axes(extent: Array, along: Direction) -> Array:
+    """Return the tool's axes (3, 3) in the surface frame: z into the surface, x along the lanes."""
+    if side(extent, along) == 0:
         return np.diag([1.0, -1.0, -1.0])
     return np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])

@@ -8,6 +8,7 @@ moved across towards the nearest lane, it either gets there or is stopped by a h
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 import numpy as np
 
@@ -17,6 +18,9 @@ from skillc_runtime.motion.pose import Array, Pose
 
 Stroke = list[Pose]
 """Poses that the tool goes through without leaving the surface."""
+
+LIFT_M = 1.0
+"""Lifting the tool and putting it down again takes as long as so much way on the surface."""
 
 SAME_M = 1e-6
 """Nearer than this, two lanes are one."""
@@ -37,7 +41,7 @@ def strokes(
     whole = list(zip(ends[::2], ends[1::2], strict=True))
     pieces = [piece for lane in whole for piece in _pieces(*lane, tool, kept)]
     beside = [piece for hole in kept for lane in _beside(whole, tool, hole) for piece in _pieces(*lane, tool, kept)]
-    return _joined(pieces + beside, tool, kept)
+    return _joined(pieces + beside, tool, kept) if pieces or beside else []
 
 
 def over(layout: Layout, tool: Array, overlap: float, start: Pose, direction: Direction = "longer") -> list[Stroke]:
@@ -107,23 +111,32 @@ def _beside(whole: Sequence[tuple[Pose, Pose]], tool: Array, hole: Hole) -> Iter
 
 def _joined(pieces: Sequence[Stroke], tool: Array, holes: Sequence[Hole]) -> list[Stroke]:
     """Return the pieces in an order, and each in a direction, that leave the surface seldom and make short ways."""
-    found, left = [list(pieces[0])] if pieces else [], list(pieces[1:])
-    while left:
-        here = found[-1][-1]
-        ways = [(turned, i) for i in range(len(left)) for turned in (left[i], left[i][::-1])]
-        stroke, index = min(
-            ways,
-            key=lambda way: (
-                not _clear(here, way[0][0], tool, holes),
-                round(float(np.linalg.norm(way[0][0].position - here.position)), 6),
-            ),
-        )
-        left.pop(index)
-        if _clear(here, stroke[0], tool, holes):
-            found[-1] += stroke
+    turned = [way for piece in pieces for way in (piece, piece[::-1])]
+    lifts = np.array([[not _clear(one[-1], other[0], tool, holes) for other in turned] for one in turned], dtype=float)
+    ends = np.array([[way[0].position, way[-1].position] for way in turned])
+    costs = LIFT_M * lifts + np.linalg.norm(ends[:, None, 1] - ends[None, :, 0], axis=-1)
+    orders = [_order(costs, first) for first in range(len(turned))]
+    found: list[Stroke] = []
+    for before, now in pairwise([-1, *min(orders, key=lambda order: _length(costs, order))]):
+        if before >= 0 and not lifts[before, now]:
+            found[-1] += turned[now]
         else:
-            found.append(list(stroke))
+            found.append(list(turned[now]))
     return found
+
+
+def _order(costs: Array, first: int) -> list[int]:
+    """Return all pieces from a first one on, each time the cheapest; 2 i and 2 i + 1 are one, run to and fro."""
+    order, left = [first], np.ones(len(costs), dtype=bool)
+    while True:
+        left[[order[-1], order[-1] ^ 1]] = False
+        if not left.any():
+            return order
+        order.append(int(np.where(left, np.round(costs[order[-1]], 6), np.inf).argmin()))
+
+
+def _length(costs: Array, order: list[int]) -> float:
+    return round(float(sum(costs[before, now] for before, now in pairwise(order))), 6)
 
 
 def _clear(start: Pose, end: Pose, tool: Array, holes: Sequence[Hole]) -> bool:

@@ -8,15 +8,19 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from skillc_runtime.motion.layout import Hole
 from skillc_runtime.motion.pose import Array, Pose, quaternion_of
 from skillc_runtime.simulation.devices import add_arm, add_tool
 from skillc_runtime.simulation.facts import BaseFacts, SceneFacts, SurfaceFacts
 from skillc_runtime.simulation.fixtures import add_fixture
-from skillc_runtime.simulation.names import base_body, box_geom, obstacle, part, weld
+from skillc_runtime.simulation.names import base_body, box_geom, hole, obstacle, part, weld
 from skillc_runtime.simulation.variation import SurfaceVariation, Variation
 
 CARRIES, WORKS = 1, 2
 """Contact bits of what carries tools and of what works on surfaces; handles and finger pads have 4 and 8."""
+
+MARK_M = 0.0003
+"""How thick the mark of a flat hole is."""
 
 FURNITURE_FRICTION = 0.6
 """Wood against felt; it only keeps a tool where it lies."""
@@ -93,10 +97,21 @@ def _add_surface(spec: Any, name: str, surface: SurfaceFacts, true: SurfaceVaria
     """Add a surface where it really is, with what lies on it."""
     pose = true.true_pose(surface.pose)
     _add_box(spec, name, pose, surface.size, true.friction, BOARD)
+    for number, each in enumerate(surface.layout.holes):
+        _add_hole(spec, hole(name, number), pose, each, true.friction)
     if true.obstacle is not None:
         size = np.array(true.obstacle.size)
         top = pose @ Pose(np.array([*true.obstacle.place, size[2]]), np.eye(3))
         _add_box(spec, obstacle(name), top, size, true.friction, STEEL)
+
+
+def _add_hole(spec: Any, name: str, surface: Pose, area: Hole, friction: float) -> None:
+    """Add what stands out of a surface at a hole; one that is flat is shown as a dark mark, which nothing touches."""
+    height = max(area.height, MARK_M)
+    top = surface @ Pose(np.append(area.middle, height), np.eye(3))
+    _add_box(spec, name, top, np.append(area.size, height), friction, STEEL)
+    if area.height == 0:
+        spec.geom(box_geom(name)).contype = spec.geom(box_geom(name)).conaffinity = 0
 
 
 def _add_base(spec: Any, scene: SceneFacts, base: BaseFacts) -> tuple[Any, Pose]:

@@ -60,7 +60,7 @@ class SimulatedCell:
         self._bases = {b.individual: SimulatedBase(b, names[b.individual], self.model, self.data) for b in facts.bases}
         mujoco.mj_forward(self.model, self.data)
         self._drivers = {a.individual: driver(a, self.arms[a.individual], self.period_s) for a in facts.arms}
-        self.coverage = {s.individual: CoverageMap(self.true_pose(s), s.size[:2]) for s in facts.surfaces}
+        self.coverage = {s.individual: CoverageMap(self.true_pose(s), s.layout) for s in facts.surfaces}
         self._observers = {
             tool.individual: ToolObserver(tool, names[tool.individual], self.model, self.data, self.coverage)
             for tool in facts.tools

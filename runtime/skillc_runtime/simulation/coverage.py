@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose
 
 CELL_M = 0.005
@@ -20,18 +21,24 @@ NEAR_PLANE_M = 0.03
 class CoverageMap:
     """The contact time of every cell of one surface: `dose` (rows along y, columns along x) in s; 0 is unwiped.
 
-    `surface` is the true frame in the middle of the surface, `extent` (2,) its size in m.
+    `surface` is the true frame in the middle of the surface; `layout` says which cells count.
     """
 
-    def __init__(self, surface: Pose, extent: Array) -> None:
+    def __init__(self, surface: Pose, layout: Layout) -> None:
         self._in_surface = surface.inverse()
-        self.x, self.y = _centres(float(extent[0])), _centres(float(extent[1]))
+        self.x, self.y = _centres(float(layout.size[0])), _centres(float(layout.size[1]))
+        self.counts = layout.counts(self.x, self.y)
         self.dose: NDArray[np.float64] = np.zeros((self.y.size, self.x.size))
 
     @property
     def fraction(self) -> float:
-        """The share of cells that were wiped."""
-        return float(np.count_nonzero(self.dose)) / self.dose.size
+        """The share of the cells that count that were wiped."""
+        return self.rubbed(0.0)
+
+    def rubbed(self, seconds: float) -> float:
+        """Return the share of the cells that count that were wiped, and for so long at least; 1 where none counts."""
+        dose = self.dose[self.counts]
+        return float(((dose > 0) & (dose >= seconds)).mean()) if dose.size else 1.0
 
     def add(self, position: Array, rotation: Array, tool: Array, seconds: float) -> None:
         """Count the cells under a tool's working face for some seconds.

@@ -7,8 +7,10 @@ from pathlib import Path
 from typing import Literal
 
 from skillc_ontology.catalogue import model as model_path
+from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.simulation.fixture_facts import FixtureFacts, read_fixtures
+from skillc_runtime.world.areas import layout
 from skillc_runtime.world.frames import pose, size
 from skillc_runtime.world.sheet import Sheet, SheetError, number, sheet_of, text
 from skillc_runtime.world.state import WorldState
@@ -108,11 +110,15 @@ class ToolFacts:
 
 @dataclass(frozen=True, slots=True)
 class SurfaceFacts:
-    """A surface as it is believed to be, and how far reality may differ: m along the normal, rad, friction."""
+    """A surface as it is believed to be, and how far reality may differ: m along the normal, rad, friction.
+
+    `layout` says which of it is to be worked on.
+    """
 
     individual: str
     pose: Pose
     size: Array
+    layout: Layout
     friction: tuple[float, float]
     offset_range_m: float
     tilt_range_rad: float
@@ -223,6 +229,7 @@ def _surface(state: WorldState, surface: str) -> SurfaceFacts:
         individual=surface,
         pose=pose(state, surface),
         size=size(state, surface),
+        layout=layout(state, surface),
         friction=_friction(state, surface),
         offset_range_m=number(state, surface, OFFSET_RANGE, default=0.0),
         tilt_range_rad=number(state, surface, TILT_RANGE, default=0.0),

@@ -19,4 +19,4 @@ class SimulatedCamera:
 
     def rubbed(self, surface: str, seconds: float) -> float:
         """Return the share that was under a pressed tool for so long; KeyError for a surface that is not there."""
-        return float((self._coverage[surface].dose >= seconds).mean())
+        return self._coverage[surface].rubbed(seconds)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose, rotation_of
 from skillc_runtime.simulation.coverage import PRESSED_N, CoverageMap
 from skillc_runtime.simulation.dwell import LaneDwell, lane_dwell
@@ -21,12 +22,17 @@ COVERAGE_PERIOD_S = 0.01
 
 @dataclass(frozen=True, slots=True)
 class Wiped:
-    """What was wiped, with what and how: the true frame of the surface in the world, sizes (2,) m, force N."""
+    """What was wiped, with what: the surface's true frame in the world and layout, the tool's size (2,) m, force N."""
 
     surface: Pose
-    extent: Array
+    layout: Layout
     tool: Array
     force_command_n: float
+
+    @property
+    def extent(self) -> Array:
+        """The size (2,) of the surface."""
+        return self.layout.size
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +86,7 @@ def wiping_metrics(recording: Recording, start: float, end: float, wiped: Wiped)
 
 def coverage(window: Recording, wiped: Wiped) -> CoverageMap:
     """Return the contact time of every cell of the surface, sampled at 100 Hz or more."""
-    result = CoverageMap(wiped.surface, wiped.extent)
+    result = CoverageMap(wiped.surface, wiped.layout)
     stride = max(1, int(COVERAGE_PERIOD_S / _step(window) + 1e-6))
     seconds = stride * _step(window)
     for row in np.flatnonzero(window.force[::stride] > PRESSED_N) * stride:

@@ -23,6 +23,11 @@ def obstacle(surface: str) -> str:
     return f"{surface}/obstacle"
 
 
+def hole(surface: str, number: int) -> str:
+    """Return the name of what marks a hole of a surface, or stands there."""
+    return f"{surface}/hole/{number}"
+
+
 def weld(gripper: str, tool: str) -> str:
     """Return the name of the equality that keeps a grasped tool in a gripper."""
     return f"{gripper}/holds/{tool}"
