@@ -1,0 +1,61 @@
+"""Lanes without an overlay: the tool itself hardly dwells at corners, on every arm."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+from msgspec import structs
+
+from skillc_compiler.library.conditions import Literal
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_ontology import catalogue
+from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare
+from skillc_runtime.commands import _library
+from skillc_runtime.report.result import WipingResult
+from skillc_runtime.report.summary import Choices, summarise
+from skillc_runtime.report.wiping import find_wipings
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.task import execute
+from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.scene import load_scene
+
+pytestmark = pytest.mark.sim
+
+WIPE, TARGET_S = "Wipe.wipe_lanes", 0.02
+
+
+@cache
+def without_overlay() -> SkillLibrary:
+    """Return the library for wiping, whose circle has no radius."""
+    outcome = _library.compile_library(_library.find(_library.SHIPPED / "wiping"))
+    assert outcome.ok
+    library: SkillLibrary = outcome.value
+    wipe = library.implementations[WIPE]
+    none = {"radius": Literal(0.0)}
+    parameters = (structs.replace(each, default=none.get(each.name, each.default)) for each in wipe.parameters)
+    changed = structs.replace(wipe, parameters=tuple(parameters))
+    assert changed != wipe
+    return structs.replace(library, implementations={**library.implementations, WIPE: changed})
+
+
+def wiped(name: str) -> WipingResult:
+    library = without_overlay()
+    task = library.tasks[name]
+    assert task.scene is not None and task.goal is not None
+    state = load_scene(catalogue.scene(task.scene), library.vocabulary)
+    prepared = prepare(Assignment(name, state, Reach(task.goal)), library)
+    assert isinstance(prepared, Prepared), prepared
+    cell, choices = SimulatedCell(WorldModel(state), seed=1), Choices()
+    execution = execute(prepared, library, cell, [choices])
+    result = summarise(execution, choices, library, find_wipings([execution.last.tree], choices, cell))
+    assert result.wiping is not None, result.failure
+    return result.wiping
+
+
+@pytest.mark.parametrize("name", ["clean_whiteboard", "clean_table", "clean_desk"])
+def test_the_tool_does_not_dwell_where_lanes_turn(name: str) -> None:
+    found = wiped(name)
+    assert found.lane_dwell_of == "tool"
+    assert found.lane_dwell_s is not None and found.lane_dwell_s <= TARGET_S
+    assert found.coverage == 1.0
