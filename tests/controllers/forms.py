@@ -10,13 +10,16 @@ import numpy as np
 from rig import GAINS, LAWS, ROBOTS, Bench, moved_by
 
 from skillc_runtime.controllers.virtual_arm import virtual_model
+from skillc_runtime.motion.arc import arc_through
 from skillc_runtime.motion.guide import Guide
 from skillc_runtime.motion.overlays import Circle
-from skillc_runtime.motion.path import path
+from skillc_runtime.motion.path import joined, path
 from skillc_runtime.motion.pose import exp
 from skillc_runtime.motion.reference import Compliance, Reference
-from skillc_runtime.motion.segments import MotionLimits
+from skillc_runtime.motion.segments import MotionLimits, segment
 from skillc_runtime.robots.guard import are_numbers
+from skillc_runtime.robots.resistance import Resistance
+from skillc_runtime.robots.safety import beyond, tool_speed
 from skillc_runtime.simulation.hand import Hand, carry, see_hand
 from skillc_runtime.simulation.wrist import external_wrench
 
@@ -61,6 +64,33 @@ def references(count: int) -> list[list[float]]:
     return found
 
 
+def curves(count: int) -> list[list[float]]:
+    """Where a path of a line, an arc and a turn leads that are blended and limited in jerk."""
+    start, limits = Bench("iiwa14").state().tool, MotionLimits(0.1, 0.4, jerk=3.0, turn_jerk=9.0)
+    side, over = moved_by(start, 0.1, 0, 0), moved_by(start, 0.2, 0.1, 0, turn=(0.0, 0.3, 0.1))
+    arc = arc_through(side, moved_by(start, 0.17, 0.03, 0).position, over, limits)
+    end = moved_by(start, 0.2, 0.1, 0, turn=(0.4, 0.3, 0.1))
+    pieces = segment(start, side, limits), arc, segment(over, end, limits)
+    motion = joined((start, side, over, end), pieces, limits, 0.01)
+    samples = [motion.at(motion.duration * step / (count - 1)) for step in range(count)]
+    return [[*s.pose.position, *s.pose.rotation.ravel(), *s.twist, *s.acceleration] for s in samples]
+
+
+def watched(count: int) -> list[list[float]]:
+    """What is made of the states of an arm in view of its limits."""
+    chance, bench, found = np.random.default_rng(7), Bench("iiwa14"), []
+    felt, box = Resistance(bench.state()), exp(np.array([0.3, -0.2, 0.9]))
+    for _ in range(count):
+        bench.data.qvel[:] = chance.uniform(-0.3, 0.3, 7)
+        state = bench.state_at_rest()
+        felt.told(chance.uniform(-20, 20, 7))
+        felt.step(state, 0.002)
+        middle, size = chance.uniform(-1, 1, (2, 3))
+        outside = beyond(state.tool.position, middle, box, np.abs(size))
+        found.append([*felt.wrench(state), tool_speed(state.jacobian, state.dq), outside])
+    return found
+
+
 def measurements(count: int) -> list[list[float]]:
     """What an arm makes of link, base, payload and wrist readings."""
     chance, hand, found = np.random.default_rng(6), Hand(), []
@@ -80,7 +110,8 @@ def measurements(count: int) -> list[list[float]]:
 def everything(count: int) -> dict[str, list[list[float]]]:
     """All of it, a row for each input."""
     results = {robot: laws(robot, count) for robot in LAWS}
-    return {**results, "references": references(count), "measurements": measurements(count)}
+    others = {part.__name__: part(count) for part in (references, curves, watched, measurements)}
+    return {**results, **others}
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ from math import atan2, cos, pi, sin, sqrt
 
 import numpy as np
 
+from skillc_runtime.motion import piece
 from skillc_runtime.motion.pose import Array, Pose, log
 from skillc_runtime.motion.profile import Profile, trapezoid
 from skillc_runtime.motion.segments import MotionLimits
@@ -63,15 +64,12 @@ class Arc:
 
     def at(self, time: float) -> Array:
         """Return way, twist and acceleration (3, 6), [linear; angular], `time` s after the start."""
-        angle, rate, change = (part / self.radius for part in self.way.at(time))
-        c, s = cos(angle), sin(angle)
-        along, inward = c * self.across - s * self.spoke, -c * self.spoke - s * self.across
-        motion = np.zeros((3, 6))
-        motion[0, :3] = s * self.across + (c - 1) * self.spoke
-        motion[1, :3] = rate * along
-        motion[2, :3] = change * along + rate * rate * inward
-        motion[:, 3:] = np.multiply.outer(self.turn.at(time), self.axis)
-        return motion
+        return piece.place(self.row, time)
+
+    @property
+    def row(self) -> Array:
+        """What `piece.motion_at` takes."""
+        return np.array([*self.way.numbers, *self.turn.numbers, *self.axis, *self.spoke, *self.across])
 
     def moved(self, frame: Pose) -> Arc:
         """Return the same motion, given in `frame`, in the frame's parent."""

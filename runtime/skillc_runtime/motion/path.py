@@ -7,18 +7,26 @@ Two neighbours overlap by min(fall_i, rise_(i+1), sqrt(8 blend / (a |u_(i+1) - u
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 from math import sqrt
 
 import numpy as np
 
 from skillc_runtime.motion.arc import Arc
-from skillc_runtime.motion.pose import Array, Pose, exp, skew
+from skillc_runtime.motion.piece import COLUMNS, motion_at
+from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Reference, at_rest
 from skillc_runtime.motion.segments import MotionLimits, Segment, segment
+from skillc_runtime.numerics.compiled import Matrix, OutMatrix, OutVector, compiled, part
+from skillc_runtime.numerics.linear import cross, product, rotation_by, times
+
+START, END = COLUMNS, COLUMNS + 1
+"""When a piece starts and ends; the columns after those of the piece itself."""
+
+PLACE, AXES = COLUMNS + 2, COLUMNS + 5
+"""Columns of the corner that it starts from: its position (3,) and its rotation, row by row (9,)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +36,15 @@ class Path:
     corners: tuple[Pose, ...]
     segments: tuple[Segment | Arc, ...]
     starts: tuple[float, ...]
+    table: Array = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        """Lay the segments out as a row of numbers each."""
+        rows = [
+            [*piece.row, start, start + piece.duration, *corner.position, *corner.rotation.ravel()]
+            for piece, start, corner in zip(self.segments, self.starts, self.corners, strict=False)
+        ]
+        object.__setattr__(self, "table", np.array(rows))
 
     @property
     def duration(self) -> float:
@@ -38,39 +55,67 @@ class Path:
         """Return the reference at `time` s, in the frame of the poses."""
         if not self.segments:
             return at_rest(self.corners[0])
-        last = max(bisect_right(self.starts, time) - 1, 0)
-        ended = last == 0 or time >= self.starts[last - 1] + self.segments[last - 1].duration
-        if ended:
-            return self._moved_on(last, self.corners[last], self._motion(last, time))
-        before, motion = self._motion(last - 1, time), self._motion(last, time)
-        start = self._moved_on(last - 1, self.corners[last - 1], before).pose
-        return self._moved_on(last, start, _composed(before, motion))
+        position, rotation, (twist, acceleration) = np.empty(3), np.empty((3, 3)), np.empty((2, 6))
+        path_at(position, rotation, twist, acceleration, self.table, time)
+        return Reference(Pose(position, rotation), twist, acceleration)
 
     def moved(self, frame: Pose) -> Path:
         """Return the same motion, given in `frame`, in the frame's parent."""
         corners = tuple(frame @ corner for corner in self.corners)
         return Path(corners, tuple(piece.moved(frame) for piece in self.segments), self.starts)
 
-    def _motion(self, index: int, time: float) -> Array:
-        return self.segments[index].at(time - self.starts[index])
 
-    def _moved_on(self, index: int, start: Pose, motion: Array) -> Reference:
-        """Return the reference after the way of a segment from a pose, with twist and acceleration; motion (3, 6)."""
-        way, twist, acceleration = motion
-        turns = self.segments[index].turn.length > 0
-        rotation = exp(way[3:]) @ start.rotation if turns else start.rotation
-        return Reference(Pose(start.position + way[:3], rotation), twist, acceleration)
+@part
+def _start_from(position: Array, rotation: Array, row: Array) -> None:
+    """Start from the corner of a row."""
+    position[:] = row[PLACE : PLACE + 3]
+    for i in range(3):
+        rotation[i] = row[AXES + 3 * i : AXES + 3 * i + 3]
 
 
-def _composed(before: Array, motion: Array) -> Array:
+@part
+def _move(position: Array, rotation: Array, way: Array) -> None:
+    """Go on from a pose by a way (6,): rotation <- exp(way[3:]) rotation."""
+    position += way[:3]
+    if way[3] != 0.0 or way[4] != 0.0 or way[5] != 0.0:
+        turned, before = np.empty((3, 3)), rotation.copy()
+        rotation_by(way[3:], turned)
+        product(turned, before, rotation)
+
+
+@part
+def _add(motion: Array, before: Array) -> None:
     """Add to a motion (3, 6) the twist and acceleration of one that is turned by it; ways stay as they are."""
-    turned, spin = exp(motion[0, 3:]), motion[1, 3:]
-    velocity = turned @ before[1, 3:]
+    turned, velocity, change, spun = np.empty((3, 3)), np.empty(3), np.empty(3), np.empty(3)
+    rotation_by(motion[0, 3:], turned)
+    times(turned, before[1, 3:], velocity)
+    times(turned, before[2, 3:], change)
+    cross(motion[1, 3:], velocity, spun)
     motion[1, :3] += before[1, :3]
     motion[2, :3] += before[2, :3]
-    motion[2, 3:] += turned @ before[2, 3:] + skew(spin) @ velocity
-    spin += velocity
-    return motion
+    motion[2, 3:] += change + spun
+    motion[1, 3:] += velocity
+
+
+@compiled
+def path_at(
+    position: OutVector, rotation: OutMatrix, twist: OutVector, acceleration: OutVector, table: Matrix, time: float
+) -> None:
+    """Compute the reference at `time` s from the `table` of a path."""
+    last = max(np.searchsorted(table[:, START], time, side="right") - 1, 0)
+    motion = np.empty((3, 6))
+    motion_at(motion, table[last, :COLUMNS], time - table[last, START])
+    if last > 0 and time < table[last - 1, END]:
+        before = np.empty((3, 6))
+        motion_at(before, table[last - 1, :COLUMNS], time - table[last - 1, START])
+        _start_from(position, rotation, table[last - 1])
+        _move(position, rotation, before[0])
+        _add(motion, before)
+    else:
+        _start_from(position, rotation, table[last])
+    _move(position, rotation, motion[0])
+    twist[:] = motion[1]
+    acceleration[:] = motion[2]
 
 
 def path(poses: Sequence[Pose], limits: MotionLimits, blend_m: float = 0.0) -> Path:

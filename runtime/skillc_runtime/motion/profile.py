@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from math import sqrt
 
+from skillc_runtime.numerics.compiled import compiled
+
 
 @dataclass(frozen=True, slots=True)
 class Profile:
@@ -35,21 +37,34 @@ class Profile:
 
     def at(self, time: float) -> tuple[float, float, float]:
         """Return place, speed and acceleration at `time` s: at rest at 0 before, at rest at `length` after."""
-        if time <= 0 or self.length <= 0:
-            return 0.0, 0.0, 0.0
-        left = self.duration - time
-        if left <= 0:
-            return self.length, 0.0, 0.0
-        k, a, d = self.rate, self.acceleration, self.deceleration
-        if time < self.rise:
-            return a * (k * time) ** 2 / 2, k * a * k * time, k * k * a
-        if left < self.fall:
-            return self.length - d * (k * left) ** 2 / 2, k * d * k * left, -k * k * d
-        return self.peak * (k * time - self.peak / a / 2), k * self.peak, 0.0
+        return trapezoid_at(self.length, self.peak, self.acceleration, self.deceleration, self.rate, time)
+
+    @property
+    def numbers(self) -> tuple[float, float, float, float, float, float]:
+        """Length, peak, acceleration, deceleration, rate, and no window to average over."""
+        return self.length, self.peak, self.acceleration, self.deceleration, self.rate, 0.0
 
     def stretched(self, duration: float) -> Profile:
         """Return this profile slowed down to take `duration` s, which must not be less than its own."""
         return self if self.length <= 0 else replace(self, rate=self.rate * self.duration / duration)
+
+
+@compiled
+def trapezoid_at(
+    length: float, peak: float, acceleration: float, deceleration: float, rate: float, time: float
+) -> tuple[float, float, float]:
+    """Return place, speed and acceleration of a `Profile`."""
+    if time <= 0 or length <= 0:
+        return 0.0, 0.0, 0.0
+    k, a, d = rate, acceleration, deceleration
+    left = (length / peak + peak / 2 * (1 / a + 1 / d)) / k - time
+    if left <= 0:
+        return length, 0.0, 0.0
+    if time < peak / a / k:
+        return a * (k * time) ** 2 / 2, k * a * k * time, k * k * a
+    if left < peak / d / k:
+        return length - d * (k * left) ** 2 / 2, k * d * k * left, -k * k * d
+    return peak * (k * time - peak / a / 2), k * peak, 0.0
 
 
 def trapezoid(length: float, speed: float, acceleration: float, deceleration: float | None = None) -> Profile:

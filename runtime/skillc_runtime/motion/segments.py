@@ -7,6 +7,7 @@ from math import inf
 
 import numpy as np
 
+from skillc_runtime.motion import piece
 from skillc_runtime.motion.pose import Array, Pose, log
 from skillc_runtime.motion.profile import Profile, trapezoid
 from skillc_runtime.motion.smooth import Smooth, smoothed, window_for
@@ -70,10 +71,12 @@ class Segment:
 
     def at(self, time: float) -> Array:
         """Return way, twist and acceleration (3, 6), [linear; angular], `time` s after the start."""
-        motion: Array = np.multiply.outer(self.way.at(time), self.axes[0])
-        if self.turn.length > 0:
-            motion += np.multiply.outer(self.turn.at(time), self.axes[1])
-        return motion
+        return piece.place(self.row, time)
+
+    @property
+    def row(self) -> Array:
+        """What `piece.motion_at` takes."""
+        return np.array([*self.way.numbers, *self.turn.numbers, *self.axes[1, 3:], 0.0, 0.0, 0.0, *self.axes[0, :3]])
 
     def moved(self, frame: Pose) -> Segment:
         """Return the same motion, given in `frame`, in the frame's parent."""

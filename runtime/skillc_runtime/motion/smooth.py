@@ -8,7 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import isinf
 
-from skillc_runtime.motion.profile import Profile
+from skillc_runtime.motion.profile import Profile, trapezoid_at
+from skillc_runtime.numerics.compiled import compiled, part
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,11 +44,48 @@ class Smooth:
 
     def at(self, time: float) -> tuple[float, float, float]:
         """Return place, speed and acceleration at `time` s."""
-        if time >= self.duration:
-            return self.length, 0.0, 0.0
-        now, before = self.profile.at(time), self.profile.at(time - self.window)
-        way = (_area(self.profile, time) - _area(self.profile, time - self.window)) / self.window
-        return way, (now[0] - before[0]) / self.window, (now[1] - before[1]) / self.window
+        return smooth_at(*self.numbers, time)
+
+    @property
+    def numbers(self) -> tuple[float, float, float, float, float, float]:
+        """What `smooth_at` takes."""
+        return (*self.profile.numbers[:5], self.window)
+
+
+@part
+def _area(speed: float, rise: float, fall: float, length: float, end: float, time: float) -> float:
+    """Return the integral of the way until `time` s, for a trapezoid that cruises with `speed` and lasts until `end`.
+
+    It accelerates for `rise` and brakes for `fall` s.
+    """
+    if time <= 0:
+        return 0.0
+    if time < rise:
+        return speed / rise * time**3 / 6
+    cruised = min(time, end - fall) - rise
+    cruising = speed * (rise * rise / 6 + rise * cruised / 2 + cruised * cruised / 2)
+    if time <= end - fall:
+        return cruising
+    left = max(end - time, 0.0)
+    braked = length * (fall - left) - speed / fall * (fall**3 - left**3) / 6
+    return cruising + braked + length * max(time - end, 0.0)
+
+
+@compiled
+def smooth_at(
+    length: float, peak: float, acceleration: float, deceleration: float, rate: float, window: float, time: float
+) -> tuple[float, float, float]:
+    """Return place, speed and acceleration of a `Smooth`; a window of 0 s leaves the plain profile."""
+    now = trapezoid_at(length, peak, acceleration, deceleration, rate, time)
+    if window == 0.0 or length <= 0.0:
+        return now
+    speed, rise, fall = rate * peak, peak / acceleration / rate, peak / deceleration / rate
+    end = (length / peak + peak / 2 * (1 / acceleration + 1 / deceleration)) / rate
+    if time >= end + window:
+        return length, 0.0, 0.0
+    before = trapezoid_at(length, peak, acceleration, deceleration, rate, time - window)
+    way = _area(speed, rise, fall, length, end, time) - _area(speed, rise, fall, length, end, time - window)
+    return way / window, (now[0] - before[0]) / window, (now[1] - before[1]) / window
 
 
 def smoothed(profile: Profile, window: float) -> Profile | Smooth:
@@ -60,20 +98,3 @@ def window_for(acceleration: float, jerk: float) -> float:
     if jerk <= 0:
         raise ValueError(f"a jerk must be above 0, not {jerk:g}")
     return 0.0 if isinf(jerk) else 2 * acceleration / jerk
-
-
-def _area(profile: Profile, time: float) -> float:
-    """Return the integral of the way until `time` s."""
-    if time <= 0:
-        return 0.0
-    speed, end = profile.rate * profile.peak, profile.duration
-    rise, fall = profile.rise, profile.fall
-    if time < rise:
-        return speed / rise * time**3 / 6
-    cruised = min(time, end - fall) - rise
-    area = speed * (rise * rise / 6 + rise * cruised / 2 + cruised * cruised / 2)
-    if time <= end - fall:
-        return area
-    left = max(end - time, 0.0)
-    braked = profile.length * (fall - left) - speed / fall * (fall**3 - left**3) / 6
-    return area + braked + profile.length * max(time - end, 0.0)

@@ -15,7 +15,7 @@ from importlib import import_module
 from importlib.util import find_spec
 from inspect import get_annotations
 from pathlib import Path
-from typing import Annotated, Any, ParamSpec, TypeVar
+from typing import Annotated, Any, ParamSpec, TypeVar, get_args, get_origin
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,7 +34,7 @@ COMPILES: bool = os.environ.get("SKILLC_COMPILED", "1") != "0" and find_spec("nu
 
 
 def compiled(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
-    """Compile a function for the types of its annotations, which are those above, numbers and bool.
+    """Compile a function for the types of its annotations: those above, numbers, bool, and tuples as a result.
 
     Functions it calls are `compiled` or `part` themselves.
     """
@@ -62,6 +62,8 @@ def _type(annotation: Any) -> Any:
     types = import_module("numba").types
     if annotation in (float, int, bool, None):
         return {float: types.float64, int: types.int64, bool: types.boolean, None: types.void}[annotation]
+    if get_origin(annotation) is tuple:
+        return types.Tuple([_type(each) for each in get_args(annotation)])
     dimensions, access = annotation.__metadata__
     return types.Array(types.float64, dimensions, *(("A", True) if access == "read" else ("C", False)))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from skillc_runtime.motion.pose import Array
+from skillc_runtime.motion.pose import Array, exp
 
 
 def times(A: Array, x: Array, out: Array) -> None:
@@ -36,6 +36,11 @@ def cholesky(A: Array) -> None:
 def cholesky_solve(L: Array, b: Array, out: Array) -> None:
     """Solve L L^T out = b for b (n,)."""
     mujoco.mju_cholSolve(out, L, b)
+
+
+def rotation_by(vector: Array, out: Array) -> None:
+    """out (3, 3) = the rotation about a vector (3,) in rad."""
+    out[:] = exp(vector)
 
 
 def rotation_between(start: Array, end: Array, out: Array) -> None:

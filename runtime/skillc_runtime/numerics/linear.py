@@ -14,6 +14,7 @@ if COMPILES:
         cross,
         product,
         rotation_between,
+        rotation_by,
         times,
         transposed_times,
     )
@@ -24,6 +25,7 @@ else:
         cross,
         product,
         rotation_between,
+        rotation_by,
         times,
         transposed_times,
     )
@@ -34,6 +36,7 @@ __all__ = [
     "cross",
     "product",
     "rotation_between",
+    "rotation_by",
     "times",
     "transposed_times",
 ]

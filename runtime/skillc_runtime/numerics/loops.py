@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import atan2, sqrt
+from math import atan2, sin, sqrt
 
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.numerics.compiled import part
@@ -76,6 +76,19 @@ def cholesky_solve(L: Array, b: Array, out: Array) -> None:
         for k in range(i + 1, n):
             left -= L[k, i] * out[k]
         out[i] = left / L[i, i]
+
+
+@part
+def rotation_by(vector: Array, out: Array) -> None:
+    """out (3, 3) = the rotation about a vector (3,) in rad. Rodrigues' formula; see `motion.pose`."""
+    x, y, z = vector[0], vector[1], vector[2]
+    angle = sqrt(x * x + y * y + z * z)
+    s, c = 1.0, 0.0
+    if angle >= 1e-12:
+        s, c = sin(angle) / angle, 2 * (sin(angle / 2) / angle) ** 2
+    out[0, 0], out[0, 1], out[0, 2] = 1 - c * (y * y + z * z), c * x * y - s * z, c * x * z + s * y
+    out[1, 0], out[1, 1], out[1, 2] = c * x * y + s * z, 1 - c * (x * x + z * z), c * y * z - s * x
+    out[2, 0], out[2, 1], out[2, 2] = c * x * z - s * y, c * y * z + s * x, 1 - c * (x * x + y * y)
 
 
 @part

@@ -11,6 +11,8 @@ from math import exp
 import numpy as np
 
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.numerics.compiled import Matrix, OutVector, Vector, compiled
+from skillc_runtime.numerics.linear import cholesky, cholesky_solve, product, times
 from skillc_runtime.robots.arm import ArmState
 
 WINDOW_S = 0.01
@@ -29,7 +31,7 @@ class Resistance:
     def __init__(self, state: ArmState) -> None:
         joints = state.q.size
         self._tau, self._bias, self._impulse = state.bias.copy(), state.bias.copy(), np.zeros(joints)
-        self._dq, self._torque, self._net = state.dq.copy(), np.zeros(joints), np.zeros(joints)
+        self._dq, self._torque, self._wrench = state.dq.copy(), np.zeros(joints), np.zeros(6)
         self._elapsed = 0.0
 
     def told(self, tau: Array) -> None:
@@ -38,20 +40,45 @@ class Resistance:
 
     def step(self, state: ArmState, period: float) -> None:
         """Take in what was measured at the end of a period of `period` s."""
-        np.subtract(self._tau, self._bias, out=self._net)
-        self._net *= period
-        self._impulse += self._net
-        self._bias[:] = state.bias
+        gather(self._impulse, self._bias, self._tau, state.bias, period)
         self._elapsed += period
         if self._elapsed > WINDOW_S - period / 2:
-            self._compare(state)
+            share = 1 - exp(-self._elapsed / LAG_S)
+            compare(self._torque, self._impulse, self._dq, state.dq, state.mass_matrix, self._elapsed, share)
+            self._elapsed = 0.0
 
     def wrench(self, state: ArmState) -> Array:
-        """Return the wrench (6,) in N and N m, base axes, at the tool."""
-        J = state.jacobian
-        return np.asarray(np.linalg.solve(J @ J.T + DAMPING * np.eye(6), J @ self._torque))
+        """Return the wrench (6,) in N and N m, base axes, at the tool; the array is reused."""
+        felt_wrench(self._wrench, self._torque, state.jacobian)
+        return self._wrench
 
-    def _compare(self, state: ArmState) -> None:
-        found = (state.mass_matrix @ (state.dq - self._dq) - self._impulse) / self._elapsed
-        self._torque += (1 - exp(-self._elapsed / LAG_S)) * (found - self._torque)
-        self._dq[:], self._impulse[:], self._elapsed = state.dq, 0.0, 0.0
+
+@compiled
+def gather(impulse: OutVector, bias: OutVector, tau: Vector, bias_now: Vector, period: float) -> None:
+    """Add to the impulse (nv,) what tau gave beside the bias of the period's start; take the bias of its end."""
+    impulse += (tau - bias) * period
+    bias[:] = bias_now
+
+
+@compiled
+def compare(
+    torque: OutVector, impulse: OutVector, dq: OutVector, dq_now: Vector, mass: Matrix, elapsed: float, share: float
+) -> None:
+    """Let the torque (nv,) of the surroundings follow M (dq_now - dq) - impulse per s; begin a new window."""
+    gained = np.empty(torque.size)
+    times(mass, dq_now - dq, gained)
+    torque += share * ((gained - impulse) / elapsed - torque)
+    dq[:] = dq_now
+    impulse[:] = 0.0
+
+
+@compiled
+def felt_wrench(wrench: OutVector, torque: Vector, J: Matrix) -> None:
+    """wrench (6,) = (J J^T + lam^2 I)^-1 J torque."""
+    gram, force = np.empty((6, 6)), np.empty(6)
+    product(J, J.T, gram)
+    for i in range(6):
+        gram[i, i] += DAMPING
+    cholesky(gram)
+    times(J, torque, force)
+    cholesky_solve(gram, force, wrench)

@@ -8,6 +8,8 @@ from math import inf, sqrt
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.numerics.compiled import Matrix, Vector, compiled
+from skillc_runtime.numerics.linear import times
 from skillc_runtime.robots.arm import ArmState, Command, Torque
 from skillc_runtime.robots.resistance import Resistance
 
@@ -24,8 +26,7 @@ class Box:
 
     def outside(self, point: Array) -> float:
         """Return how far in m a point (3,) of the base frame is outside; 0 within."""
-        beyond = np.abs(self.middle.rotation.T @ (point - self.middle.position)) - self.size / 2
-        return float(np.linalg.norm(np.maximum(beyond, 0.0)))
+        return beyond(point, self.middle.position, self.middle.rotation, self.size)
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,15 +70,28 @@ class Safety:
     def _broken(self, state: ArmState) -> str | None:
         limits = self.limits
         felt = state.wrench if self._resistance is None else self._resistance.wrench(state)
-        force = _length(felt[:3])
+        force = sqrt(felt[0] * felt[0] + felt[1] * felt[1] + felt[2] * felt[2])
         if force > limits.contact_force_n:
             return f"a force of {force:.0f} N on the tool is beyond the {limits.contact_force_n:g} N that the arm bears"
-        speed = _length(state.jacobian[:3] @ state.dq)
+        speed = tool_speed(state.jacobian, state.dq)
         if speed > limits.tool_speed_m_s:
             return f"the tool moves with {speed:.2f} m/s, beyond the {limits.tool_speed_m_s:g} m/s that the arm may"
         outside = limits.workspace.outside(state.tool.position) if limits.workspace is not None else 0.0
         return f"the tool is {outside * 1e3:.0f} mm outside the arm's workspace" if outside > 0 else None
 
 
-def _length(vector: Array) -> float:
-    return sqrt(vector.dot(vector))
+@compiled
+def tool_speed(J: Matrix, dq: Vector) -> float:
+    """Return the speed of the tool in m/s."""
+    twist = np.empty(6)
+    times(J, dq, twist)
+    return sqrt(twist[0] * twist[0] + twist[1] * twist[1] + twist[2] * twist[2])
+
+
+@compiled
+def beyond(point: Vector, middle: Vector, axes: Matrix, size: Vector) -> float:
+    """Return how far in m a point is outside a box with axes (3, 3) and size (3,); 0 within."""
+    from_middle = np.empty(3)
+    times(axes.T, point - middle, from_middle)
+    outside = np.maximum(np.abs(from_middle) - size / 2, 0.0)
+    return sqrt((outside * outside).sum())

@@ -1,0 +1,60 @@
+"""One piece of a path as a row of numbers, and where it leads: a line or an arc, turning about a fixed axis."""
+
+from __future__ import annotations
+
+from math import cos, sin, sqrt
+
+import numpy as np
+
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.motion.smooth import smooth_at
+from skillc_runtime.numerics.compiled import OutMatrix, Vector, compiled, part
+
+WAY, TURN = 0, 6
+"""Columns of the two profiles: length, peak, acceleration, deceleration, rate, window each."""
+
+AXIS, SPOKE, ACROSS = 12, 15, 18
+"""Columns of vectors: of the turn; of an arc from its centre to its start, zero for a line; of the start's direction.
+
+The last is of unit length for a line and as long as the radius for an arc.
+"""
+
+COLUMNS = 21
+
+
+@part
+def _profile_at(row: Array, first: int, time: float) -> tuple[float, float, float]:
+    return smooth_at(row[first], row[first + 1], row[first + 2], row[first + 3], row[first + 4], row[first + 5], time)
+
+
+@part
+def _arc_at(motion: Array, way: tuple[float, float, float], spoke: Array, across: Array, radius: float) -> None:
+    """Compute the linear part of the motion: phi = s / r, along = across cos phi - spoke sin phi, and so on."""
+    angle, rate, change = way[0] / radius, way[1] / radius, way[2] / radius
+    c, s = cos(angle), sin(angle)
+    along = c * across - s * spoke
+    motion[0, :3] = s * across + (c - 1) * spoke
+    motion[1, :3] = rate * along
+    motion[2, :3] = change * along - rate * rate * (c * spoke + s * across)
+
+
+@compiled
+def motion_at(motion: OutMatrix, row: Vector, time: float) -> None:
+    """Compute way, twist and acceleration (3, 6), [linear; angular], `time` s after the start of a piece."""
+    way, turn = _profile_at(row, WAY, time), _profile_at(row, TURN, time)
+    spoke, across = row[SPOKE : SPOKE + 3], row[ACROSS : ACROSS + 3]
+    radius = sqrt(spoke[0] * spoke[0] + spoke[1] * spoke[1] + spoke[2] * spoke[2])
+    if radius > 0.0:
+        _arc_at(motion, way, spoke, across, radius)
+    else:
+        for i in range(3):
+            motion[i, :3] = way[i] * across
+    for i in range(3):
+        motion[i, 3:] = turn[i] * row[AXIS : AXIS + 3]
+
+
+def place(row: Array, time: float) -> Array:
+    """Return way, twist and acceleration (3, 6), [linear; angular], `time` s after the start of a piece."""
+    motion = np.empty((3, 6))
+    motion_at(motion, row, time)
+    return motion
