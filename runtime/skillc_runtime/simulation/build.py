@@ -37,6 +37,11 @@ def build(scene: SceneFacts, variation: Variation, timestep_s: float = 0.001) ->
 
     ValueError when a data sheet's model lacks a part that the simulation needs.
     """
+    return described(scene, variation, timestep_s).compile()
+
+
+def described(scene: SceneFacts, variation: Variation, timestep_s: float = 0.001) -> mujoco.MjSpec:
+    """Return the description of a scene as it really is, of which MuJoCo makes a model; ValueError as for `build`."""
     spec = _empty(timestep_s)
     for piece in scene.furniture:
         _add_box(spec, scene.names[piece.individual], piece.pose, piece.size, FURNITURE_FRICTION, WOOD)
@@ -53,7 +58,7 @@ def build(scene: SceneFacts, variation: Variation, timestep_s: float = 0.001) ->
     for tool in scene.tools:
         add_tool(spec, scene.names, tool, None if tool.rigid else variation.pad_stiffness(tool))
     _add_welds(spec, scene)
-    return spec.compile()
+    return spec
 
 
 def _empty(timestep_s: float) -> Any:
