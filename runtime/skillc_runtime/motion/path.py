@@ -102,7 +102,7 @@ def path_at(
     position: OutVector, rotation: OutMatrix, twist: OutVector, acceleration: OutVector, table: Matrix, time: float
 ) -> None:
     """Compute the reference at `time` s from the `table` of a path."""
-    last = max(np.searchsorted(table[:, START], time, side="right") - 1, 0)
+    last = max(int(np.searchsorted(table[:, START], time, side="right")) - 1, 0)
     motion = np.empty((3, 6))
     motion_at(motion, table[last, :COLUMNS], time - table[last, START])
     if last > 0 and time < table[last - 1, END]:
