@@ -1,14 +1,10 @@
 """The skills of arms in simulation, ticked as the tree does it, with a cell made for the test."""
 
-from functools import cache
-
 import numpy as np
 import pytest
-from rig import HOMES, Bench, moved_by
+from one_arm import ARM, BOARD, HOME, OneArm
+from rig import HOMES, moved_by
 
-from skillc_compiler.vocabulary.load import load
-from skillc_dsl.source import Source
-from skillc_ontology.catalogue import vocabulary_files
 from skillc_runtime.motion.pose import Pose, exp, log, quaternion_of
 from skillc_runtime.primitives.compliance import Align, Push, ReleaseAxis
 from skillc_runtime.primitives.localise import touched
@@ -16,73 +12,15 @@ from skillc_runtime.primitives.move import MoveJoints, MoveLinear, TakePosture
 from skillc_runtime.primitives.overlay import OverlayCircle
 from skillc_runtime.primitives.path import FollowPath
 from skillc_runtime.primitives.primitive import SkillFailure, Status
-from skillc_runtime.world.changes import AddIndividual, AddRelation, SetProperty
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.changes import SetProperty
 from skillc_runtime.world.terms import (
-    ARM_DEVICE,
     BASE_FRAME_ID,
-    HAS_POSTURE,
-    HAS_SHEET,
     JOINT_VALUES,
     ORIENTATION,
     POSITION,
-    POSTURE_NAME,
-    SKILLC,
-    SURFACE,
 )
 
-ARM, BOARD, SHEET, HOME = (f"http://example.org/lab#{name}" for name in ("Arm", "Board", "Sheet", "Home"))
-DATA_SHEET, POSTURE = SKILLC + "ArmSheet", SKILLC + "Posture"
 FORCE_N = {"iiwa14": 18.0, "ur5e": 8.0}
-
-
-@cache
-def vocabulary():
-    return load([Source(path, text) for path, text in vocabulary_files()]).value
-
-
-def world(robot):
-    """The world of an arm whose sheet knows one posture, and of a board that is somewhere."""
-    individuals = {ARM: ARM_DEVICE, BOARD: SURFACE, SHEET: DATA_SHEET, HOME: POSTURE}
-    facts = [
-        *(AddIndividual(individual, (cls,)) for individual, cls in individuals.items()),
-        AddRelation(ARM, HAS_SHEET, SHEET),
-        AddRelation(SHEET, HAS_POSTURE, HOME),
-        SetProperty(HOME, POSTURE_NAME, "home"),
-        SetProperty(HOME, JOINT_VALUES, " ".join(map(str, HOMES[robot]))),
-    ]
-    return WorldModel(WorldState.empty(vocabulary()).changed(facts))
-
-
-class OneArm:
-    """A cell with one arm, and what a tree does with a primitive."""
-
-    def __init__(self, robot: str, **options) -> None:
-        self.bench, self.world = Bench(robot, **options), world(robot)
-        self.bench.run(0.02)
-
-    @property
-    def now(self):
-        return self.bench.data.time
-
-    def arm(self, individual):
-        assert individual == ARM
-        return self.bench.driver
-
-    def run(self, primitive, limit=20.0, beside=()):
-        """Start and tick every 10 ms until it succeeds; SkillFailure comes out, from a tick after the halt."""
-        end = self.now + limit
-        primitive.start()
-        try:
-            while primitive.tick() is Status.RUNNING:
-                assert self.now < end, "it does not end"
-                assert all(other.tick() is Status.RUNNING for other in beside)
-                self.bench.run(0.01)
-        except SkillFailure as failure:
-            primitive.halt(str(failure))
-            raise
-        return primitive
 
 
 @pytest.fixture

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import import_module
+from math import inf
 from pkgutil import iter_modules
 from typing import Protocol, TypeAlias
 
@@ -54,7 +55,7 @@ class Gains:
 
     linear_stiffness N/m, rotational_stiffness N m/rad: of every axis that no skill releases; command_time s: with which
     stiffness and wrench follow their commands; force_limit N, speed_limit m/s, acceleration_limit m/s^2: what skills
-    may ask for.
+    may ask for; jerk_limit m/s^3: of planned motions of the tool, endless unless the sheet states one.
     """
 
     law: LawGains
@@ -65,6 +66,7 @@ class Gains:
     force_limit: float
     speed_limit: float
     acceleration_limit: float
+    jerk_limit: float = inf
 
     @property
     def release_damping(self) -> float:

@@ -69,6 +69,11 @@ class VirtualArm:
         """Where the tool centre point is, changing with every move."""
         return Pose(self._position, self._rotation)
 
+    def joint_name(self, index: int) -> str:
+        """Return what the arm's model calls a joint, counted from 0; one without a name by its number from 1."""
+        name = self._model.joint(index).name
+        return f"the joint {name}" if name else f"joint {index + 1}"
+
     def mount(self, q: Array, tool: Pose) -> None:
         """Place the tool centre point on the hand so that it is at `tool` for q (nv,) and move there."""
         self._hang(self._flange)

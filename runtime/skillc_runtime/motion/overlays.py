@@ -40,6 +40,11 @@ class Lissajous:
     frequency: Array
     phase: Array
 
+    @property
+    def speed(self) -> float:
+        """How many m/s it reaches at most; no more than this where its axes are never at their fastest together."""
+        return float(np.linalg.norm(2 * pi * self.frequency * self.amplitude))
+
     def at(self, time: float) -> Array:
         """Return offset, velocity and acceleration (3, 3)."""
         w = 2 * pi * self.frequency

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.whereabouts import whereabouts
 from skillc_runtime.robots.feasible import Infeasible
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ class ArmMotion(Primitive):
         try:
             self.go()
         except Infeasible as why:
-            raise SkillFailure(str(why)) from why
+            raise unfit(self.cell, self.arm, why) from why
 
     def go(self) -> None:
         """Give the motion to the arm; SkillFailure before anything moves."""
@@ -65,7 +66,13 @@ class ArmMotion(Primitive):
         """Return the limits of a motion of the tool with a speed in m/s; SkillFailure where the arm allows less."""
         if speed > self.arm.gains.speed_limit:
             raise SkillFailure(f"{speed:g} m/s is faster than the {self.arm.gains.speed_limit:g} m/s the arm allows")
-        return MotionLimits(speed, self.arm.gains.acceleration_limit)
+        return MotionLimits(speed, self.arm.gains.acceleration_limit, jerk=self.arm.gains.jerk_limit)
+
+
+def unfit(cell: Cell, arm: ArmDriver, why: Infeasible) -> SkillFailure:
+    """Return the failure that says which motion does not fit the arm, and where."""
+    place = whereabouts(cell.world.snapshot(), arm.in_world(why.place))
+    return SkillFailure(f"the motion does not fit the arm: {why.problem}, at {place}")
 
 
 def raise_fault(arm: ArmDriver) -> None:

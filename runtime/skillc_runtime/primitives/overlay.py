@@ -10,12 +10,18 @@ import numpy as np
 from skillc_runtime.motion.overlays import Circle, Lissajous, Spiral
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import Overlay
+from skillc_runtime.primitives.arm_motion import unfit
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.robots.feasible import Infeasible
 
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
 
 FADE_S = 0.5
+"""In which an overlay grows, and fades."""
+
+ACROSS = 0.1
+"""A direction of which so little lies in a plane is across it."""
 
 
 class AddedMotion(Primitive):
@@ -37,7 +43,10 @@ class AddedMotion(Primitive):
                 f"{self._name} runs with {self._speed:.2f} m/s, "
                 f"faster than the {self.arm.gains.speed_limit:g} m/s the arm allows"
             )
-        self._handle = self.arm.add_overlay(self._overlay, self._axes, FADE_S)
+        try:
+            self._handle = self.arm.add_overlay(self._overlay, self._axes, FADE_S)
+        except Infeasible as why:
+            raise unfit(self.cell, self.arm, why) from why
 
     def tick(self) -> Status:
         """Go on."""
@@ -71,6 +80,39 @@ class OverlaySpiral(AddedMotion):
 
     def __init__(self, cell: Cell, *, arm: str, plane: Array, pitch: float, speed: float, radius: float) -> None:
         super().__init__(cell, arm, Spiral(pitch, speed, radius), axes_across(plane), "a spiral", speed)
+
+
+class OverlayLissajous(AddedMotion):
+    """Swing `width` m to either side along `along` (3,), `height` m across it in the plane, each at its own rate per s.
+
+    `phase` rad is how far the swing along `along` is ahead at the start.
+    """
+
+    def __init__(
+        self,
+        cell: Cell,
+        *,
+        arm: str,
+        plane: Array,
+        along: Array,
+        width: float,
+        height: float,
+        rate: float,
+        across_rate: float,
+        phase: float,
+    ) -> None:
+        figure = Lissajous(np.array([width, height, 0.0]), np.array([rate, across_rate, 0.0]), np.array([phase, 0, 0]))
+        name = f"a figure of {1000 * width:g} mm at {rate:g} Hz by {1000 * height:g} mm at {across_rate:g} Hz"
+        super().__init__(cell, arm, figure, _axes_along(plane, along), name, figure.speed)
+
+
+def _axes_along(plane: Array, along: Array) -> Array:
+    """Return axes (3, 3): x along a direction as it lies in the plane, z the plane's normal; SkillFailure for none."""
+    x = along - (along @ plane) * plane
+    if np.linalg.norm(x) < ACROSS * np.linalg.norm(along):
+        raise SkillFailure("a figure needs a direction `along` that lies in its plane, not one across it")
+    x /= np.linalg.norm(x)
+    return np.column_stack([x, np.cross(plane, x), plane])
 
 
 def axes_across(normal: Array) -> Array:

@@ -19,7 +19,7 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
 from skillc_runtime.robots.arm import Arm, ArmLimits, ArmState, Command
 from skillc_runtime.robots.guard import Guard
-from skillc_runtime.robots.measured import NEAR_JOINT_RAD, Measured, Observer
+from skillc_runtime.robots.measured import Measured, Observer
 from skillc_runtime.robots.reach import JOINT_RAMP_S, Reach
 from skillc_runtime.robots.safety import SafetyLimits
 from skillc_runtime.robots.tool_task import ToolTask
@@ -196,8 +196,7 @@ class ArmDriver(Measured):
     def behind(self) -> str | None:
         """How far the arm is from its reference along what it is to hold; None when near enough."""
         if self._joints is not None:
-            far = float(np.abs(self._joints.sample(self._now).q - self._state.q).max())
-            return f"a joint is {far:.3f} rad away from where it shall be" if far > NEAR_JOINT_RAD else None
+            return self._reach.away(self._joints.sample(self._now).q, self._state.q)
         return self._tool.behind(self._state, self._now)
 
     def move_along(self, trajectory: Trajectory) -> None:
@@ -243,9 +242,14 @@ class ArmDriver(Measured):
         (self._joints or self._tool.guide).resume(self._now)
 
     def add_overlay(self, overlay: Overlay, axes: Array, fade: float) -> int:
-        """Add a motion along `axes` (3, 3) to whatever the tool does, growing for `fade` s; return its handle."""
+        """Add a motion along `axes` (3, 3) to whatever the tool does, growing for `fade` s; return its handle.
+
+        Infeasible where a joint would be too fast.
+        """
         self._move_tool()
-        return self._tool.guide.add(overlay, self._base().rotation.T @ axes, fade, self._now)
+        axes = self._base().rotation.T @ axes
+        self._reach.bearable(overlay, axes, self.limits, self._state)
+        return self._tool.guide.add(overlay, axes, fade, self._now)
 
     def remove_overlay(self, handle: int) -> None:
         """Let an overlay fade out."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from skillc_runtime.controllers.virtual_arm import VirtualArm
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.motion.reference import Trajectory
+from skillc_runtime.motion.reference import Overlay, Trajectory
 from skillc_runtime.motion.slowed import slowed
 from skillc_runtime.robots.arm import ArmLimits
 from skillc_runtime.robots.inverse import step_towards, turned_and_moved
@@ -20,6 +20,9 @@ STEPS = 3
 FAR_M, FAR_RAD = 0.003, 0.03
 """A tool that stays farther than this from where it shall be cannot get there."""
 
+OVERLAY_S, OVERLAY_SAMPLES = 10.0, 400
+"""For how long, and how closely, an overlay is looked at."""
+
 OUTSIDE_RAD = 0.01
 """How far beyond its range a joint may seem to go: the law holds it back."""
 
@@ -28,7 +31,12 @@ PULL = 0.05
 
 
 class Infeasible(ValueError):
-    """An arm cannot follow a motion; the message names the joint or the distance, and the place."""
+    """An arm cannot follow a motion: `problem` names the joint or the distance, `place` (3,) m is in the arm's base."""
+
+    def __init__(self, problem: str, place: Array) -> None:
+        x, y, z = place
+        super().__init__(f"at ({x:.3f}, {y:.3f}, {z:.3f}) m from the arm's base {problem}")
+        self.problem, self.place = problem, place
 
 
 def feasible(arm: VirtualArm, trajectory: Trajectory, q: Array, limits: ArmLimits) -> Trajectory:
@@ -47,6 +55,22 @@ def feasible(arm: VirtualArm, trajectory: Trajectory, q: Array, limits: ArmLimit
     return slowed(trajectory, fastest)
 
 
+def bearable(arm: VirtualArm, overlay: Overlay, axes: Array, limits: ArmLimits) -> None:
+    """Refuse an overlay along `axes` (3, 3) in base for which a joint would be too fast where the arm is: Infeasible.
+
+    dq = J^+ [v; 0] for the overlay's velocities v in its first `OVERLAY_S`.
+    """
+    velocities = np.array([overlay.at(float(time))[1] for time in np.linspace(0.0, OVERLAY_S, OVERLAY_SAMPLES)])
+    speeds = np.abs(np.linalg.pinv(arm.jacobian)[:, :3] @ axes @ velocities.T).max(axis=1)
+    joint = int((speeds / limits.velocity).argmax())
+    if speeds[joint] > limits.velocity[joint]:
+        raise Infeasible(
+            f"{arm.joint_name(joint)} would have to turn with {speeds[joint]:.2f} rad/s, faster than the "
+            f"{limits.velocity[joint]:.2f} rad/s it can",
+            arm.tool.position,
+        )
+
+
 def _followed(arm: VirtualArm, target: Pose, q: Array, first: Array) -> Array:
     """Return joints near q (nv,) that put the tool as near to its target as a few steps lead."""
     for _ in range(STEPS):
@@ -56,20 +80,20 @@ def _followed(arm: VirtualArm, target: Pose, q: Array, first: Array) -> Array:
 
 
 def _check(arm: VirtualArm, target: Pose, q: Array, limits: ArmLimits) -> None:
-    place = "({:.3f}, {:.3f}, {:.3f}) m from the arm's base".format(*target.position)
     outside = np.maximum(limits.range[:, 0] - q, q - limits.range[:, 1])
     if outside.max() > OUTSIDE_RAD:
         joint = int(outside.argmax())
         low, high = limits.range[joint]
         raise Infeasible(
-            f"the motion does not fit the arm: at {place} joint {joint + 1} would have to be at {q[joint]:.2f} rad, "
-            f"outside its range from {low:.2f} to {high:.2f} rad"
+            f"{arm.joint_name(joint)} would have to be at {q[joint]:.2f} rad, "
+            f"outside its range from {low:.2f} to {high:.2f} rad",
+            target.position,
         )
     arm.move(q)
     error = turned_and_moved(arm.tool, target)
     away, turned = float(np.linalg.norm(error[:3])), float(np.linalg.norm(error[3:]))
     if away > FAR_M or turned > FAR_RAD:
         raise Infeasible(
-            f"the motion does not fit the arm: at {place} its tool would be {1000 * away:.0f} mm and "
-            f"{np.degrees(turned):.0f} deg away from where it shall be"
+            f"its tool would be {1000 * away:.0f} mm and {np.degrees(turned):.0f} deg away from where it shall be",
+            target.position,
         )

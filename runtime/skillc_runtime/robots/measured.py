@@ -50,6 +50,10 @@ class Measured:
         """Tell whether the joints are measured to be at q (nv,)."""
         return bool(np.abs(self._state.q - q).max() < NEAR_JOINT_RAD)
 
+    def in_world(self, place: Array) -> Array:
+        """Return a place (3,) of the arm's base frame in the world."""
+        return self._base().at(place)
+
     def in_base(self, direction: Array) -> Array:
         """Return a direction (3,) of the world in the arm's base axes."""
         return self._base().rotation.T @ direction

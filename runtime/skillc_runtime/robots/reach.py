@@ -11,10 +11,11 @@ import numpy as np
 from skillc_runtime.controllers.virtual_arm import VirtualArm
 from skillc_runtime.motion.joint_path import JointPath, joint_path
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.motion.reference import Trajectory
+from skillc_runtime.motion.reference import Overlay, Trajectory
 from skillc_runtime.robots.arm import ArmLimits, ArmState
-from skillc_runtime.robots.feasible import feasible
+from skillc_runtime.robots.feasible import bearable, feasible
 from skillc_runtime.robots.inverse import inverse
+from skillc_runtime.robots.measured import NEAR_JOINT_RAD
 
 JOINT_RAMP_S = 0.5
 """Seconds in which a joint motion reaches its full speed."""
@@ -40,6 +41,11 @@ class Reach:
         self._arm.mount(state.q, state.tool)
         return feasible(self._arm, trajectory, q, limits)
 
+    def bearable(self, overlay: Overlay, axes: Array, limits: ArmLimits, state: ArmState) -> None:
+        """Refuse an overlay along `axes` (3, 3) for which a joint would be too fast where the arm is: Infeasible."""
+        self._arm.mount(state.q, state.tool)
+        bearable(self._arm, overlay, axes, limits)
+
     def calmed(self, start: Array, goal: Array, speed: Array, most_m_s: float, state: ArmState) -> Array:
         """Return joint speeds (nv,), lowered alike, with which a joint motion keeps the tool below a speed."""
         change, fastest = goal - start, 0.0
@@ -60,6 +66,14 @@ class Reach:
         calm = [self.calmed(*piece, speed, most_m_s, state) for piece in pairwise(postures)]
         slowest = np.min(calm, axis=0)
         return joint_path(postures, slowest, slowest / JOINT_RAMP_S, [blend] * (len(postures) - 2))
+
+    def away(self, wanted: Array, q: Array) -> str | None:
+        """Return which joint is farthest from where it shall be, and how far; None when all are near enough."""
+        far = np.abs(wanted - q)
+        joint = int(far.argmax())
+        if far[joint] <= NEAR_JOINT_RAD:
+            return None
+        return f"{self._arm.joint_name(joint)} is {far[joint]:.3f} rad away from where it shall be"
 
     def joints_for(self, target: Pose, seed: Array, limits: Array, state: ArmState) -> Array | None:
         """Return joints (nv,) within limits (nv, 2) that put the tool at `target`, near `seed`; or None."""

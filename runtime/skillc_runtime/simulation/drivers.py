@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf
 
 from skillc_runtime.controllers.gains import LawGains, UnknownController, gains
@@ -13,18 +14,28 @@ from skillc_runtime.simulation.arm import SimulatedArm
 from skillc_runtime.simulation.facts import ArmFacts
 from skillc_runtime.world.frames import seen_from, size
 from skillc_runtime.world.sheet import SheetError, number
-from skillc_runtime.world.terms import CONTACT_FORCE_LIMIT, HAS_SENSOR, HAS_WORKSPACE, TOOL_SPEED_LIMIT
+from skillc_runtime.world.terms import CONTACT_FORCE_LIMIT, HAS_SENSOR, HAS_WORKSPACE, JERK_LIMIT, TOOL_SPEED_LIMIT
 
 
 def driver(facts: ArmFacts, arm: SimulatedArm, period_s: float) -> ArmDriver:
     """Return the driver of an arm with the controller its facts name; SheetError for an unknown one, a missing gain."""
     try:
-        chosen = gains(facts.controller, facts.sheet.number)
+        chosen = replace(gains(facts.controller, facts.sheet.number), jerk_limit=_jerk_limit(facts))
     except UnknownController as error:
         raise SheetError(f"{facts.sheet.state.vocabulary.short(facts.individual)}: {error}") from error
     _engage(facts, arm, chosen.law)
     virtual, limits = virtual_model(facts.model), safety(facts)
     return ArmDriver(arm, virtual, chosen, arm.limits, lambda: arm.base, period_s, limits)
+
+
+def _jerk_limit(facts: ArmFacts) -> float:
+    """Return the greatest jerk of planned motions, m/s^3; SheetError for one that is not above 0."""
+    state, sheet = facts.sheet.state, facts.sheet.individual
+    limit = number(state, sheet, JERK_LIMIT, inf)
+    if limit <= 0:
+        short = state.vocabulary.short
+        raise SheetError(f"{short(sheet)} has a {short(JERK_LIMIT)} of {limit:g} m/s^3; it must be above 0")
+    return limit
 
 
 def _engage(facts: ArmFacts, arm: SimulatedArm, law: LawGains) -> None:

@@ -101,10 +101,10 @@ def property_of(state: WorldState, individual: str, property_: str) -> Value | N
 def call(target: str, name: str, state: WorldState, *arguments: Value) -> Value | None:
     """Call the Python behind a property or function called `name`; what it raises becomes an EvaluationError."""
     result: Value | None = called(resolve(target), name, state, *arguments)
-    return _listed(result)
+    return None if result is None else _listed(result)
 
 
-def _listed(result: Value | None) -> Value | None:
+def _listed(result: Value) -> Value:
     """Return lists, which Python functions like to give, as the tuples that values are; also those within lists."""
     return tuple(map(_listed, result)) if isinstance(result, list | tuple) else result
 

@@ -51,6 +51,7 @@ DEVICE_STATE = SKILLC + "deviceState"
 POSTURE_NAME = SKILLC + "postureName"
 JOINT_VALUES = SKILLC + "jointValues"
 CONTACT_FORCE_LIMIT = SKILLC + "contactForceLimit"
+JERK_LIMIT = SKILLC + "jerkLimit"
 TOOL_SPEED_LIMIT = SKILLC + "toolSpeedLimit"
 CLEARANCE = SKILLC + "clearance"
 
