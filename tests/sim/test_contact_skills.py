@@ -8,7 +8,6 @@ from contact_runs import LAB, at_rest, displace, run, strongest, tell, vanish
 
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.fixtures import true_pose
 from skillc_runtime.world.frames import pose
 
 pytestmark = pytest.mark.sim
@@ -77,10 +76,10 @@ def test_a_sheet_that_wants_more_rubbing_is_not_called_polished() -> None:
 def test_a_peg_finds_its_hole_and_stands_at_its_bottom(seed: int) -> None:
     done = run("insert_peg", seed)
     assert done.succeeded, done.why
-    (socket,) = done.cell.facts.fixtures
+    (socket,), (true,) = done.cell.facts.fixtures, done.cell.variation.fixtures
     block = done.cell.data.body("lab:Peg-1/block")
     end = Pose(block.xpos, block.xmat.reshape(3, 3)).at(np.array([0.0, 0.0, -0.03]))
-    in_socket = true_pose(socket, seed).inverse().at(end)
+    in_socket = true.true_pose(socket.pose).inverse().at(end)
     assert in_socket[2] == pytest.approx(-0.030, abs=0.0005)
     assert abs(in_socket[:2]).max() < 0.0005
     measured = done.value("Peg-1", "insertedDepth")

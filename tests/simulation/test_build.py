@@ -15,7 +15,7 @@ from skillc_runtime.simulation.build import build
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.facts import read_scene
 from skillc_runtime.simulation.names import obstacle
-from skillc_runtime.simulation.variation import OBSTACLE_M, draw, with_obstacles, without_surfaces
+from skillc_runtime.simulation.variation import OBSTACLE_M, deserted, draw, with_obstacles
 from skillc_runtime.world.changes import Change, ClearProperty, RemoveRelation, SetProperty
 from skillc_runtime.world.frames import pose
 from skillc_runtime.world.model import WorldModel
@@ -193,7 +193,7 @@ def test_surfaces_may_be_missing_and_may_carry_something() -> None:
     facts = read_scene(world("iiwa_table"))
     drawn, name = draw(facts, 2), facts.names[SURFACE["iiwa_table"]]
     bodies = {
-        model.body(each).name for model in (build(facts, without_surfaces(drawn)),) for each in range(model.nbody)
+        model.body(each).name for model in (build(facts, deserted(drawn)),) for each in range(model.nbody)
     }
     assert name not in bodies
     littered = build(facts, with_obstacles(drawn, facts))

@@ -10,13 +10,19 @@ from pathlib import Path
 
 from skillc_runtime.report.result import WipingResult
 from skillc_runtime.trials.trial import Trial
+from skillc_runtime.trials.work import Inserted, Polished, Pressed, Taught, Wiped, Work
 
 KILLED, BROKEN = 3, 4
 """Seeds at which a process dies, and at which something goes wrong in it."""
 
 
-def wiping(surface: str = "lab:Table-1", **changes: float) -> WipingResult:
+def wiping(surface: str = "lab:Table-1", **changes: float) -> Wiped:
     """Return a wiping that meets all targets, but for what is changed."""
+    return Wiped(how=wiped(surface, **changes))
+
+
+def wiped(surface: str, **changes: float) -> WipingResult:
+    """Return what is measured of such a wiping."""
     good: dict[str, float | None] = {
         "coverage": 1.0,
         "force_command_n": 10.0,
@@ -32,16 +38,27 @@ def wiping(surface: str = "lab:Table-1", **changes: float) -> WipingResult:
     return WipingResult(surface=surface, **{**good, **changes})  # type: ignore[arg-type]
 
 
-def good(seed: int, *wipings: WipingResult) -> Trial:
-    """Return a trial in which all is as it should be, but for the wipings that are given."""
+GOOD: dict[str, Work] = {
+    "wiping": wiping(),
+    "polishing": Polished(how=wiped("lab:Sheet-1"), share=1.0, swing_m=0.009, swing_asked_m=0.01),
+    "pressing": Pressed(button="lab:Button-1", asked_n=10.0, held_n=10.0, greatest_n=10.5, took=0.9),
+    "inserting": Inserted(socket="lab:Socket-1", depth_m=0.03, hole_m=0.03, greatest_n=20.0, took=0.5),
+    "teaching": Taught(pose="lab:Taught-1", off_m=0.001, greatest_n=18.0, mean_n=5.0, took=0.4),
+}
+"""A piece of work of each kind that meets all targets."""
+
+
+def good(seed: int, *works: Work) -> Trial:
+    """Return a trial in which all is as it should be, but for the works that are given."""
     return Trial(
         seed=seed,
         status="success",
         variation=f"reality {seed}",
-        wipings=wipings or (wiping(),),
+        works=works or (wiping(),),
         coverage=1.0,
         greatest_force_n=20.0,
         force_limit_n=50.0,
+        pushed=True,
         at_rest=True,
         sim_time_s=40.0,
         wall_time_s=4.0,

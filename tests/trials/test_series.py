@@ -13,9 +13,9 @@ from skillc_runtime.trials.series import series
 from skillc_runtime.trials.targets import METRICS
 from skillc_runtime.trials.trial import Disturbance, Trial
 from skillc_runtime.trials.verdict import misses
-from trials.runners import good, wiping
+from trials.runners import GOOD, good, wiped, wiping
 
-FAILURE = replace(good(1), status="failure", reason="nothing to push against", wipings=(), coverage=0.0)
+FAILURE = replace(good(1), status="failure", reason="nothing to push against", works=(), coverage=0.0)
 
 WORSE = {
     "coverage": ({"coverage": 0.999}, "coverage 99.9 %, wanted at least 100 %"),
@@ -27,12 +27,64 @@ WORSE = {
     "tilt": ({"tilt_rms_deg": 0.6}, "tilt 0.6 deg rms, wanted at most 0.5 deg rms"),
     "lane-end dwell": ({"lane_dwell_s": 0.03}, "lane-end dwell 0.03 s, wanted at most 0.02 s"),
 }
-TARGETED = [metric for metric in METRICS if metric.target is not None]
+
+OTHERS: dict[str, list[tuple[dict[str, float], str]]] = {
+    "polishing": [
+        ({"share": 0.98}, "rubbed long enough 98 %, wanted at least 99 %"),
+        ({"swing_m": 0.007}, "swing kept 70 %, wanted at least 75 %"),
+    ],
+    "pressing": [
+        ({"held_n": 9.0}, "held force 90 % of F, wanted at least 95 % of F"),
+        ({"greatest_n": 13.0}, "greatest force 130 % of F, wanted at most 120 % of F"),
+        ({"took": 1.1}, "time 110 % of the skill's, wanted at most 100 % of the skill's"),
+    ],
+    "inserting": [
+        ({"depth_m": 0.027}, "depth 90 % of the hole, wanted at least 98 % of the hole"),
+        ({"greatest_n": 45.0}, "greatest force 45 N, wanted at most 40 N"),
+        ({"took": 1.1}, "time 110 % of the skill's, wanted at most 100 % of the skill's"),
+    ],
+    "teaching": [
+        ({"off_m": 0.006}, "off the place 6 mm, wanted at most 5 mm"),
+        ({"greatest_n": 30.0}, "greatest force of the person 30 N, wanted at most 25 N"),
+        ({"mean_n": 11.0}, "mean force of the person 11 N, wanted at most 10 N"),
+        ({"took": 1.1}, "time 110 % of the skill's, wanted at most 100 % of the skill's"),
+    ],
+}
 
 
-@pytest.mark.parametrize("metric", TARGETED, ids=lambda metric: metric.name)
-def test_a_trial_that_misses_a_target_is_told_so(metric: object) -> None:
-    changed, said = WORSE[metric.name]  # type: ignore[attr-defined]
+def targeted(kind: str) -> list[str]:
+    return [metric.name for metric in METRICS[kind] if metric.target is not None]
+
+
+def test_every_target_of_every_kind_is_missed_by_some_trial_here() -> None:
+    assert targeted("wiping") == list(WORSE)
+    assert OTHERS.keys() | {"wiping"} == METRICS.keys() == GOOD.keys()
+    for kind, worse in OTHERS.items():
+        own = [name for name in targeted(kind) if name not in WORSE]
+        assert [any(said.startswith(name) for _, said in worse) for name in own] == [True] * len(own)
+        assert len(worse) == len(own)
+
+
+@pytest.mark.parametrize(("kind", "changed", "said"), [(k, *each) for k, worse in OTHERS.items() for each in worse])
+def test_other_work_that_misses_a_target_is_told_so(kind: str, changed: dict[str, float], said: str) -> None:
+    assert misses(good(1, GOOD[kind]), "none") == ()
+    assert misses(good(1, replace(GOOD[kind], **changed)), "none") == (said,)
+
+
+def test_what_polishes_must_wipe_as_well() -> None:
+    rough = replace(GOOD["polishing"], how=wiped("lab:Sheet-1", tilt_rms_deg=0.6))
+    assert misses(good(1, rough), "none") == ("tilt 0.6 deg rms, wanted at most 0.5 deg rms",)
+
+
+def test_a_fixture_that_is_blocked_is_not_said_to_be_done() -> None:
+    (told,) = misses(good(1, GOOD["inserting"]), "obstacle")
+    assert told.startswith("success, wanted a failure that says why: depth 100 % of the hole")
+    assert misses(good(1), "obstacle") == ()
+
+
+@pytest.mark.parametrize("name", targeted("wiping"))
+def test_a_trial_that_misses_a_target_is_told_so(name: str) -> None:
+    changed, said = WORSE[name]
     assert misses(good(1), "none") == ()
     assert misses(good(1, wiping(**changed)), "none") == (said,)
     both = good(1, wiping("lab:A"), wiping("lab:B", **changed))
@@ -50,8 +102,9 @@ def test_a_trial_that_misses_a_target_is_told_so(metric: object) -> None:
         ("missing", good(1), "success, wanted a failure that says why"),
         ("missing", replace(FAILURE, reason=None), "failure, wanted a failure that says why"),
         ("missing", replace(FAILURE, status="crashed"), "crashed: nothing to push against"),
-        ("push", replace(good(1), wipings=(wiping(coverage=0.9),)), None),
+        ("push", replace(good(1), works=(wiping(coverage=0.9),)), None),
         ("push", replace(good(1), coverage=0.99), "coverage 99.0 %, wanted 100 % in the end"),
+        ("push", replace(good(1), pushed=False), "nobody pushed: nothing is done along a path or in a search"),
         ("push", FAILURE, "failure: nothing to push against"),
         ("obstacle", FAILURE, None),
         ("obstacle", replace(FAILURE, greatest_force_n=60.0), "a tool felt 60.0 N, the limit is 50 N"),
@@ -94,7 +147,7 @@ def shown(disturbance: Disturbance, *trials: Trial) -> str:
 def test_the_table_has_every_metric_and_every_failed_seed() -> None:
     text = shown("none", good(1), good(2, wiping(tilt_rms_deg=0.75, lane_dwell_s=0.01)))
     assert "1 of 2 as they should be" in text
-    for metric in METRICS:
+    for metric in METRICS["wiping"]:
         assert re.search(rf"^{re.escape(metric.name)} .*{re.escape(metric.wanted)} ", text, re.MULTILINE)
     assert "seed 2: tilt 0.75 deg rms, wanted at most 0.5 deg rms\n  reality 2" in text
     assert "metric" not in shown("missing", FAILURE)
@@ -103,10 +156,10 @@ def test_the_table_has_every_metric_and_every_failed_seed() -> None:
 def test_the_page_draws_every_value_and_escapes_what_it_says() -> None:
     odd = replace(FAILURE, seed=7, reason="<b>no</b>")
     text = page.render(series("clean", "none", 3, [good(1), good(2), odd]))
-    measured = sum(metric.of(wiping()) is not None for metric in METRICS)
-    targeted = sum(metric.of(wiping()) is not None for metric in TARGETED)
-    assert text.count("<circle") == 2 * measured
-    assert text.count('class="target"') == targeted < measured
+    measured = [metric for metric in METRICS["wiping"] if metric.of(wiping().how) is not None]
+    bound = [metric for metric in measured if metric.target is not None]
+    assert text.count("<circle") == 2 * len(measured)
+    assert text.count('class="target"') == len(bound) < len(measured)
     assert "&lt;b&gt;no&lt;/b&gt;" in text and "<b>" not in text
     assert "2 of 3 trials as they should be" in text
 

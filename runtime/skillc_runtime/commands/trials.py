@@ -25,7 +25,7 @@ from skillc_runtime.trials.trial import Disturbance
     type=click.Choice(get_args(Disturbance)),
     default="none",
     show_default=True,
-    help="What happens besides: surfaces are missing, something lies on them, a person pushes the arm.",
+    help="What happens besides: what is worked on is missing, something is in the way, a person pushes the arm.",
 )
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="A folder that keeps the trials.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")

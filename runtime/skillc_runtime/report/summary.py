@@ -13,7 +13,6 @@ from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.report.result import ChoiceResult, StepResult, TaskResult
 from skillc_runtime.report.wiping import Wiping, judge
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.fixtures import displaced
 from skillc_runtime.task import Execution
 from skillc_runtime.trace.events import Event, ImplementationChosen
 from skillc_runtime.trace.outcome import Outcome
@@ -121,8 +120,9 @@ def _variation(cell: SimulatedCell) -> str:
         f"{np.degrees(one.tilt_rad[0]):+.1f} and {np.degrees(one.tilt_rad[1]):+.1f} deg, friction {one.friction:.2f}"
         for one in cell.variation.surfaces
     )
-    fixtures = (f"{names[one.individual]} {displaced(one, cell.variation.seed)}" for one in cell.facts.fixtures)
-    return "; ".join((*surfaces, *fixtures))
+    fixtures = (f"{names[one.fixture]} {one.words}" for one in cell.variation.fixtures)
+    people = (f"{names[one.person]} {one.words}" for one in cell.variation.people)
+    return "; ".join((*surfaces, *fixtures, *people))
 
 
 def _told(execution: Execution) -> str | None:

@@ -18,6 +18,12 @@ from skillc_runtime.motion.reference import Compliance
 PARALLEL = 0.99
 """Cosine above which two directions count as one: about 8 degrees."""
 
+ACROSS = (1 - PARALLEL**2) ** 0.5
+"""Cosine below which two directions count as at right angles."""
+
+RELEASED_FIRST = 2
+"""The axis of C that is released first."""
+
 
 @dataclass(frozen=True, slots=True)
 class Setting:
@@ -74,12 +80,11 @@ class Yielding:
 
     def release(self, direction: Array, stiffness: float) -> None:
         """Let the tool yield along a unit direction (3,) of the tool frame. ValueError for one askew to another."""
-        frame = self.wanted.frame if self.released else _frame_along(direction)
+        frame = self._frame_for(direction)
         axis = _axis(frame, direction)
         wanted = self.wanted.stiffness.copy()
         wanted[axis] = stiffness
-        if not self.released:
-            self._wrench.value[:3] = frame.T @ self.wanted.frame @ self._wrench.value[:3]
+        self._wrench.value[:3] = frame.T @ self.wanted.frame @ self._wrench.value[:3]
         self._settings.append(Setting(wanted, self.wanted.force if self.released else np.zeros(3), frame))
         self.compliance = self._compliance()
 
@@ -125,6 +130,17 @@ class Yielding:
         stiffness[3:5] = 0.0 if free else self._settings[0].stiffness[3:5]
         self._settings[-1] = replace(self.wanted, stiffness=stiffness)
 
+    def _frame_for(self, direction: Array) -> Array:
+        """Return axes (3, 3) of which one is the direction, if there may be any.
+
+        As long as one axis alone is released, the two others are alike and may turn about it.
+        """
+        if not self.released:
+            return _frame_along(direction)
+        frame = self.wanted.frame
+        alone = len(self._settings) == 2 and abs(float(frame[:, RELEASED_FIRST] @ direction)) < ACROSS
+        return _turned(frame, direction) if alone else frame
+
     def _compliance(self) -> Compliance:
         return Compliance(self._stiffness.value, self._wrench.value, self.wanted.frame, self._ratio)
 
@@ -135,6 +151,14 @@ def _frame_along(direction: Array) -> Array:
     x = near - direction * (near @ direction)
     x /= np.linalg.norm(x)
     return np.column_stack([x, np.cross(direction, x), direction])
+
+
+def _turned(frame: Array, direction: Array) -> Array:
+    """Return the frame turned about its z so that its x is along a direction (3,) at right angles to that."""
+    z = frame[:, RELEASED_FIRST]
+    x = direction - z * (z @ direction)
+    x /= np.linalg.norm(x)
+    return np.column_stack([x, np.cross(z, x), z])
 
 
 def _axis(frame: Array, direction: Array) -> int:

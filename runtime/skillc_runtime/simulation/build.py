@@ -49,8 +49,8 @@ def described(scene: SceneFacts, variation: Variation, timestep_s: float = 0.001
         true = variation.of(surface.individual)
         if true.present:
             _add_surface(spec, scene.names[surface.individual], surface, true)
-    for fixture in scene.fixtures:
-        add_fixture(spec, scene.names[fixture.individual], fixture, variation.seed)
+    for fixture, how in zip(scene.fixtures, variation.fixtures, strict=True):
+        add_fixture(spec, scene.names[fixture.individual], fixture, how)
     mounts = {base.individual: _add_base(spec, scene, base) for base in scene.bases}
     for arm in scene.arms:
         body, frame = mounts.get(arm.robot or "", (spec.worldbody, Pose(np.zeros(3), np.eye(3))))

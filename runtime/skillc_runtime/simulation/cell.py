@@ -13,14 +13,14 @@ from skillc_runtime.robots.watchdog import Watchdog
 from skillc_runtime.simulation.arm import SimulatedArm
 from skillc_runtime.simulation.base import SimulatedBase
 from skillc_runtime.simulation.build import build
+from skillc_runtime.simulation.button import SimulatedButton, buttons
 from skillc_runtime.simulation.coverage import CoverageMap
 from skillc_runtime.simulation.drivers import driver
 from skillc_runtime.simulation.facts import SceneFacts, SurfaceFacts, read_scene
-from skillc_runtime.simulation.fixtures import SimulatedButton, buttons
 from skillc_runtime.simulation.gripper import SimulatedGripper
 from skillc_runtime.simulation.inspection import SimulatedCamera
 from skillc_runtime.simulation.observer import ToolObserver
-from skillc_runtime.simulation.person import people, read_people
+from skillc_runtime.simulation.person import people
 from skillc_runtime.simulation.recorder import Recording
 from skillc_runtime.simulation.variation import Variation, draw
 from skillc_runtime.world.changes import SetProperty
@@ -67,10 +67,8 @@ class SimulatedCell:
         }
         self._camera = SimulatedCamera(self.coverage)
         self.watchdog = Watchdog()
-        self._buttons = buttons(facts.fixtures, names, self.data)
-        self.people = people(
-            read_people(world.snapshot()), facts.arms, names, self._drivers, self.data, self.variation.seed
-        )
+        self._buttons = buttons(facts.fixtures, self.variation.fixtures, names, self.data)
+        self.people = people(facts, self.variation, self._drivers, self.data)
         world.commit([SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(self._drivers)], "start of the cell")
 
     @property
@@ -190,6 +188,8 @@ class SimulatedCell:
                 self._world.commit([SetProperty(individual, DEVICE_STATE, "Fault")], arm.broken)
 
     def _observe(self, now: float) -> None:
+        for button in self._buttons.values():
+            button.sample(now)
         for arm, gripper in self._hands.items():
             if gripper.holding is not None:
                 self._observers[gripper.holding].sample(now, self._drivers[arm])

@@ -10,6 +10,8 @@ from skillc_ontology.catalogue import model as model_path
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.simulation.fixture_facts import FixtureFacts, read_fixtures
+from skillc_runtime.simulation.friction import friction
+from skillc_runtime.simulation.person_facts import PersonFacts, read_people
 from skillc_runtime.world.areas import layout
 from skillc_runtime.world.frames import pose, size
 from skillc_runtime.world.sheet import Sheet, SheetError, number, sheet_of, text
@@ -19,9 +21,6 @@ from skillc_runtime.world.terms import (
     COMPLIANT_CONTROLLER,
     FORCE_NOISE,
     FORCE_TORQUE_SENSOR,
-    FRICTION,
-    FRICTION_HIGH,
-    FRICTION_LOW,
     FURNITURE,
     HAS_ARM,
     HAS_GRIPPER,
@@ -144,6 +143,7 @@ class SceneFacts:
     surfaces: tuple[SurfaceFacts, ...]
     furniture: tuple[FurnitureFacts, ...]
     fixtures: tuple[FixtureFacts, ...] = ()
+    people: tuple[PersonFacts, ...] = ()
 
 
 def read_scene(state: WorldState) -> SceneFacts:
@@ -159,6 +159,7 @@ def read_scene(state: WorldState) -> SceneFacts:
             FurnitureFacts(iri, pose(state, iri), size(state, iri)) for iri in sorted(state.instances(FURNITURE))
         ),
         fixtures=read_fixtures(state),
+        people=read_people(state),
     )
 
 
@@ -230,19 +231,7 @@ def _surface(state: WorldState, surface: str) -> SurfaceFacts:
         pose=pose(state, surface),
         size=size(state, surface),
         layout=layout(state, surface),
-        friction=_friction(state, surface),
+        friction=friction(state, surface),
         offset_range_m=number(state, surface, OFFSET_RANGE, default=0.0),
         tilt_range_rad=number(state, surface, TILT_RANGE, default=0.0),
     )
-
-
-def _friction(state: WorldState, surface: str) -> tuple[float, float]:
-    """Return the least and the greatest friction: the range where one of its ends is given, else the one value."""
-    if all(state.value(surface, end) is None for end in (FRICTION_LOW, FRICTION_HIGH)):
-        believed = number(state, surface, FRICTION)
-        return believed, believed
-    low, high = number(state, surface, FRICTION_LOW), number(state, surface, FRICTION_HIGH)
-    if low > high:
-        short = state.vocabulary.short
-        raise SheetError(f"{short(surface)} has a {short(FRICTION_LOW)} above its {short(FRICTION_HIGH)}")
-    return low, high

@@ -7,18 +7,30 @@ from pathlib import Path
 
 from skillc_ontology.catalogue import model as model_path
 from skillc_runtime.motion.pose import Pose
+from skillc_runtime.simulation.friction import friction, ranges
 from skillc_runtime.world.frames import pose
 from skillc_runtime.world.sheet import Sheet, number, sheet_of
 from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import BUTTON, DEPTH_RANGE, FIXTURE, PLACE_RANGE, SWITCH_TRAVEL
+from skillc_runtime.world.terms import (
+    BUTTON,
+    DEPTH_RANGE,
+    FIXTURE,
+    PLACE_RANGE,
+    STIFFNESS_RANGE,
+    SWITCH_RANGE,
+    SWITCH_TRAVEL,
+    TILT_RANGE,
+)
 
 
 @dataclass(frozen=True, slots=True)
 class FixtureFacts:
     """A fixture where it is believed to be in the world, its model and its sheet.
 
-    It may really stand `place_range_m` beside that, across its z, and `depth_range_m` before or behind it, along z.
-    A button switches when its cap is `switch_travel_m` in; other fixtures have None.
+    It may really stand `place_range_m` beside that, across its z, and `depth_range_m` before or behind it, along z,
+    tilted by `tilt_range_rad` about its x and y, with a sliding friction between the two of `friction`, None for that
+    of its model, and springs that are stiffer or softer by the share `stiffness_range`.
+    A button switches when its cap is `switch_travel_m` in, `switch_range_m` more or less; other fixtures have None.
     """
 
     individual: str
@@ -27,7 +39,11 @@ class FixtureFacts:
     sheet: Sheet
     place_range_m: float = 0.0
     depth_range_m: float = 0.0
+    tilt_range_rad: float = 0.0
+    friction: tuple[float, float] | None = None
+    stiffness_range: float = 0.0
     switch_travel_m: float | None = None
+    switch_range_m: float = 0.0
 
 
 def read_fixtures(state: WorldState) -> tuple[FixtureFacts, ...]:
@@ -37,12 +53,20 @@ def read_fixtures(state: WorldState) -> tuple[FixtureFacts, ...]:
 
 def _fixture(state: WorldState, fixture: str) -> FixtureFacts:
     sheet = sheet_of(state, fixture)
+
+    def within(range_of: str) -> float:
+        return number(state, fixture, range_of, default=0.0)
+
     return FixtureFacts(
         individual=fixture,
         pose=pose(state, fixture),
         model=model_path(sheet.text("model")),
         sheet=sheet,
-        place_range_m=number(state, fixture, PLACE_RANGE, default=0.0),
-        depth_range_m=number(state, fixture, DEPTH_RANGE, default=0.0),
+        place_range_m=within(PLACE_RANGE),
+        depth_range_m=within(DEPTH_RANGE),
+        tilt_range_rad=within(TILT_RANGE),
+        friction=friction(state, fixture) if ranges(state, fixture) else None,
+        stiffness_range=within(STIFFNESS_RANGE),
         switch_travel_m=number(state, sheet.individual, SWITCH_TRAVEL) if state.is_a(fixture, BUTTON) else None,
+        switch_range_m=within(SWITCH_RANGE),
     )

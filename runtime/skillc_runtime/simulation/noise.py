@@ -7,8 +7,8 @@ from typing import Final
 import numpy as np
 
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.simulation.chance import chance_of
 from skillc_runtime.simulation.facts import ArmFacts
-from skillc_runtime.simulation.variation import chance_of
 
 BLOCK: Final = 1000
 """Rows drawn at once: a single draw costs as much as a hundred of them."""

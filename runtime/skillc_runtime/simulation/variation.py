@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from zlib import crc32
 
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose, exp
+from skillc_runtime.simulation.chance import chance_of
 from skillc_runtime.simulation.facts import ArmFacts, SceneFacts, SurfaceFacts, ToolFacts
+from skillc_runtime.simulation.fixture_variation import FixtureVariation, draw_fixture
+from skillc_runtime.simulation.person_variation import PersonVariation, draw_person
 
 OBSTACLE_M = (0.03, 0.03, 0.012)
 """A magnet that somebody left on a surface."""
@@ -51,13 +53,15 @@ class Variation:
     """All differences of one simulated run.
 
     `start_rad`: how far each joint of an arm is from its home at the start; `pad_share`: how much stiffer or softer the
-    working face of a tool is than its sheet says; both by IRI.
+    working face of a tool is than its sheet says; both by IRI. `fixtures` and `people` are in the order of the facts.
     """
 
     seed: int
     surfaces: tuple[SurfaceVariation, ...]
     start_rad: Mapping[str, tuple[float, ...]]
     pad_share: Mapping[str, float]
+    fixtures: tuple[FixtureVariation, ...] = ()
+    people: tuple[PersonVariation, ...] = ()
 
     def of(self, surface: str) -> SurfaceVariation:
         """Return the difference of one surface; KeyError when it has none."""
@@ -82,23 +86,26 @@ def draw(scene: SceneFacts, seed: int) -> Variation:
         tuple(_draw(surface, seed) for surface in scene.surfaces),
         {arm.individual: _posture(arm, seed) for arm in scene.arms},
         {tool.individual: _pad(tool, seed) for tool in scene.tools},
+        tuple(draw_fixture(fixture, seed) for fixture in scene.fixtures),
+        tuple(draw_person(person, seed) for person in scene.people),
     )
 
 
-def without_surfaces(variation: Variation) -> Variation:
-    """Return the same reality, where no surface is there."""
-    return replace(variation, surfaces=tuple(replace(one, present=False) for one in variation.surfaces))
+def deserted(variation: Variation) -> Variation:
+    """Return the same reality, where nothing is there to work on and nobody to work with."""
+    return replace(
+        variation,
+        surfaces=tuple(replace(each, present=False) for each in variation.surfaces),
+        fixtures=tuple(replace(each, present=False) for each in variation.fixtures),
+        people=tuple(replace(each, present=False) for each in variation.people),
+    )
 
 
 def with_obstacles(variation: Variation, scene: SceneFacts) -> Variation:
-    """Return the same reality, with an obstacle somewhere on each surface."""
+    """Return the same reality, with an obstacle somewhere on each surface, and one in each fixture."""
     littered = (replace(variation.of(s.individual), obstacle=_obstacle(s, variation.seed)) for s in scene.surfaces)
-    return replace(variation, surfaces=tuple(littered))
-
-
-def chance_of(individual: str, seed: int, *purpose: int) -> np.random.Generator:
-    """Return a source of chance for one thing in one run, the same whenever it is asked for."""
-    return np.random.default_rng([seed, crc32(individual.encode()), *purpose])
+    blocked = (replace(each, blocked=True) for each in variation.fixtures)
+    return replace(variation, surfaces=tuple(littered), fixtures=tuple(blocked))
 
 
 def _draw(surface: SurfaceFacts, seed: int) -> SurfaceVariation:

@@ -1,4 +1,4 @@
-"""What may happen in a trial besides: a surface is not there, something lies on it, a person pushes the arm."""
+"""What may happen in a trial besides: what is worked on is not there, something is in the way, a person pushes."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ from typing import assert_never
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.report.wiping import PATH_SKILL
 from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.simulation.chance import chance_of
 from skillc_runtime.simulation.facts import ArmFacts, SceneFacts
 from skillc_runtime.simulation.names import part
-from skillc_runtime.simulation.variation import Variation, chance_of, draw, with_obstacles, without_surfaces
+from skillc_runtime.simulation.variation import Variation, deserted, draw, with_obstacles
 from skillc_runtime.trace.events import Event, ImplementationChosen
 from skillc_runtime.trials.trial import Disturbance
 
@@ -17,7 +18,10 @@ PUSH_N, PUSH_S = 30.0, 0.5
 """How hard and how long a person pushes."""
 
 PUSH_AFTER_S = (1.0, 8.0)
-"""When, after the path on the surface has begun."""
+"""When, after the work has begun."""
+
+WORKING = (PATH_SKILL, "SinkBelow")
+"""The skills in which a person pushes: along a path, and in search of a hole."""
 
 
 def reality(disturbance: Disturbance, scene: SceneFacts, seed: int) -> Variation:
@@ -27,7 +31,7 @@ def reality(disturbance: Disturbance, scene: SceneFacts, seed: int) -> Variation
         case "none" | "push":
             return drawn
         case "missing":
-            return without_surfaces(drawn)
+            return deserted(drawn)
         case "obstacle":
             return with_obstacles(drawn, scene)
         case _:
@@ -35,18 +39,19 @@ def reality(disturbance: Disturbance, scene: SceneFacts, seed: int) -> Variation
 
 
 class Person:
-    """Pushes a hand once, in any direction, while its arm works along a path.
+    """Pushes a hand once, in any direction, while its arm works along a path or searches.
 
-    A listener that learns when that begins; `watch` is to be called after every tick.
+    A listener that learns when that begins; `watch` is to be called after every tick. `pushed`: it came to that.
     """
 
     def __init__(self, cell: SimulatedCell) -> None:
         self._cell = cell
         self._arms = {cell.facts.names[arm.individual]: arm for arm in cell.facts.arms}
         self._pushes: dict[str, tuple[float, Array]] = {}
+        self.pushed = False
 
     def __call__(self, event: Event) -> None:
-        if isinstance(event, ImplementationChosen) and event.skill == PATH_SKILL:
+        if isinstance(event, ImplementationChosen) and event.skill in WORKING:
             arm = self._arms[event.bindings["arm"]]
             self._pushes.setdefault(_hand(arm, self._cell), self._decided(arm, event.time))
 
@@ -55,6 +60,7 @@ class Person:
         for hand, (begins, force) in self._pushes.items():
             pushes = begins <= self._cell.now < begins + PUSH_S
             self._cell.data.body(hand).xfrc_applied[:3] = force if pushes else 0.0
+            self.pushed |= pushes
 
     def _decided(self, arm: ArmFacts, now: float) -> tuple[float, Array]:
         chance = chance_of(arm.individual, self._cell.variation.seed, 3)

@@ -17,6 +17,8 @@ from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import execute
 from skillc_runtime.trace.events import Listener
 from skillc_runtime.trials.disturbance import Person, reality
+from skillc_runtime.trials.measures.evidence import Evidence
+from skillc_runtime.trials.measuring import works
 from skillc_runtime.trials.trial import Disturbance, Trial
 from skillc_runtime.world.frames import FrameError
 from skillc_runtime.world.model import WorldModel
@@ -60,17 +62,20 @@ class Laboratory:
         choices, person = Choices(), Person(cell)
         pushed: Sequence[Listener] = (person,) if self._disturbance == "push" else ()
         execution = execute(prepared, self._library, cell, (choices, *pushed), person.watch)
-        trees = [attempt.tree for attempt in execution.attempts]
-        result = summarise(execution, choices, self._library, find_wipings(trees, choices, cell))
+        trees = tuple(attempt.tree for attempt in execution.attempts)
+        wipings = find_wipings(trees, choices, cell)
+        result = summarise(execution, choices, self._library, wipings)
+        judged = tuple(zip(wipings, result.wipings, strict=True))
         return Trial(
             seed=cell.variation.seed,
             status=result.status,
             reason=result.failure,
             variation=result.variation,
-            wipings=result.wipings,
+            works=works(Evidence(self._library, cell, trees, choices, judged)),
             coverage=min((surface.fraction for surface in cell.coverage.values()), default=1.0),
             greatest_force_n=_greatest_force(cell),
             force_limit_n=_force_limit(cell),
+            pushed=person.pushed,
             at_rest=cell.at_rest,
             sim_time_s=result.sim_time_s,
             wall_time_s=result.wall_time_s,

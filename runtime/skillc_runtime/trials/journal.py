@@ -14,7 +14,7 @@ import msgspec
 from skillc_runtime.trials.trial import Disturbance, Trial
 
 FILE = "trials.jsonl"
-FORMAT = 1
+FORMAT = 2
 
 
 class Heading(msgspec.Struct, frozen=True, kw_only=True):

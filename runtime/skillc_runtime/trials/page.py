@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from skillc_runtime.trials.series import Series, Spread
-from skillc_runtime.trials.targets import METRICS
 
 WIDTH, HEIGHT, MARGIN = 420, 34, 8
 """Of a drawing, px."""
@@ -44,7 +43,7 @@ def render(series: Series) -> str:
 
 def strip(spread: Spread) -> Strip:
     """Return the drawing of one spread: every trial a dot, the target a line."""
-    wanted = next(metric.target for metric in METRICS if metric.name == spread.metric)
+    wanted = spread.bound
     low, high = _scale(spread.values if wanted is None else (*spread.values, wanted))
 
     def at(value: float) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from statistics import median
+from typing import Any
 
 import msgspec
 
@@ -13,15 +14,16 @@ from skillc_runtime.trials.verdict import misses
 
 
 class Spread(msgspec.Struct, frozen=True, kw_only=True):
-    """A metric of one surface over all trials in which it was measured; `met` counts those that meet the target.
+    """A metric of one thing over all trials in which it was measured; `met` counts those that meet the target.
 
-    `values` are in order of seed.
+    `target` is in words, `bound` its number if there is one; `values` are in order of seed.
     """
 
     metric: str
-    surface: str
+    subject: str
     unit: str
     target: str
+    bound: float | None
     least: float
     median: float
     greatest: float
@@ -74,23 +76,24 @@ def series(task: str, disturbance: Disturbance, wanted: int, trials: Sequence[Tr
 
 
 def spreads(trials: Sequence[Trial], judged_by_targets: bool = True) -> tuple[Spread, ...]:
-    """Return how each metric of each surface spreads over trials, in order of surface and metric."""
-    found: dict[tuple[str, str], tuple[Metric, list[float]]] = {}
+    """Return how each metric of each thing spreads over trials, in order of thing and metric."""
+    found: dict[tuple[str, str], tuple[Metric[Any], list[float]]] = {}
     for each in (value for trial in trials for value in values(trial)):
-        found.setdefault((each.surface, each.metric.name), (each.metric, []))[1].append(each.value)
-    by_surface = sorted(found.items(), key=lambda item: item[0][0])
-    return tuple(_spread(metric, surface, got, judged_by_targets) for (surface, _), (metric, got) in by_surface)
+        found.setdefault((each.subject, each.metric.name), (each.metric, []))[1].append(each.value)
+    by_subject = sorted(found.items(), key=lambda item: item[0][0])
+    return tuple(_spread(metric, subject, got, judged_by_targets) for (subject, _), (metric, got) in by_subject)
 
 
-def _spread(metric: Metric, surface: str, got: Sequence[float], judged_by_targets: bool) -> Spread:
+def _spread(metric: Metric[Any], subject: str, got: Sequence[float], judged_by_targets: bool) -> Spread:
     middle = median(got)
     wanted = metric.median_target
     missed = wanted is not None and middle > wanted and judged_by_targets
     return Spread(
         metric=metric.name,
-        surface=surface,
+        subject=subject,
         unit=metric.unit,
         target=metric.wanted,
+        bound=metric.target,
         least=min(got),
         median=middle,
         greatest=max(got),

@@ -23,7 +23,7 @@ def _headline(series: Series) -> Text:
 
 
 def _spreads(spreads: tuple[Spread, ...]) -> list[RenderableType]:
-    several = len({spread.surface for spread in spreads}) > 1
+    several = len({spread.subject for spread in spreads}) > 1
     if not spreads:
         return []
     table = Table(box=None, pad_edge=False)
@@ -33,7 +33,7 @@ def _spreads(spreads: tuple[Spread, ...]) -> list[RenderableType]:
     table.add_column("target")
     table.add_column("met", justify="right")
     for spread in spreads:
-        name = f"{spread.surface} {spread.metric}" if several else spread.metric
+        name = f"{spread.subject} {spread.metric}" if several else spread.metric
         numbers = (f"{value:.3g}" for value in (spread.least, spread.median, spread.greatest))
         met, count = f"{spread.met} of {len(spread.values)}", len(spread.values)
         table.add_row(name, *numbers, spread.target, Text(met, style="" if spread.met == count else "red"))

@@ -6,32 +6,35 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-from skillc_runtime.report.result import WipingResult
+from skillc_runtime.trials.work import Work
 
 Status: TypeAlias = Literal["success", "failure", "halted", "refused", "crashed"]
 """How a task ended; `crashed` where the process that ran it did not live to say so."""
 
 Disturbance: TypeAlias = Literal["none", "missing", "obstacle", "push"]
-"""What happens besides: surfaces are not there, something lies on them, a person pushes the arm."""
+"""What happens besides: what is worked on is not there, something is in the way, a person pushes the arm."""
 
 
 class Trial(msgspec.Struct, frozen=True, kw_only=True):
     """One run: its seed, how it ended and why, how reality differed from the world model, and what was measured.
 
-    `wipings` has an entry for each surface; `coverage` is of all the run did, lowest of all surfaces wiped or not.
+    `works` has an entry for each thing that was worked on; `coverage` is of all the run did, lowest of all surfaces
+    wiped or not.
     `greatest_force_n` is the most that any tool felt, `force_limit_n` the least of what makes an arm hold
     still, None where no arm has such a limit.
-    `at_rest` tells whether everything stood still, and nothing pushed any more, in the end.
+    `pushed` tells whether a person pushed the arm, `at_rest` whether everything stood still, and nothing pushed any
+    more, in the end.
     """
 
     seed: int
     status: Status
     reason: str | None = None
     variation: str = ""
-    wipings: tuple[WipingResult, ...] = ()
+    works: tuple[Work, ...] = ()
     coverage: float = 0.0
     greatest_force_n: float = 0.0
     force_limit_n: float | None = None
+    pushed: bool = False
     at_rest: bool = False
     sim_time_s: float = 0.0
     wall_time_s: float = 0.0

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import assert_never
 
-from skillc_runtime.trials.targets import values
+from skillc_runtime.trials.targets import Value, values, values_of
 from skillc_runtime.trials.trial import Disturbance, Trial
+from skillc_runtime.trials.work import Inserted, Pressed
 
 
 def misses(trial: Trial, disturbance: Disturbance) -> tuple[str, ...]:
@@ -23,6 +24,8 @@ def _unlike(trial: Trial, disturbance: Disturbance) -> Iterator[str]:
             yield from _unsuccessful(trial)
             yield from _off_target(trial)
         case "push":
+            if not trial.pushed:
+                yield "nobody pushed: nothing is done along a path or in a search"
             yield from _unsuccessful(trial)
             if trial.coverage < 1.0:
                 yield f"coverage {100 * trial.coverage:.1f} %, wanted 100 % in the end"
@@ -30,7 +33,7 @@ def _unlike(trial: Trial, disturbance: Disturbance) -> Iterator[str]:
             if trial.status != "failure" or not trial.reason:
                 yield f"{trial.status}, wanted a failure that says why"
         case "obstacle":
-            pass
+            yield from _untrue(trial)
         case _:
             assert_never(disturbance)
 
@@ -41,11 +44,22 @@ def _unsuccessful(trial: Trial) -> Iterator[str]:
 
 
 def _off_target(trial: Trial) -> Iterator[str]:
-    several = len(trial.wipings) > 1
+    several = len(trial.works) > 1
     for each in values(trial):
         if not each.metric.met(each.value):
-            where = f"{each.surface}: " if several else ""
-            yield f"{where}{each.metric.name} {each.value:.3g} {each.metric.unit}, wanted {each.metric.wanted}"
+            where = f"{each.subject}: " if several else ""
+            yield where + _missed(each)
+
+
+def _untrue(trial: Trial) -> Iterator[str]:
+    """Yield what a trial claims to have done to a fixture in which something was in the way."""
+    fixed = [work for work in trial.works if isinstance(work, Pressed | Inserted)]
+    if trial.status == "success" and fixed:
+        yield f"success, wanted a failure that says why: {', '.join(_missed(v) for w in fixed for v in values_of(w))}"
+
+
+def _missed(value: Value) -> str:
+    return f"{value.metric.name} {value.value:.3g} {value.metric.unit}, wanted {value.metric.wanted}"
 
 
 def _unsafe(trial: Trial) -> Iterator[str]:

@@ -1,0 +1,24 @@
+"""The friction that a thing may really have."""
+
+from __future__ import annotations
+
+from skillc_runtime.world.sheet import SheetError, number
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.terms import FRICTION, FRICTION_HIGH, FRICTION_LOW
+
+
+def friction(state: WorldState, thing: str) -> tuple[float, float]:
+    """Return the least and the greatest friction: the range where one of its ends is given, else the one value."""
+    if not ranges(state, thing):
+        believed = number(state, thing, FRICTION)
+        return believed, believed
+    low, high = number(state, thing, FRICTION_LOW), number(state, thing, FRICTION_HIGH)
+    if low > high:
+        short = state.vocabulary.short
+        raise SheetError(f"{short(thing)} has a {short(FRICTION_LOW)} above its {short(FRICTION_HIGH)}")
+    return low, high
+
+
+def ranges(state: WorldState, thing: str) -> bool:
+    """Tell whether a range is given, or an end of one."""
+    return any(state.value(thing, end) is not None for end in (FRICTION_LOW, FRICTION_HIGH))
