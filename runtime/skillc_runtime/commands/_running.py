@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import signal
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,14 +17,17 @@ from skillc_runtime.commands._following import Follower
 from skillc_runtime.commands._live import Live
 from skillc_runtime.commands._mission import Mission
 from skillc_runtime.planning.choose import Planners
+from skillc_runtime.report.drawing import Drawing, drawing
+from skillc_runtime.report.moments import moments
 from skillc_runtime.report.result import TaskResult
 from skillc_runtime.report.summary import Choices, summarise
-from skillc_runtime.report.wiping import Wiping, find_wipings
+from skillc_runtime.report.wiping import find_wipings
 from skillc_runtime.report.write import write_report
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.film import Film, FilmError
+from skillc_runtime.simulation.film import Film, Filmed, Moment
+from skillc_runtime.simulation.pictures import FilmError
 from skillc_runtime.simulation.rendering import RenderingError
-from skillc_runtime.task import Execution, execute
+from skillc_runtime.task import execute
 from skillc_runtime.trace.events import Listener
 from skillc_runtime.trace.writer import TraceWriter
 from skillc_runtime.world.frames import FrameError
@@ -43,24 +46,32 @@ class Options:
     planners: Planners | None = None
 
 
-def run(mission: Mission, options: Options) -> TaskResult:
+@dataclass(frozen=True, slots=True)
+class Ran:
+    """What became of a mission, and what is drawn of its wipings; nothing where no report was asked for."""
+
+    result: TaskResult
+    drawings: tuple[Drawing, ...] = ()
+
+
+def run(mission: Mission, options: Options) -> Ran:
     """Plan, run and report one mission."""
     name = mission.assignment.name
     with Live(name, options.quiet, options.real_time) as live:
         live.say("preparing")
         prepared = prepare(mission.assignment, mission.library, planners=options.planners)
         if not isinstance(prepared, Prepared):
-            return TaskResult(task=name, status="refused", seed=options.seed, failure=prepared.why)
+            return Ran(TaskResult(task=name, status="refused", seed=options.seed, failure=prepared.why))
         live.say("building the simulation")
         try:
             cell = SimulatedCell(mission.world, options.seed)
         except (SheetError, FrameError, StoreError) as error:
             failure = f"the scene cannot be simulated: {error}"
-            return TaskResult(task=name, status="refused", seed=options.seed, failure=failure)
+            return Ran(TaskResult(task=name, status="refused", seed=options.seed, failure=failure))
         return _run(prepared, mission, cell, options, live)
 
 
-def _run(prepared: Prepared, mission: Mission, cell: SimulatedCell, options: Options, live: Live) -> TaskResult:
+def _run(prepared: Prepared, mission: Mission, cell: SimulatedCell, options: Options, live: Live) -> Ran:
     choices = Choices()
     listeners: list[Listener] = [choices, live]
     film = Film(cell) if options.out is not None else None
@@ -81,25 +92,20 @@ def _run(prepared: Prepared, mission: Mission, cell: SimulatedCell, options: Opt
         trees = [attempt.tree for attempt in execution.attempts]
         wipings = find_wipings(trees, choices, cell)
         result = summarise(execution, choices, mission.library, wipings)
-        if options.out is not None:
-            live.say("writing the report")
-            _report(options.out, result, execution, wipings, film)
-    return result
+        if options.out is None or film is None:
+            return Ran(result)
+        live.say("writing the report")
+        drawings = tuple(drawing(wiping, cell) for wiping in wipings)
+        with writing(options.out):
+            filmed = _filmed(film, options.out, moments(wipings, cell))
+            write_report(options.out, result, execution, drawings, filmed)
+    return Ran(result, drawings)
 
 
-def _report(
-    out: Path, result: TaskResult, execution: Execution, wipings: tuple[Wiping, ...], film: Film | None
-) -> None:
-    with _writing(out):
-        write_report(out, result, execution, wipings, _filmed(out / "film.mp4", film))
-
-
-def _filmed(path: Path, film: Film | None) -> str | None:
-    """Write the film and return its name; say so where there can be none."""
-    if film is None:
-        return None
+def _filmed(film: Film, directory: Path, wanted: Sequence[Moment]) -> Filmed | None:
+    """Write the film and the stills that are wanted; say so where there can be none."""
     try:
-        return film.write(path).name
+        return film.write(directory, wanted)
     except (FilmError, RenderingError) as error:
         click.echo(f"no film: {error}", err=True)
         return None
@@ -132,7 +138,7 @@ def _trace(directory: Path | None) -> Iterator[TraceWriter | None]:
     if directory is None:
         yield None
         return
-    with _writing(directory):
+    with writing(directory):
         directory.mkdir(parents=True, exist_ok=True)
         trace = TraceWriter(directory / "events.jsonl")
     with trace:
@@ -142,7 +148,8 @@ def _trace(directory: Path | None) -> Iterator[TraceWriter | None]:
 
 
 @contextmanager
-def _writing(directory: Path) -> Iterator[None]:
+def writing(directory: Path) -> Iterator[None]:
+    """Exit with code 1 and the reason where the folder cannot be written to."""
     try:
         yield
     except OSError as error:

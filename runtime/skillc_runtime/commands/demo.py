@@ -6,9 +6,15 @@ Exit code 3 when a task does not succeed.
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
+
+if TYPE_CHECKING:
+    from skillc_runtime.report.drawing import Drawing
+    from skillc_runtime.report.result import TaskResult
 
 SEED = 1
 """With this seed both surfaces lie more than a centimetre away from where the world model believes."""
@@ -18,20 +24,36 @@ TASKS = {"ur5e": "clean_whiteboard", "iiwa": "clean_table"}
 
 @click.command()
 @click.option("--robot", type=click.Choice([*TASKS, "all"]), default="all", show_default=True, help="Which robot.")
-@click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="A folder for reports, events and films.")
+@click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="A folder for reports, figures, films.")
 @click.option("--seed", default=SEED, show_default=True, help="How reality differs from the world model.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document: a list with one object a task.")
 def command(robot: str, out: Path | None, seed: int, as_json: bool) -> None:
     """Run the two shipped wiping tasks in simulation."""
     from skillc_runtime.commands import _mission, _results, _running
 
-    results = []
+    results: list[TaskResult] = []
+    drawings: list[Drawing] = []
     for task in TASKS.values() if robot == "all" else [TASKS[robot]]:
         directory = out / task if out is not None else None
         options = _running.Options(out=directory, seed=seed, quiet=as_json)
-        results.append(_running.run(_mission.of_task(task), options))
+        ran = _running.run(_mission.of_task(task), options)
+        results.append(ran.result)
+        drawings += ran.drawings
         if not as_json:
-            _results.show(results[-1:], directory)
+            _results.show([ran.result], directory)
+    if out is not None:
+        _side_by_side(out, drawings, as_json)
     if as_json:
         click.echo(_results.list_as_json(results))
     sys.exit(0 if all(result.status == "success" for result in results) else 3)
+
+
+def _side_by_side(out: Path, drawings: Sequence[Drawing], quiet: bool) -> None:
+    """Write the figure that compares what was wiped."""
+    from skillc_runtime.commands._running import writing
+    from skillc_runtime.report.write import write_figure
+
+    with writing(out):
+        written = write_figure(out, drawings)
+    if written is not None and not quiet:
+        click.echo(f"side by side: {out / 'wiping.png'}")

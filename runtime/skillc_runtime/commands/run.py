@@ -26,7 +26,7 @@ FOLDER = click.Path(path_type=Path, file_okay=False)
 @click.option(
     "--out",
     type=FOLDER,
-    help="A folder for report.html, events.jsonl and the film.",
+    help="A folder for report.html, events.jsonl, the figure, the film and stills.",
 )
 @_keeping.options
 @_planners.options
@@ -58,7 +58,7 @@ def command(
     keeping = _keeping.keeping(store, reset)
     mission = _mission.of_task(task, keeping) if task else _mission.of_scene(scene, goal, skill, library, keeping)
     options = _running.Options(out, seed, real_time, as_json, _planners.planners(plan_cache))
-    result = _running.run(_planners.aimed(mission, minimise), options)
+    result = _running.run(_planners.aimed(mission, minimise), options).result
     if as_json:
         click.echo(_results.as_json(result))
     else:

@@ -1,57 +1,120 @@
-"""Figures of a wiping run as PNG: path and coverage on the surface, force and tilt over time."""
+"""The figure of wiping, a column for each surface: path and contact time on it, speed along the lanes, force."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from io import BytesIO
 
+import matplotlib as mpl
 import numpy as np
-from matplotlib.colors import ListedColormap
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
-from skillc_runtime.motion.pose import Array
+from skillc_runtime.report.drawing import Drawing
 
-MILLIMETRES = 1000.0
-REFERENCE, ACTUAL, WIPED, LIMIT = "#9aa3ad", "#1f5fa8", "#cfe8d5", "#b3402a"
+LANES, TOOL, WANTED, WIPING = "#000000", "#d55e00", "#0072b2", "#e8e8e8"
+"""Black, and vermilion and blue that colour-blind people tell apart; all differ in lightness on paper."""
 
+UNWIPED, DOSE, DOSE_ALPHA = "#ffffff", "cividis_r", 0.7
+COLUMN_IN, HEIGHT_IN, DOTS_PER_INCH = 6.2, 8.6, 120
 
-def path_figure(extent: Array, wiped: NDArray[np.bool_], reference: Array, actual: Array) -> bytes:
-    """Draw the reference and the actual path over what was wiped.
+COMPACT: Mapping[str, float] = {"handlelength": 1.5, "columnspacing": 1.2}
 
-    extent (2,): size of the surface in m. wiped (rows, columns): cells along y and x. reference, actual (n, 2): m, in
-    the surface frame, whose origin is the middle.
-    """
-    figure = Figure(figsize=(7.2, 5.6), layout="constrained")
-    axes = figure.add_subplot()
-    half = extent / 2 * MILLIMETRES
-    box = (-half[0], half[0], -half[1], half[1])
-    axes.imshow(np.where(wiped, 1.0, 0.0), extent=box, origin="lower", cmap=_two_colours(), vmin=0, vmax=1)
-    axes.plot(*(reference.T * MILLIMETRES), color=REFERENCE, linewidth=1.2, label="reference")
-    axes.plot(*(actual.T * MILLIMETRES), color=ACTUAL, linewidth=0.9, label="tool")
-    axes.plot([], [], color=WIPED, linewidth=8, label=f"wiped, {wiped.mean():.1%}")
-    axes.set(xlabel="x in mm", ylabel="y in mm", title="Path of the tool on the surface", aspect="equal")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=3, frameon=False)
-    return _png(figure)
+BEFORE_CONTACT_S = 1.0
+"""How much of the approach is shown."""
+
+MARGIN_MM = 10.0
+"""How much is shown around a surface."""
 
 
-def force_figure(time: Array, force: Array, commanded: float, window: tuple[float, float]) -> bytes:
-    """Draw the normal force (n,) in N over time (n,) in s, with the commanded force and the window that is judged."""
-    figure = Figure(figsize=(9.6, 3.2), layout="constrained")
-    axes = figure.add_subplot()
-    axes.axvspan(*window, color=WIPED, alpha=0.6, linewidth=0, label="wiping")
-    axes.plot(time, force, color=ACTUAL, linewidth=0.5, label="normal force")
-    axes.axhline(commanded, color=LIMIT, linewidth=1.0, label=f"commanded, {commanded:g} N")
-    axes.set(xlabel="time in s", ylabel="force in N", title="Force on the surface", xlim=(time[0], time[-1]))
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """A figure in two formats, the same bytes for the same drawings."""
+
+    png: bytes
+    svg: bytes
+
+
+def wiping_figure(drawings: Sequence[Drawing]) -> Drawn:
+    """Draw wipings side by side, contact times on the same scale. ValueError for none."""
+    with mpl.rc_context({"font.size": 9, "axes.titlesize": 10, "legend.fontsize": 8, "svg.hashsalt": "skillc"}):
+        figure = figure_of(drawings)
+        png = _saved(figure, "png", {"Software": ""})
+        figure.set_layout_engine("none")
+        return Drawn(png, _saved(figure, "svg", {"Date": None, "Creator": None}))
+
+
+def figure_of(drawings: Sequence[Drawing]) -> Figure:
+    """Return the figure as matplotlib has it. ValueError for no drawings."""
+    if not drawings:
+        raise ValueError("there is no wiping to draw")
+    longest = max(float(drawing.dose.max(initial=0.0)) for drawing in drawings)
+    figure = Figure(figsize=(COLUMN_IN * len(drawings), HEIGHT_IN), layout="constrained")
+    columns = figure.subplots(3, len(drawings), squeeze=False, height_ratios=(2.6, 1, 1)).T
+    for drawing, (surface, speed, force) in zip(drawings, columns, strict=True):
+        _draw_surface(surface, drawing, longest)
+        _draw_speed(speed, drawing)
+        _draw_force(force, drawing)
+    return figure
+
+
+def _draw_surface(axes: Axes, drawing: Drawing, longest: float) -> None:
+    """Shade the contact time of each cell, and draw both paths over it; the longer side lies."""
+    upright = drawing.extent[1] > drawing.extent[0]
+    order, names = ((1, 0), "yx") if upright else ((0, 1), "xy")
+    x, y = drawing.extent[list(order)] / 2
+    shades = axes.imshow(
+        np.ma.masked_equal(drawing.dose.T if upright else drawing.dose, 0.0),
+        extent=(-x, x, -y, y),
+        origin="lower",
+        cmap=mpl.colormaps[DOSE].with_extremes(bad=UNWIPED),
+        alpha=DOSE_ALPHA,
+        vmin=0.0,
+        vmax=longest,
+    )
+    for path, colour, width, label in (
+        (drawing.tool, TOOL, 0.8, "tool"),
+        (drawing.lanes, LANES, 1.2, "lanes asked for"),
+    ):
+        axes.plot(*path.T[list(order)], color=colour, linewidth=width, label=label)
+    axes.plot([], [], color=UNWIPED, marker="s", markeredgecolor=LANES, linestyle="", label="not wiped")
+    axes.set(xlabel=f"{names[0]} on the surface, mm", ylabel=f"{names[1]} on the surface, mm", aspect="equal")
+    axes.set(xlim=(-x - MARGIN_MM, x + MARGIN_MM), ylim=(-y - MARGIN_MM, y + MARGIN_MM))
+    _headed(axes, f"{drawing.surface}, {drawing.robot}\n{drawing.covered:.1%} wiped")
+    scale = axes.inset_axes((1.03, 0.0, 0.04, 1.0))
+    axes.figure.colorbar(shades, cax=scale, label="contact time of each 5 mm cell, s")
+
+
+def _draw_speed(axes: Axes, drawing: Drawing) -> None:
+    """Draw how fast the tool went along the lanes, and how fast it should without its overlay."""
+    tool = "tool with overlay" if drawing.overlaid else "tool"
+    axes.plot(drawing.time, drawing.tool_speed, color=TOOL, linewidth=0.7, label=tool)
+    axes.plot(drawing.time, drawing.lane_speed, color=LANES, linewidth=1.2, label="lanes")
+    axes.axhline(drawing.lingering, color=WANTED, linewidth=1.0, linestyle=":", label="dwell below")
+    axes.set(xlabel="time from the first lane, s", ylabel="speed, mm/s")
+    _headed(axes, "Speed along lanes")
+
+
+def _draw_force(axes: Axes, drawing: Drawing) -> None:
+    """Draw the normal force from shortly before contact."""
+    touched = drawing.contact_time[drawing.force > 0]
+    first = float(touched[0] if touched.size else drawing.contact_time[0]) - BEFORE_CONTACT_S
+    axes.axvspan(drawing.time[0], drawing.time[-1], color=WIPING, linewidth=0, label="wiping")
+    axes.plot(drawing.contact_time, drawing.force, color=TOOL, linewidth=0.6, label="measured")
+    axes.axhline(drawing.force_n, color=WANTED, linewidth=1.2, linestyle=":", label=f"asked for, {drawing.force_n:g} N")
+    axes.set(xlabel="time from the first lane, s", ylabel="normal force, N", xlim=(first, drawing.time[-1]))
     axes.set_ylim(bottom=0)
-    axes.legend(loc="upper left", ncols=3, frameon=False)
-    return _png(figure)
+    _headed(axes, "Force on the surface")
 
 
-def _two_colours() -> ListedColormap:
-    return ListedColormap(["#f4e6d8", WIPED])
+def _headed(axes: Axes, title: str) -> None:
+    """Put a title and the legend above, side by side."""
+    axes.set_title(title, loc="left")
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3, frameon=False, borderaxespad=0.2, **COMPACT)
 
 
-def _png(figure: Figure) -> bytes:
+def _saved(figure: Figure, form: str, metadata: dict[str, str | None]) -> bytes:
     buffer = BytesIO()
-    figure.savefig(buffer, format="png", dpi=130, metadata={"Software": ""})
+    figure.savefig(buffer, format=form, dpi=DOTS_PER_INCH, metadata=metadata)
     return buffer.getvalue()

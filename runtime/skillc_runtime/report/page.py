@@ -3,26 +3,18 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from dataclasses import dataclass
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
+from skillc_runtime.report.figures import Drawn
 from skillc_runtime.report.result import TaskResult
 from skillc_runtime.report.table import reason_of, rows
-from skillc_runtime.simulation.film import SPEED_UP
+from skillc_runtime.simulation.film import SPEED_UP, Filmed
 from skillc_runtime.trace.outcome import Outcome
 
 
-@dataclass(frozen=True, slots=True)
-class Picture:
-    """A PNG under a heading."""
-
-    title: str
-    png: bytes
-
-
-def render(result: TaskResult, trees: list[Outcome], pictures: list[Picture], film: str | None = None) -> str:
-    """Return the page; `trees` are those of all attempts, `film` is the name of a video file beside it."""
+def render(result: TaskResult, trees: list[Outcome], figure: Drawn | None = None, filmed: Filmed | None = None) -> str:
+    """Return the page; `trees` are those of all attempts, the files of `filmed` are beside it."""
     environment = Environment(
         loader=PackageLoader("skillc_runtime.report", "."),
         autoescape=True,
@@ -35,8 +27,8 @@ def render(result: TaskResult, trees: list[Outcome], pictures: list[Picture], fi
         rows=rows(result) if result.sim_time_s else [],
         reason_of=reason_of,
         trees=trees,
-        pictures=[(picture.title, b64encode(picture.png).decode()) for picture in pictures],
-        film=film,
+        figure=b64encode(figure.svg).decode() if figure else "",
+        filmed=filmed,
         speed_up=SPEED_UP,
         reason=_reason,
     )

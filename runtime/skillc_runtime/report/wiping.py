@@ -20,9 +20,13 @@ PATH_SKILL, PUSH_SKILL = "FollowPath", "Push"
 
 @dataclass(frozen=True, slots=True)
 class Wiping:
-    """A tool, pushed with `force_n`, followed a path on a surface from `start` to `end`; the skill `began` before."""
+    """A tool, pushed with `force_n`, followed a path on a surface from `start` to `end`; the skill `began` before.
+
+    `arm` is empty where the skill names none.
+    """
 
     surface: str
+    arm: str
     tool: str
     force_n: float
     began: float
@@ -39,11 +43,12 @@ def find_wipings(
         individuals = _individuals(choices.get(node.id), state)
         surfaces = [each for each in individuals if state.is_a(each, SURFACE)]
         tools = [each for each in individuals if state.is_a(each, TOOL)]
+        arm = next((each for each in individuals if each in cell.arms), "")
         pushes = [choice.bindings["force"] for choice, _ in _done(node, choices, PUSH_SKILL)]
         for _, path in _done(node, choices, PATH_SKILL):
             if surfaces and tools and pushes and path.started is not None and path.ended is not None:
                 force, began = float(pushes[-1].split()[0]), node.started or 0.0
-                found[surfaces[0]] = Wiping(surfaces[0], tools[0], force, began, path.started, path.ended)
+                found[surfaces[0]] = Wiping(surfaces[0], arm, tools[0], force, began, path.started, path.ended)
     return tuple(found.values())
 
 

@@ -1,0 +1,40 @@
+"""Moments of a run that are worth a still: the grasp, the contact, a corner, the end of the lanes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from skillc_runtime.report.wiping import Wiping
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.simulation.film import Moment
+from skillc_runtime.simulation.recorder import Recording
+
+GRASPED_S = 0.3
+"""How long after the first moment at which a tool is held its grasp is looked at."""
+
+
+def moments(wipings: Sequence[Wiping], cell: SimulatedCell) -> tuple[Moment, ...]:
+    """Return the moments of every wiping by an arm that is known."""
+    return tuple(each for wiping in wipings if wiping.arm for each in _moments(wiping, cell))
+
+
+def _moments(wiping: Wiping, cell: SimulatedCell) -> Iterator[Moment]:
+    name, recording = cell.world.snapshot().vocabulary.short(wiping.surface), cell.recording(wiping.tool)
+    yield Moment(f"{name} grasp", float(recording.time[0]) + GRASPED_S, wiping.arm)
+    yield Moment(f"{name} contact", _contact(recording.between(wiping.began, wiping.end)), wiping.arm)
+    yield Moment(f"{name} corner", _corner(recording.between(wiping.start, wiping.end)), wiping.arm)
+    yield Moment(f"{name} last lane", wiping.end, wiping.arm)
+
+
+def _contact(recording: Recording) -> float:
+    """Return when the tool was first pressed."""
+    return float(recording.time[int(np.argmax(recording.force > 0))])
+
+
+def _corner(window: Recording) -> float:
+    """Return when the path turned in the middle half of a wiping, s: there it is slowest."""
+    middle = slice(len(window.time) // 4, -len(window.time) // 4)
+    speed = np.linalg.norm(window.path_velocity[middle], axis=1)
+    return float(window.time[middle][int(speed.argmin())])
