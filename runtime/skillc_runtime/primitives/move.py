@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import chain
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from skillc_runtime.motion.path import path
-from skillc_runtime.motion.pose import Pose
+from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.arm_motion import ArmMotion
+from skillc_runtime.primitives.joint_way import move_clear
 from skillc_runtime.primitives.posture import posture_of
 from skillc_runtime.primitives.primitive import SkillFailure
 
@@ -18,15 +21,22 @@ if TYPE_CHECKING:
 HOME = "home"
 
 
+SEEDS = 8
+"""How many other postures are looked for where the one nearest to home is not free."""
+
+
 class MoveJoints(ArmMotion):
-    """Move the tool to `target` through joint space, with a share `pace` of the joints' greatest speeds."""
+    """Move the tool to `target` through joint space, with a share `pace` of the joints' greatest speeds.
+
+    Around what the world model knows to be there; what the arm holds moves along.
+    """
 
     def __init__(self, cell: Cell, *, arm: str, target: Pose, pace: float) -> None:
         super().__init__(cell, arm)
         self._individual, self._target, self._pace = arm, target, pace
 
     def go(self) -> None:
-        """Find the posture nearest to home that puts the tool there, and go."""
+        """Find the posture nearest to home that puts the tool there, another where that one is not free, and go."""
         seed = posture_of(self.cell.world.snapshot(), self._individual, HOME)
         q = self.arm.inverse_kinematics(self._target, seed)
         if q is None:
@@ -35,11 +45,20 @@ class MoveJoints(ArmMotion):
             raise SkillFailure(
                 f"the arm cannot reach ({place}) m in this orientation, {far:.2f} m from where its tool is"
             )
-        self.arm.move_joints(q, self._pace)
+        move_clear(self.cell, self._individual, chain([q], self._others(seed)), self._pace)
+
+    def _others(self, home: Array) -> Iterator[Array]:
+        """Yield other postures that put the tool there: near where the joints are, then all over their range."""
+        draw, limits = np.random.default_rng(0), self.arm.limits.range
+        low, high = np.maximum(limits[:, 0], home - np.pi), np.minimum(limits[:, 1], home + np.pi)
+        for seed in (self.arm.q, *(draw.uniform(low, high) for _ in range(SEEDS))):
+            q = self.arm.inverse_kinematics(self._target, seed)
+            if q is not None:
+                yield q
 
 
 class TakePosture(ArmMotion):
-    """Take a posture of the arm's data sheet."""
+    """Take a posture of the arm's data sheet, around what the world model knows to be there."""
 
     def __init__(self, cell: Cell, *, arm: str, posture: str, pace: float) -> None:
         super().__init__(cell, arm)
@@ -47,7 +66,8 @@ class TakePosture(ArmMotion):
 
     def go(self) -> None:
         """Look the posture up and go."""
-        self.arm.move_joints(posture_of(self.cell.world.snapshot(), self._individual, self._posture), self._pace)
+        q = posture_of(self.cell.world.snapshot(), self._individual, self._posture)
+        move_clear(self.cell, self._individual, [q], self._pace)
 
 
 class MoveLinear(ArmMotion):

@@ -36,9 +36,9 @@ class Sheet:
 
     def posture(self, name: str) -> Array:
         """Return the joint values (nv,) rad of a named posture; SheetError lists the names there are."""
-        names = {str(self.state.value(p, POSTURE_NAME)): p for p in self.postures}
+        names = self._named_postures()
         if name not in names:
-            known = ", ".join(sorted(names)) or "none"
+            known = ", ".join(self.posture_names) or "none"
             raise SheetError(f"{self._short(self.individual)} has no posture {name!r}; it has {known}")
         values = text(self.state, names[name], JOINT_VALUES)
         return _numbers(values, f"posture {name} of {self._short(self.individual)}")
@@ -47,6 +47,14 @@ class Sheet:
     def postures(self) -> tuple[str, ...]:
         """The individuals that describe postures."""
         return tuple(sorted(self.state.objects(self.individual, HAS_POSTURE)))
+
+    @property
+    def posture_names(self) -> tuple[str, ...]:
+        """What the postures are called, sorted."""
+        return tuple(sorted(self._named_postures()))
+
+    def _named_postures(self) -> dict[str, str]:
+        return {str(self.state.value(each, POSTURE_NAME)): each for each in self.postures}
 
     def _short(self, individual: str) -> str:
         return self.state.vocabulary.short(individual)

@@ -23,6 +23,7 @@ FURNITURE = SKILLC + "Furniture"
 SURFACE = SKILLC + "Surface"
 TOOL = SKILLC + "Tool"
 WORKSTATION = SKILLC + "Workstation"
+WORKSPACE = SKILLC + "Workspace"
 
 AT = SKIROS + "at"
 CONTAIN = SKIROS + "contain"

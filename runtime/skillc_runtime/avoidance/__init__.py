@@ -1,0 +1,1 @@
+"""Joint motions that keep clear of what the world model knows to be there."""

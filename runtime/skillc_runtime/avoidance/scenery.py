@@ -1,0 +1,94 @@
+"""What the world model knows to stand around an arm, as plain values in the arm's base frame."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from skillc_ontology.catalogue import model as model_path
+from skillc_runtime.motion.pose import Pose, quaternion_of
+from skillc_runtime.world.frames import FrameError, pose
+from skillc_runtime.world.sheet import SheetError, sheet_of
+from skillc_runtime.world.space.boxes import solid
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.terms import FIXTURE, SIZE, WORKSPACE
+
+FAR_M = 3.0
+"""What is farther than this from an arm's base is left out."""
+
+Numbers: TypeAlias = tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A pose as numbers that can be compared: position m, unit quaternion (w, x, y, z)."""
+
+    position: Numbers
+    quaternion: Numbers
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """A box: its short name, the place of its middle, half its extent in m."""
+
+    name: str
+    place: Place
+    half: Numbers
+
+
+@dataclass(frozen=True, slots=True)
+class Modelled:
+    """A thing with a model of its own: its short name, its place, the path of its MJCF."""
+
+    name: str
+    place: Place
+    model: str
+
+
+@dataclass(frozen=True, slots=True)
+class Scenery:
+    """What stands around, in order of IRI, and the floor, on which the map's frame lies."""
+
+    floor: Place
+    blocks: tuple[Block, ...]
+    modelled: tuple[Modelled, ...]
+
+
+def place_of(pose: Pose) -> Place:
+    """Return a pose as numbers, rounded so far that what is the same compares equal: 1 um, 1 urad."""
+    quaternion = quaternion_of(pose.rotation)
+    return Place(tuple(np.round(pose.position, 6).tolist()), tuple(np.round(quaternion, 6).tolist()))
+
+
+def scenery(state: WorldState, base: Pose) -> Scenery:
+    """Return everything with a place and an extent or a model around an arm that stands at `base` in the world.
+
+    What is held by an arm has no place in the world; a workspace is nothing to touch.
+    """
+    inward = base.inverse()
+    return Scenery(place_of(inward), tuple(_blocks(state, inward)), tuple(_modelled(state, inward)))
+
+
+def _blocks(state: WorldState, inward: Pose) -> Iterator[Block]:
+    sized = state.stored.get(SIZE[0])
+    for individual in sorted(each for each, _ in sized.items()) if sized else ():
+        if state.is_a(individual, WORKSPACE) or state.is_a(individual, FIXTURE):
+            continue
+        with suppress(FrameError):
+            box = solid(state, individual)
+            middle = inward @ box.middle
+            if np.linalg.norm(middle.position) - np.linalg.norm(box.half) < FAR_M:
+                yield Block(state.vocabulary.short(individual), place_of(middle), tuple(box.half.tolist()))
+
+
+def _modelled(state: WorldState, inward: Pose) -> Iterator[Modelled]:
+    for individual in sorted(state.instances(FIXTURE)):
+        with suppress(FrameError, SheetError):
+            path = model_path(sheet_of(state, individual).text("model"))
+            middle = inward @ pose(state, individual)
+            if np.linalg.norm(middle.position) < FAR_M:
+                yield Modelled(state.vocabulary.short(individual), place_of(middle), str(path))

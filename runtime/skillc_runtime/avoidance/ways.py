@@ -1,0 +1,136 @@
+"""How joints get from one posture to another without touching anything: straight, else around.
+
+Between two postures that are looked at no point of the arm moves farther than its clearance, so it stays half of that
+away from everything: sum_j |dq_j| r_j <= clearance, r_j (nv,) m the longest lever of joint j.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from skillc_runtime.avoidance.contacts import Contacts, Touch
+from skillc_runtime.avoidance.sampling import NoSampler, sampled
+from skillc_runtime.motion.joint import JointTrajectory
+from skillc_runtime.motion.pose import Array
+
+LEAST_STEP_M = 0.01
+"""How far the arm moves between two looks where its clearance is smaller than this."""
+
+AROUND_RAD = 1.6
+"""How far beyond start and goal joints may go on a way around."""
+
+SEEDS = (1, 2, 3)
+MOST_LOOKS = 20_000
+"""So many ways are searched for, the shortest is taken; each with so many looks at most."""
+
+MOST_SEARCHES = 2
+"""For so many of several goals a way is searched for."""
+
+SAMPLE_S = 0.005
+"""How closely a motion is looked at in time."""
+
+
+class NoWay(ValueError):
+    """There is no way to a posture that touches nothing; the message says what is in the way."""
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """What is known of an arm beside its shape: the range (nv, 2) rad of its joints, postures (nv,) that are safe."""
+
+    range: Array
+    safe: tuple[Array, ...]
+
+
+def way(contacts: Contacts, start: Array, goals: Iterable[Array], known: Known) -> tuple[Array, ...]:
+    """Return postures (nv,) to go through, without the start, the last one of the goals; alone where straight is free.
+
+    The first goal that can be reached is taken; `contacts` then allow what is near at the start and there. NoWay says
+    what is in the way to the first.
+    """
+    reasons, searched = list[str](), 0
+    for goal in goals:
+        contacts.allow(start, goal)
+        if (touch := contacts.touch(goal)) is not None:
+            reasons.append(f"where it shall go {touch}")
+            continue
+        if (touch := first_touch(contacts, (start, goal))) is None:
+            return (goal,)
+        found, missing = _around(contacts, start, goal, known)
+        if found:
+            return tuple(min(found, key=lambda postures: _length(contacts, postures))[1:])
+        reasons.append(f"on the straight way {touch}; {missing}")
+        searched += 1
+        if searched == MOST_SEARCHES:
+            break
+    raise NoWay(reasons[0])
+
+
+def touch_on(contacts: Contacts, motion: JointTrajectory) -> Touch | None:
+    """Return what is touched first by a motion, blended as it may be, None when nothing is."""
+    step, before = _step(contacts), motion.start
+
+    def looked_at() -> Iterator[Array]:
+        nonlocal before
+        for time in np.arange(0.0, motion.duration, SAMPLE_S).tolist():
+            q = motion.at(time).q
+            if np.abs(q - before) @ contacts.body.levers > step / 2:
+                before = q
+                yield q
+
+    return contacts.first(looked_at())
+
+
+def first_touch(contacts: Contacts, postures: Sequence[Array]) -> Touch | None:
+    """Return what is touched first on the straight pieces between postures (nv,), None when nothing is."""
+    return contacts.first(q for piece in pairwise(postures) for q in between(contacts, *piece))
+
+
+def between(contacts: Contacts, start: Array, goal: Array) -> Iterator[Array]:
+    """Yield postures (nv,) from a start to a goal, no farther from each other than the arm's clearance."""
+    change = goal - start
+    pieces = max(1, int(np.ceil(np.abs(change) @ contacts.body.levers / _step(contacts))))
+    yield from (start + change * (index / pieces) for index in range(1, pieces + 1))
+
+
+def _around(contacts: Contacts, start: Array, goal: Array, known: Known) -> tuple[list[list[Array]], str]:
+    """Return ways around, and what to say when there are none."""
+    before = contacts.looks
+    try:
+        found = _searched(contacts, start, goal, known.range)
+        missing = f"no way around was found in {contacts.looks - before} looks"
+    except NoSampler:
+        found, missing = [], "ways around are searched for only with the extra `motion`"
+    over = ([start, safe, goal] for safe in known.safe)
+    found = found or [postures for postures in over if first_touch(contacts, postures) is None]
+    return found, f"{missing}, and none leads over a posture of its data sheet"
+
+
+def _searched(contacts: Contacts, start: Array, goal: Array, limits: Array) -> list[list[Array]]:
+    """Return ways around, found with joints in metres of their longest levers, so that all weigh alike."""
+    levers = contacts.body.levers
+    low, high = np.minimum(start, goal), np.maximum(start, goal)
+    low = np.minimum(low, np.maximum(low - AROUND_RAD, limits[:, 0]))
+    high = np.maximum(high, np.minimum(high + AROUND_RAD, limits[:, 1]))
+    bounds = np.column_stack([low, high]) * levers[:, None]
+    step = _step(contacts) / np.sqrt(len(levers))
+
+    def free(point: Array) -> bool:
+        return contacts.touch(point / levers) is None
+
+    ways = [sampled(free, start * levers, goal * levers, bounds, step, MOST_LOOKS, seed) for seed in SEEDS]
+    found = [[start, *(x / levers for x in way[1:-1]), goal] for way in ways if way is not None]
+    return [way for way in found if first_touch(contacts, way) is None]
+
+
+def _length(contacts: Contacts, postures: Sequence[Array]) -> float:
+    """Return how long a way is in m of the longest levers."""
+    return sum(float(np.linalg.norm((other - one) * contacts.body.levers)) for one, other in pairwise(postures))
+
+
+def _step(contacts: Contacts) -> float:
+    return max(contacts.body.margin, LEAST_STEP_M)
