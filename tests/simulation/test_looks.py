@@ -140,7 +140,7 @@ def test_a_missing_mesh_is_named(cache: Path) -> None:
 
 def test_looks_that_there_are_not_are_told_with_those_there_are() -> None:
     state = load_scene(catalogue.scene("iiwa_table"), vocabulary())
-    with pytest.raises(LooksError, match="no looks menagery; there are menagerie, primitive"):
+    with pytest.raises(LooksError, match="no looks menagery; there are primitive, menagerie"):
         read_looks(state, read_scene(state), "menagery")
     bare = replace(read_scene(state), arms=())
     with pytest.raises(LooksError, match="menagerie has no model of any device in this scene"):

@@ -13,6 +13,7 @@ from types import FrameType
 import click
 
 from skillc_runtime.assignment import Prepared, prepare
+from skillc_runtime.commands import _looks
 from skillc_runtime.commands._following import Follower
 from skillc_runtime.commands._live import Live
 from skillc_runtime.commands._mission import Mission
@@ -37,13 +38,16 @@ from skillc_runtime.world.store.store import StoreError
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """How to run: where reports go (None: nowhere), which seed, at which pace, whether to show progress, who plans."""
+    """How to run: where reports go (None: nowhere), which seed, at which pace, whether to show progress, who plans,
+    whose meshes films show.
+    """
 
     out: Path | None = None
     seed: int = 0
     real_time: bool = False
     quiet: bool = False
     planners: Planners | None = None
+    looks: str = _looks.PRIMITIVE
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,14 +72,17 @@ def run(mission: Mission, options: Options) -> Ran:
         except (SheetError, FrameError, StoreError) as error:
             failure = f"the scene cannot be simulated: {error}"
             return Ran(TaskResult(task=name, status="refused", seed=options.seed, failure=failure))
-        return _run(prepared, mission, cell, options, live)
+        live.say("preparing the film")
+        drawn = _looks.drawn(cell, options.looks)
+        film = None if options.out is None else Film(cell, drawn)
+        return _run(prepared, mission, cell, film, options, live)
 
 
-def _run(prepared: Prepared, mission: Mission, cell: SimulatedCell, options: Options, live: Live) -> Ran:
+def _run(
+    prepared: Prepared, mission: Mission, cell: SimulatedCell, film: Film | None, options: Options, live: Live
+) -> Ran:
     choices = Choices()
     listeners: list[Listener] = [choices, live]
-    film = Film(cell) if options.out is not None else None
-
     follow = Follower(cell.world, lambda warning: click.echo(warning, err=True))
 
     def watch() -> None:

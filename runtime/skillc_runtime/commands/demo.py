@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from skillc_runtime.commands import _looks
+
 if TYPE_CHECKING:
     from skillc_runtime.report.drawing import Drawing
     from skillc_runtime.report.result import TaskResult
@@ -26,16 +28,18 @@ TASKS = {"ur5e": "clean_whiteboard", "iiwa": "clean_table"}
 @click.option("--robot", type=click.Choice([*TASKS, "all"]), default="all", show_default=True, help="Which robot.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="A folder for reports, figures, films.")
 @click.option("--seed", default=SEED, show_default=True, help="How reality differs from the world model.")
+@_looks.option
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document: a list with one object a task.")
-def command(robot: str, out: Path | None, seed: int, as_json: bool) -> None:
+def command(robot: str, out: Path | None, seed: int, looks: str, as_json: bool) -> None:
     """Run the two shipped wiping tasks in simulation."""
     from skillc_runtime.commands import _mission, _results, _running
 
+    _looks.check(looks, out)
     results: list[TaskResult] = []
     drawings: list[Drawing] = []
     for task in TASKS.values() if robot == "all" else [TASKS[robot]]:
         directory = out / task if out is not None else None
-        options = _running.Options(out=directory, seed=seed, quiet=as_json)
+        options = _running.Options(out=directory, seed=seed, quiet=as_json, looks=looks)
         ran = _running.run(_mission.of_task(task), options)
         results.append(ran.result)
         drawings += ran.drawings

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import click
 
-from skillc_runtime.commands import _keeping, _planners
+from skillc_runtime.commands import _keeping, _looks, _planners
 
 FOLDER = click.Path(path_type=Path, file_okay=False)
 
@@ -28,6 +28,7 @@ FOLDER = click.Path(path_type=Path, file_okay=False)
     type=FOLDER,
     help="A folder for report.html, events.jsonl, the figure, the film and stills.",
 )
+@_looks.option
 @_keeping.options
 @_planners.options
 @click.option("--seed", default=0, show_default=True, help="How reality differs from the world model.")
@@ -40,6 +41,7 @@ def command(
     skill: str | None,
     library: Path | None,
     out: Path | None,
+    looks: str,
     store: str | None,
     reset: bool,
     minimise: str,
@@ -55,9 +57,10 @@ def command(
         raise click.UsageError("a TASK has its own scene, goal and library; leave the options out")
     if task is None and ((scene or store) is None or (goal is None) == (skill is None)):
         raise click.UsageError("say either a TASK or --scene FILE (or --store) with --goal TEXT or --skill CALL")
+    _looks.check(looks, out)
     keeping = _keeping.keeping(store, reset)
     mission = _mission.of_task(task, keeping) if task else _mission.of_scene(scene, goal, skill, library, keeping)
-    options = _running.Options(out, seed, real_time, as_json, _planners.planners(plan_cache))
+    options = _running.Options(out, seed, real_time, as_json, _planners.planners(plan_cache), looks)
     result = _running.run(_planners.aimed(mission, minimise), options).result
     if as_json:
         click.echo(_results.as_json(result))

@@ -82,8 +82,9 @@ class Film:
     Each arm has a camera that stays with it, and one that stays with its hand; what arms do is shown side by side.
     """
 
-    def __init__(self, cell: SimulatedCell) -> None:
-        self._cell = cell
+    def __init__(self, cell: SimulatedCell, drawn: mujoco.MjModel | None = None) -> None:
+        """Watch a cell; `drawn` is what it looks like, a model with the same joints, if not its own."""
+        self._cell, self._drawn = cell, cell.model if drawn is None else drawn
         self._frames: list[tuple[Array, Array, Array]] = []
         self._arms = {arm.individual: _watched(cell, arm) for arm in cell.facts.arms}
         places = ((cell.true_pose(each), each) for each in cell.facts.surfaces)
@@ -131,16 +132,15 @@ class Film:
 
     @contextmanager
     def _drawing(self, width: int, height: int, quality: Quality) -> Iterator[tuple[Renderer, Any]]:
-        model = self._cell.model
-        renderer = Renderer(model, width, height, self._props, quality)
+        renderer = Renderer(self._drawn, width, height, self._props, quality)
         try:
-            yield renderer, mujoco.MjData(model)
+            yield renderer, mujoco.MjData(self._drawn)
         finally:
             renderer.close()
 
     def _show(self, data: Any, frame: tuple[Array, Array, Array]) -> None:
         data.qpos[:], data.mocap_pos[:], data.mocap_quat[:] = frame
-        mujoco.mj_forward(self._cell.model, data)
+        mujoco.mj_forward(self._drawn, data)
 
 
 def _watched(cell: SimulatedCell, arm: ArmFacts) -> Watched:

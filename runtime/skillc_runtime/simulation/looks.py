@@ -14,9 +14,6 @@ COLLECTION = SKILLC + "Collection"
 COLLECTION_NAME, REPOSITORY, COMMIT = SKILLC + "collectionName", SKILLC + "repository", SKILLC + "commit"
 HAS_LOOK, IN_COLLECTION, LOOK_MODEL = SKILLC + "hasLook", SKILLC + "inCollection", SKILLC + "lookModel"
 
-PRIMITIVE = "primitive"
-"""The name of the simple shapes that ship with every device."""
-
 
 class LooksError(ValueError):
     """Devices cannot be drawn as wished; the message says why, and what to do."""
@@ -55,7 +52,7 @@ def read_looks(state: WorldState, scene: SceneFacts, name: str) -> Looks:
     """
     collections = {text(state, iri, COLLECTION_NAME): iri for iri in sorted(state.instances(COLLECTION))}
     if name not in collections:
-        raise LooksError(f"there are no looks {name}; there are {', '.join(sorted({PRIMITIVE, *collections}))}")
+        raise LooksError(f"there are no looks {name}; there are {', '.join(('primitive', *sorted(collections)))}")
     found = collections[name]
     looks = tuple(look for device in _devices(scene) for look in _looks_of(state, scene, device, found))
     if not looks:
