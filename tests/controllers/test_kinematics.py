@@ -51,11 +51,26 @@ def test_virtual_inertia_is_that_of_the_stated_masses(robot):
     arm = VirtualArm(model)
     q = np.array(HOMES[robot])
     arm.move(q)
-    arm.weigh()
+    arm.weigh(np.zeros_like(q))
+    assert not arm.bias.any()
     assert np.allclose(arm.inertia, arm.inertia.T)
     mobility = arm.jacobian @ np.linalg.solve(arm.inertia, arm.jacobian.T)
     assert np.linalg.eigvalsh(mobility).max() <= 1 + 1e-9  # the tool's own 1 kg and 1 kg m^2, and the links besides
     assert model.body_mass[model.body("tool").id] == 1.0
+
+
+def test_a_virtual_arm_left_alone_moves_its_tool_straight_on(robot):
+    """Coriolis forces are accounted for: without a wrench the tool keeps its twist, but for what light links add."""
+    arm = VirtualArm(virtual_model(ROBOTS / f"{robot}.xml"))
+    q, dq, h = np.array(HOMES[robot]), np.random.default_rng(5).uniform(-1, 1, len(HOMES[robot])), 1e-6
+    arm.move(q + h * dq)
+    ahead = arm.jacobian.copy()
+    arm.move(q)
+    arm.weigh(dq)
+    turning = (ahead - arm.jacobian) @ dq / h
+    left = turning - arm.jacobian @ np.linalg.solve(arm.inertia, arm.bias)
+    assert np.linalg.norm(turning) > 0.3
+    assert np.linalg.norm(left) < 0.05 * np.linalg.norm(turning)
 
 
 def test_a_mounted_tool_is_where_it_was_put(robot):

@@ -1,8 +1,9 @@
 """Forward-dynamics compliance for position-controlled arms that feel forces: a virtual arm moves, the real one follows.
 
-w_C = -K sat(e) + W + W_ext;  a = A w_C / T + nu_d / T + a_d;  ddq = H^-1 J_C^T a
+w_C = -K sat(e) + W + W_ext;  a = A w_C / T + nu_d / T + a_d;  ddq = H^-1 (J_C^T a - c)
 dq <- g dq + (1 - g) T ddq, g = exp(-h/T);  q <- q + h dq
-Scherzinger, Roennau, Dillmann 2017; gains per second and feed-forward along stiff axes. C: compliance frame.
+Scherzinger, Roennau, Dillmann 2017; gains per second, Coriolis forces c, feed-forward along stiff axes. C: compliance
+frame.
 """
 
 from __future__ import annotations
@@ -95,10 +96,10 @@ class ForwardDynamics:
         self._felt[:] = state.wrench
         arm, task, tool = self._arm, self._task, self._arm.live_tool
         arm.move(self._limit.q)
-        arm.weigh()
+        arm.weigh(self._dq)
         virtual_motion(
             self._q, self._dq, task.rows, task.axes, task.held,
-            tool.position, tool.rotation, arm.jacobian, arm.inertia, self._limit.q, self._limit.velocity,
+            tool.position, tool.rotation, arm.jacobian, arm.inertia, arm.bias, self._limit.q, self._limit.velocity,
             reference.pose.position, reference.pose.rotation, reference.twist, reference.acceleration,
             compliance.stiffness, compliance.wrench, compliance.frame, task.softness, self._felt,
             self._rate, self._lag, period,
@@ -117,6 +118,7 @@ def virtual_motion(
     tool_rotation: Matrix,
     J: Matrix,
     inertia: OutMatrix,
+    bias: Vector,
     q_before: Vector,
     dq_limit: Vector,
     position: Vector,
@@ -141,6 +143,7 @@ def virtual_motion(
     in_base, torque, ddq = np.empty(6), np.empty(q.size), np.empty(q.size)
     product(wanted.reshape(2, 3), axes.T, in_base.reshape(2, 3))
     transposed_times(J, in_base, torque)
+    torque -= bias
     cholesky(inertia)
     cholesky_solve(inertia, torque, ddq)
     keep = exp(-period / lag)

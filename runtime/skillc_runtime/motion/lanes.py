@@ -9,7 +9,7 @@ import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
 
-OVERHANG_M = (0.03, 0.012)
+OVERHANG_M = (0.024, 0.012)
 """How far the tool sticks out over the rectangle at the ends of a lane and beside the outer lanes.
 
 It must exceed the lag of the tool behind its reference, most of which is friction force / stiffness; at the ends
