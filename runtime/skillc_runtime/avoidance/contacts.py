@@ -86,6 +86,11 @@ class Contacts:
         """Return what is touched first along postures (nv,) on a way, None when nothing is."""
         return next((touch for q in way if (touch := self.touch(q)) is not None), None)
 
+    def worst(self, way: Iterable[Array]) -> Touch | None:
+        """Return what comes nearest of all that is touched along postures (nv,) on a way, None when nothing is."""
+        touches = (touch for q in way if (touch := self.touch(q)) is not None)
+        return min(touches, key=lambda touch: touch.distance_m, default=None)
+
     def _within(self, pair: Pair) -> bool:
         """Whether both belong to the arm, its hand or what that holds."""
         return self._moves[pair[0]] and self._moves[pair[1]]

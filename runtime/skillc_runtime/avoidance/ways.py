@@ -58,12 +58,12 @@ def way(contacts: Contacts, start: Array, goals: Iterable[Array], known: Known) 
         if (touch := contacts.touch(goal)) is not None:
             reasons.append(f"where it shall go {touch}")
             continue
-        if (touch := first_touch(contacts, (start, goal))) is None:
+        if first_touch(contacts, (start, goal)) is None:
             return (goal,)
         found, missing = _around(contacts, start, goal, known)
         if found:
             return tuple(min(found, key=lambda postures: _length(contacts, postures))[1:])
-        reasons.append(f"on the straight way {touch}; {missing}")
+        reasons.append(f"on the straight way {contacts.worst(between(contacts, start, goal))}; {missing}")
         searched += 1
         if searched == MOST_SEARCHES:
             break

@@ -1,0 +1,115 @@
+"""Cells with boxes in the way, and how far the simulator says an arm really is from them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TypeAlias
+
+import mujoco
+import numpy as np
+
+from simulation import cells
+from simulation.cells import ARM, LAB
+from skillc_runtime.avoidance.body import body
+from skillc_runtime.avoidance.contacts import Contacts
+from skillc_runtime.avoidance.outfit import outfit
+from skillc_runtime.avoidance.scenery import scenery
+from skillc_runtime.avoidance.ways import Known
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.simulation.names import box_geom
+from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.frames import placed, pose
+from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.sheet import sheet_of
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.terms import (
+    FURNITURE,
+    HAS_GRIPPER,
+    HAS_POSTURE,
+    HAS_SHEET,
+    JOINT_VALUES,
+    POSTURE_NAME,
+    SIZE,
+    SKILLC,
+)
+
+Numbers: TypeAlias = tuple[float, ...]
+
+
+IN_THE_WAY = {"iiwa_table": (0.42, 0.33, 1.1), "ur5e_whiteboard": (0.54, 0.3, 1.15)}
+"""The middle of the top of a pillar that the arm hits when it turns its first joint from home by `ASIDE_RAD`."""
+
+ASIDE_RAD = 1.4
+
+OWN = ("lab:Iiwa-1", "lab:Robotiq-1", "lab:Ur5e-1", "lab:Wsg-1")
+"""What the names of the arms' parts begin with."""
+
+
+def pillar(scene: str) -> list[Change]:
+    """The changes that put `lab:Pillar` in the way."""
+    x, y, height = IN_THE_WAY[scene]
+    return box("Pillar", (x, y, height), (0.12, 0.12, height))
+
+
+def aside(scene: str, turn: float = ASIDE_RAD) -> Array:
+    """The home posture of an arm, its first joint turned, rad."""
+    q = home(scene)
+    q[0] += turn
+    return q
+
+
+def box(name: str, top: Numbers, size: Numbers) -> list[Change]:
+    """The changes that put a box into the world, the middle of its top at a place."""
+    thing = LAB + name
+    sizes = [SetProperty(thing, key, value) for key, value in zip(SIZE, size, strict=True)]
+    return [AddIndividual(thing, (FURNITURE,)), *sizes, *placed(thing, Pose.of(top))]
+
+
+def posture(scene: str, name: str, q: Sequence[float]) -> list[Change]:
+    """The changes that let the sheet of a scene's arm know a posture."""
+    thing, state = LAB + name, world(scene, [])
+    known = [SetProperty(thing, POSTURE_NAME, name), SetProperty(thing, JOINT_VALUES, " ".join(map(str, q)))]
+    (sheet,) = state.objects(ARM[scene], HAS_SHEET)
+    return [AddIndividual(thing, (SKILLC + "Posture",)), AddRelation(sheet, HAS_POSTURE, thing), *known]
+
+
+def world(scene: str, changes: list[Change]) -> WorldState:
+    return cells.world(scene).changed(changes)
+
+
+def cell(scene: str, changes: list[Change]) -> SimulatedCell:
+    return SimulatedCell(WorldModel(world(scene, changes)))
+
+
+def home(scene: str) -> Array:
+    return sheet_of(world(scene, []), ARM[scene]).posture("home")
+
+
+def contacts(scene: str, changes: list[Change]) -> tuple[Contacts, Known]:
+    """What an arm can touch, and what else is known of it."""
+    state, arm = world(scene, changes), ARM[scene]
+    sheet = sheet_of(state, arm)
+    openings = dict.fromkeys(state.objects(arm, HAS_GRIPPER), 0.05)
+    shape = body(outfit(state, arm, openings), scenery(state, pose(state, arm)))
+    postures = tuple(sheet.posture(name) for name in sheet.posture_names)
+    return Contacts(shape, sheet.posture("home")), Known(shape.model.jnt_range[: shape.joints], postures)
+
+
+def true_gap(there: SimulatedCell, scene: str, box_name: str) -> float:
+    """How far in m, up to 5 cm, arm, gripper and what that holds really are from a box; below 0 inside."""
+    model, mine = there.model, own_geoms(there, scene)
+    other = model.geom(box_geom(there.facts.names[LAB + box_name])).id
+    points = np.zeros(6)
+    return min(mujoco.mj_geomDistance(model, there.data, geom, other, 0.05, points) for geom in mine)
+
+
+def own_geoms(there: SimulatedCell, scene: str) -> list[int]:
+    """The geoms of the arm and of its gripper."""
+    facts = next(each for each in there.facts.arms if each.individual == ARM[scene])
+    devices = [facts.individual, *([facts.gripper.individual] if facts.gripper else [])]
+    prefixes = tuple(there.facts.names[each] + "/" for each in devices)
+    bodies = there.model.geom_bodyid
+    found = [g for g in range(there.model.ngeom) if there.model.body(bodies[g]).name.startswith(prefixes)]
+    assert len(found) > 10
+    return found

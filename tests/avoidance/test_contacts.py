@@ -1,0 +1,76 @@
+"""What an arm touches, against distances computed pair by pair; what is near already may stay near."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import mujoco
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from avoidance.around import ASIDE_RAD, OWN, aside, contacts, home, pillar
+from simulation.cells import SCENES
+from skillc_runtime.avoidance.contacts import SLACK_M, Contacts
+from skillc_runtime.motion.pose import Array
+
+CLEARANCE_M = 0.02
+
+
+@cache
+def of_scene(scene: str) -> Contacts:
+    return contacts(scene, pillar(scene))[0]
+
+
+def least_distance(of: Contacts, q: Array) -> float:
+    """How far in m any part of the arm is from anything that stands around, asked for pair by pair, up to 10 cm."""
+    model, data = of.body.model, mujoco.MjData(of.body.model)
+    data.qpos[:] = [*q, *of.body.fingers]
+    mujoco.mj_forward(model, data)
+    moving = [g for g in range(model.ngeom) if model.body_weldid[model.geom_bodyid[g]] != 0]
+    fixed = [g for g in range(model.ngeom) if model.geom_contype[g] == 2]
+    assert len(moving) > 10 and len(fixed) > 3
+    points = np.zeros(6)
+    return min(mujoco.mj_geomDistance(model, data, one, other, 0.1, points) for one in moving for other in fixed)
+
+
+@pytest.mark.parametrize("scene", SCENES)
+@settings(max_examples=25, deadline=None)
+@given(turn=st.lists(st.floats(-1.2, 1.2), min_size=6, max_size=6))
+def test_a_posture_is_free_where_every_pair_is_far_enough_apart(scene: str, turn: list[float]) -> None:
+    of, q = of_scene(scene), home(scene)
+    q[:6] += turn
+    distance, touch = least_distance(of, q), of.touch(q)
+    if distance > CLEARANCE_M:
+        assert touch is None or touch.other.startswith(OWN)
+    elif distance < CLEARANCE_M - 2 * SLACK_M:
+        assert touch is not None and touch.distance_m < CLEARANCE_M
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_home_is_free_and_what_is_touched_is_named(scene: str) -> None:
+    of, q = of_scene(scene), home(scene)
+    assert of.touch(q) is None
+    touch = of.worst(aside(scene, turn) for turn in np.arange(0.0, ASIDE_RAD, 0.05))
+    assert touch is not None and touch.other == "lab:Pillar"
+    assert touch.one.startswith(OWN) and str(touch).endswith("would touch lab:Pillar")
+
+
+def test_an_arm_must_not_touch_itself() -> None:
+    of = contacts("iiwa_table", [])[0]
+    touch = of.touch(np.array([0.0, 0.3, 0.0, -2.09, 0.0, -2.09, 0.0]))
+    assert touch is not None
+    assert "lab:" in touch.one and touch.other.split()[0] in ("lab:Iiwa-1", "lab:Robotiq-1")
+
+
+def test_what_is_near_at_the_start_may_stay_as_near_but_no_nearer() -> None:
+    of, start = contacts("iiwa_table", pillar("iiwa_table"))[0], home("iiwa_table")
+    turns = np.arange(0.0, ASIDE_RAD, 0.005).tolist()
+    turn = next(turn for turn in turns if of.touch(aside("iiwa_table", turn)) is not None)
+    near, nearer = aside("iiwa_table", turn), aside("iiwa_table", turn + 0.02)
+    of.allow(near, start)
+    assert of.touch(near) is None
+    assert of.touch(nearer) is not None
+    of.allow(start, start)
+    assert of.touch(near) is not None
