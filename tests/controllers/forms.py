@@ -12,7 +12,7 @@ from rig import GAINS, LAWS, ROBOTS, Bench, moved_by
 from skillc_runtime.controllers.virtual_arm import virtual_model
 from skillc_runtime.motion.arc import arc_through
 from skillc_runtime.motion.guide import Guide
-from skillc_runtime.motion.overlays import Circle
+from skillc_runtime.motion.overlays import Circle, Lissajous
 from skillc_runtime.motion.path import joined, path
 from skillc_runtime.motion.pose import exp
 from skillc_runtime.motion.reference import Compliance, Reference
@@ -20,7 +20,8 @@ from skillc_runtime.motion.segments import MotionLimits, segment
 from skillc_runtime.robots.guard import are_numbers
 from skillc_runtime.robots.resistance import Resistance
 from skillc_runtime.robots.safety import beyond, tool_speed
-from skillc_runtime.simulation.hand import Hand, carry, see_hand
+from skillc_runtime.simulation.coverage import add_dose
+from skillc_runtime.simulation.hand import Hand, carry, load_mass, see_hand
 from skillc_runtime.simulation.wrist import external_wrench
 
 
@@ -102,8 +103,13 @@ def measurements(count: int) -> list[list[float]]:
         see_hand(hand.in_base, J, hand.on_link, axes, centre, position, link, origin, base)
         carry(bias, carrying, weight, base, hand.lever, J)
         external_wrench(wrench, chance.uniform(-1, 1, (6, 9)), chance.uniform(-20, 20, 9), hand.wrist_axes)
+        dose, tool, (place, origin) = np.zeros((20, 30)), np.array([0.1, 0.05]), chance.uniform(-0.1, 0.1, (2, 3))
+        add_dose(dose, np.linspace(-0.2, 0.2, 30), np.linspace(-0.1, 0.1, 20), origin, base, place, link, tool, 0.01)
+        mass, sines = np.eye(7), Lissajous(*chance.uniform(-1, 1, (3, 3))).at(chance.uniform(0, 5))
+        load_mass(mass, hand.lever, J, 0.3)
         numbers = are_numbers(bias, bias, bias, position), are_numbers(bias, bias, bias * np.nan, position)
-        found.append([*hand.in_base.ravel(), *J.ravel(), *bias, *wrench.ravel(), *map(float, numbers)])
+        seen = (hand.in_base, J, bias, wrench, mass, dose, sines)
+        found.append([*np.concatenate([each.ravel() for each in seen]), *map(float, numbers)])
     return found
 
 

@@ -56,7 +56,9 @@ def test_a_joint_that_would_leave_its_range_is_named(robot: tuple[VirtualArm, Ar
     arm, q, limits = robot
     tight = limits.range.copy()
     tight[0] = q[0] - 0.1, q[0] + 0.1
-    with pytest.raises(Infeasible, match=r"(joint1|shoulder_pan) would have to be at -?0\.1\d rad, outside its range from -0\.10 to"):
+    with pytest.raises(
+        Infeasible, match=r"(joint1|shoulder_pan) would have to be at -?0\.1\d rad, outside its range from -0\.10 to"
+    ):
         feasible(arm, line(arm, 0.0, 0.3, 0.0), q, replace(limits, range=tight))
 
 

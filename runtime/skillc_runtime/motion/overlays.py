@@ -9,8 +9,29 @@ import numpy as np
 
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import Overlay
+from skillc_runtime.numerics.compiled import OutMatrix, Vector, compiled
 
 Scalars = tuple[float, float, float]
+
+
+@compiled
+def circle_at(motion: OutMatrix, radius: float, rate: float, time: float) -> None:
+    """Compute a circle's offset, velocity and acceleration (3, 3) along x and y."""
+    w = 2 * pi * rate
+    x, y = radius * cos(w * time), radius * sin(w * time)
+    motion[0, 0], motion[0, 1] = x, y
+    motion[1, 0], motion[1, 1] = -w * y, w * x
+    motion[2, 0], motion[2, 1] = -w * w * x, -w * w * y
+
+
+@compiled
+def sines_at(motion: OutMatrix, amplitude: Vector, frequency: Vector, phase: Vector, time: float) -> None:
+    """Compute offset, velocity and acceleration (3, 3) of a sine along each axis."""
+    w = 2 * pi * frequency
+    angle = w * time + phase
+    motion[0] = amplitude * np.sin(angle)
+    motion[1] = amplitude * w * np.cos(angle)
+    motion[2] = -w * w * motion[0]
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,9 +48,9 @@ class Circle:
 
     def at(self, time: float) -> Array:
         """Return offset, velocity and acceleration (3, 3)."""
-        w = 2 * pi * self.rate
-        x, y = self.radius * cos(w * time), self.radius * sin(w * time)
-        return np.array([[x, y, 0.0], [-w * y, w * x, 0.0], [-w * w * x, -w * w * y, 0.0]])
+        motion = np.zeros((3, 3))
+        circle_at(motion, self.radius, self.rate, time)
+        return motion
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,10 +68,9 @@ class Lissajous:
 
     def at(self, time: float) -> Array:
         """Return offset, velocity and acceleration (3, 3)."""
-        w = 2 * pi * self.frequency
-        angle = w * time + self.phase
-        offset = self.amplitude * np.sin(angle)
-        return np.array([offset, self.amplitude * w * np.cos(angle), -w * w * offset])
+        motion = np.empty((3, 3))
+        sines_at(motion, self.amplitude, self.frequency, self.phase, time)
+        return motion
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,7 +21,7 @@ from skillc_runtime.robots.arm import (
 )
 from skillc_runtime.simulation import noise
 from skillc_runtime.simulation.facts import ArmFacts
-from skillc_runtime.simulation.hand import Hand, carry, see_hand
+from skillc_runtime.simulation.hand import Hand, load_mass, measure
 from skillc_runtime.simulation.names import part
 from skillc_runtime.simulation.variation import Variation
 from skillc_runtime.simulation.wrist import Wrist
@@ -87,7 +87,7 @@ class SimulatedArm:
         self._state = _read_only(self._here)
         self._wrench_halves = self._here.wrench.reshape(2, 3)
         self._full_mass, self._next_mass_time = np.zeros((model.nv, model.nv)), 0.0
-        self._weight, self._carrying = np.zeros(3), np.zeros(count)
+        self._weight, self._carrying, self._quiet = np.zeros(3), np.zeros(count), np.zeros(count)
         self._flange = _in_body(model.site(part(name, "flange")))
         self._wrist = _wrist(facts, gripper, model, data, reality.seed)
         self._speed_noise = noise.of_joints(facts, reality.seed)
@@ -121,18 +121,15 @@ class SimulatedArm:
 
     def state(self) -> ArmState:
         """Return the present state, in the arm's base frame."""
-        hand, here = self._hand, self._here
-        see_hand(
-            hand.in_base, here.jacobian, hand.on_link, self._motion_axes, self._centre,
-            self._link_position, self._link_rotation, self._base_position, self._base_rotation,
+        hand, here, noise = self._hand, self._here, self._speed_noise
+        measure(
+            here.q, here.dq, here.bias, hand.in_base, here.jacobian, self._carrying,
+            self._q, self._dq, self._bias, self._quiet if noise is None else noise.row(),
+            hand.on_link, self._motion_axes, self._centre, self._link_position, self._link_rotation,
+            self._base_position, self._base_rotation, self._weight,
         )  # fmt: skip
         if self._data.time >= self._next_mass_time:
             self._update_mass_matrix()
-        here.q[:], here.dq[:], here.bias[:] = self._q, self._dq, self._bias
-        if self._speed_noise is not None:
-            np.add(here.dq, self._speed_noise.row(), out=here.dq)
-        if self.payload.mass_kg > 0.0:
-            carry(here.bias, self._carrying, self._weight, self._base_rotation, hand.lever, here.jacobian)
         if self._wrist is not None:
             self._wrist.external(hand.wrist_axes, self._wrench_halves)
         return self._state
@@ -199,11 +196,7 @@ class SimulatedArm:
         mujoco.mj_fullM(self._model, self._data, self._full_mass)
         self._here.mass_matrix[:] = self._full_mass[self._dofs, self._dofs]
         if self.payload.mass_kg > 0.0:
-            centre = self._link_position + self._link_rotation @ self.payload.centre
-            at_centre = np.zeros((3, self._model.nv))
-            mujoco.mj_jac(self._model, self._data, at_centre, None, centre, self._link)
-            jacobian = at_centre[:, self._dofs]
-            self._here.mass_matrix[:] += self.payload.mass_kg * jacobian.T @ jacobian
+            load_mass(self._here.mass_matrix, self._hand.lever, self._here.jacobian, self.payload.mass_kg)
         self._next_mass_time = self._data.time + MASS_MATRIX_PERIOD_S - 1e-9
 
 

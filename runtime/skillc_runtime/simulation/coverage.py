@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.numerics.compiled import Matrix, OutMatrix, Vector, compiled
+from skillc_runtime.numerics.linear import product, times
 
 CELL_M = 0.005
 """Edge of a cell."""
@@ -46,15 +48,8 @@ class CoverageMap:
         position (3,), rotation (3, 3): the middle of the face in the world, x and y along its edges; tool (2,): its
         size in m.
         """
-        half = tool / 2
-        centre = self._in_surface.at(position)
-        axes = (self._in_surface.rotation @ rotation)[:2, :2]
-        reach = float(np.hypot(*half))
-        columns, rows = _window(self.x, centre[0], reach), _window(self.y, centre[1], reach)
-        dx, dy = self.x[columns] - centre[0], (self.y[rows] - centre[1])[:, None]
-        along = np.abs(axes[0, 0] * dx + axes[1, 0] * dy) <= half[0]
-        across = np.abs(axes[0, 1] * dx + axes[1, 1] * dy) <= half[1]
-        self.dose[rows, columns] += seconds * (along & across)
+        frame = self._in_surface
+        add_dose(self.dose, self.x, self.y, frame.position, frame.rotation, position, rotation, tool, seconds)
 
     def near(self, position: Array, reach_m: float) -> bool:
         """Whether a point of the world is close to this surface's plane, over it or within `reach_m` of its edge."""
@@ -69,6 +64,27 @@ def _centres(length: float) -> Array:
     return np.asarray((np.arange(count) + 0.5) * (length / count) - length / 2, dtype=np.float64)
 
 
-def _window(centres: Array, middle: float, reach: float) -> slice:
-    first, last = np.searchsorted(centres, (middle - reach, middle + reach))
-    return slice(int(first), int(last))
+@compiled
+def add_dose(
+    dose: OutMatrix,
+    x: Vector,
+    y: Vector,
+    origin: Vector,
+    turn: Matrix,
+    position: Vector,
+    rotation: Matrix,
+    tool: Vector,
+    seconds: float,
+) -> None:
+    """Add to the dose of cells in columns x and rows y; origin and turn are the world's pose in the surface."""
+    middle, axes, half = np.empty(3), np.empty((3, 3)), tool / 2
+    times(turn, position, middle)
+    middle += origin
+    product(turn, rotation, axes)
+    reach = np.hypot(half[0], half[1])
+    left, right = np.searchsorted(x, middle[0] - reach), np.searchsorted(x, middle[0] + reach)
+    low, high = np.searchsorted(y, middle[1] - reach), np.searchsorted(y, middle[1] + reach)
+    dx, dy = (x[left:right] - middle[0]).reshape(1, -1), (y[low:high] - middle[1]).reshape(-1, 1)
+    along = np.abs(axes[0, 0] * dx + axes[1, 0] * dy) <= half[0]
+    across = np.abs(axes[0, 1] * dx + axes[1, 1] * dy) <= half[1]
+    dose[low:high, left:right] += seconds * (along & across)

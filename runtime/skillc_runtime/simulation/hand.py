@@ -11,6 +11,9 @@ from skillc_runtime.numerics.linear import cross, product, transposed_times
 TOOL = 6
 """The row of the tool centre point."""
 
+LEVER = 7
+"""The row of what leads from there to the payload's centre of mass."""
+
 
 class Hand:
     """Tool centre point, wrist axes and payload of an arm; all arrays are reused.
@@ -23,12 +26,12 @@ class Hand:
     def __init__(self) -> None:
         self.on_link, self.in_base = np.zeros((8, 3)), np.zeros((8, 3))
         self.tool = Pose(self.in_base[TOOL], self.in_base[:3].T)
-        self.wrist_axes, self.lever = self.in_base[3:6], self.in_base[7]
+        self.wrist_axes, self.lever = self.in_base[3:6], self.in_base[LEVER]
 
     def hold(self, tool: Pose, wrist: Array, payload: Array) -> None:
         """Take the tool centre point, the wrist's axes (3, 3) and the payload's centre (3,), in the link's frame."""
         self.on_link[:3], self.on_link[3:6] = tool.rotation.T, wrist.T
-        self.on_link[TOOL], self.on_link[7] = tool.position, payload - tool.position
+        self.on_link[TOOL], self.on_link[LEVER] = tool.position, payload - tool.position
 
 
 @compiled
@@ -71,3 +74,46 @@ def carry(
     cross(lever, load[:3], load[3:])
     transposed_times(J, load, carrying)
     bias += carrying
+
+
+@compiled
+def measure(
+    q: OutVector,
+    dq: OutVector,
+    bias: OutVector,
+    in_base: OutMatrix,
+    J: OutMatrix,
+    carrying: OutVector,
+    true_q: Vector,
+    true_dq: Vector,
+    own_bias: Vector,
+    noise: Vector,
+    on_link: Matrix,
+    motion_axes: Matrix,
+    centre: Vector,
+    link_position: Vector,
+    link_rotation: Matrix,
+    base_position: Vector,
+    base_rotation: Matrix,
+    weight: Vector,
+) -> None:
+    """Compute what an arm measures: joints, speeds with their noise, bias with that of a payload, hand and Jacobian."""
+    see_hand(
+        in_base, J, on_link, motion_axes, centre, link_position, link_rotation, base_position, base_rotation
+    )  # fmt: skip
+    q[:] = true_q
+    dq[:] = true_dq + noise
+    bias[:] = own_bias
+    carry(bias, carrying, weight, base_rotation, in_base[LEVER], J)
+
+
+@compiled
+def load_mass(mass: OutMatrix, lever: Vector, J: Matrix, payload_kg: float) -> None:
+    """Add to a mass matrix (nv, nv) that of a payload as a point: m J_c^T J_c with J_c = J_v - lever x J_w."""
+    joints = J.shape[1]
+    at_centre, moved, spun = np.empty((3, joints)), np.empty(3), np.empty((joints, joints))
+    for j in range(joints):
+        cross(J[3:, j], lever, moved)
+        at_centre[:, j] = J[:3, j] + moved
+    product(at_centre.T, at_centre, spun)
+    mass += payload_kg * spun
