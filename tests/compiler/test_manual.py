@@ -48,7 +48,7 @@ shop:Ware a owl:Class ; owl:deprecated true ; <http://purl.org/dc/terms/isReplac
 def problems(page: Page, text: str) -> list[str]:
     """Return the names of the diagnostics of an example."""
     if page.name in OF_SCENES:
-        return in_library(text)
+        return beside_scene(text) if page.good.startswith("@prefix") else in_library(text)
     if page.name in OF_VOCABULARIES or page.good.startswith("@prefix"):
         return in_turtle(page.name, text)
     if page.name == "not-formatted":
@@ -86,6 +86,14 @@ def in_library(text: str) -> list[str]:
     with TemporaryDirectory() as folder:
         Path(folder, "example.skill").write_text(text, "utf-8")
         return [d.name for d in _checking.check(_files.find(Path(folder)), None)]
+
+
+def beside_scene(text: str) -> list[str]:
+    """Return the names of the problems that `skillc check --scene` finds in a scene beside a small library."""
+    with TemporaryDirectory() as folder:
+        Path(folder, "example.skill").write_text("use skiros\nclass Rag < Product\n", "utf-8")
+        Path(folder, "example.ttl").write_text(text, "utf-8")
+        return [d.name for d in _checking.check(_files.find(Path(folder)), Path(folder, "example.ttl"))]
 
 
 @pytest.mark.parametrize("page", pages().values(), ids=lambda page: page.name)

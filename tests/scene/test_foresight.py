@@ -35,7 +35,14 @@ skill Seek {
 impl seek of Seek { do wait 1 s }
 
 """
-FORESEEN = {"no-implementation-fits", "no-answer", "several-answers", "cannot-start", "unreachable-goal"}
+FORESEEN = {
+    "no-implementation-fits",
+    "no-answer",
+    "several-answers",
+    "cannot-start",
+    "unreachable-goal",
+    "unknown-controller",
+}
 SUCKER = """
 @prefix owl: <http://www.w3.org/2002/07/owl#> .
 @prefix rparts: <http://www.inf.ufrgs.br/phi-group/ontologies/RParts.owl#> .
@@ -45,9 +52,9 @@ lab:Sucker-1 a lab:Sucker .
 LINE = HEAD.count("\n") + 3
 
 
-def checked(folder: Path, member: str, more: str = "") -> list[Diagnostic]:
+def checked(folder: Path, member: str, more: str = "", controller: str = "impedance") -> list[Diagnostic]:
     """Check a library with one task, whose goal or body is on the line LINE, in a shipped scene with more in it."""
-    scene = catalogue.scene("iiwa_table").read_text("utf-8")
+    scene = catalogue.scene("iiwa_table").read_text("utf-8").replace('"impedance"', f'"{controller}"')
     (folder / "s.ttl").write_text(scene + more, "utf-8")
     (folder / "t.skill").write_text(f'{HEAD}task t {{\n    scene "s.ttl"\n    {member}\n}}\n', "utf-8")
     found = _checking.check(_files.find(folder), None)
@@ -90,6 +97,23 @@ def test_a_goal_out_of_reach_is_told_with_what_is_missing(tmp_path: Path) -> Non
 def test_what_begins_with_a_call_that_cannot_start_yet_is_a_warning(tmp_path: Path) -> None:
     (told,) = checked(tmp_path, "do Wipe(surface: lab:Table-1)")
     assert (told.name, told.severity, told.span.line) == ("no-answer", "warning", LINE)
+
+
+@pytest.mark.parametrize(
+    ("controller", "help_", "fix"),
+    [("impedence", "did you mean `impedance`?", '"impedance"'), ("Zed", "`forward_dynamics`, `impedance`", None)],
+)
+def test_a_controller_that_there_is_not_is_told_in_its_line(
+    tmp_path: Path, controller: str, help_: str, fix: str | None
+) -> None:
+    (told,) = checked(tmp_path, "do TakePosture(arm: lab:Iiwa-1)", controller=controller)
+    lines = (tmp_path / "s.ttl").read_text("utf-8").split("\n")
+    line = lines[told.span.line - 1]
+    assert (told.name, told.severity) == ("unknown-controller", "error")
+    assert told.span.path.endswith("s.ttl")
+    assert line[told.span.column - 1 : told.span.end_column - 1] == f'"{controller}"'
+    assert "there are: forward_dynamics, impedance" in told.message and help_ in told.help
+    assert (told.fix.text if told.fix else None) == fix
 
 
 @pytest.mark.parametrize("name", ["wiping", "std"])

@@ -91,6 +91,11 @@ def gains(controller: str, number: Number) -> Gains:
     )
 
 
+def known_controllers() -> tuple[str, ...]:
+    """Return the names that arms may state for their controllers."""
+    return tuple(_controllers())
+
+
 def _controllers() -> dict[str, Callable[[Number], LawGains]]:
     """Return what reads the gains of each controller: the modules of the folder that offer it, by their names."""
     names = sorted(module.name for module in iter_modules(controllers.__path__))
