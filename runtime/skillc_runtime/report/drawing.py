@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +12,7 @@ from skillc_runtime.report.wiping import Wiping, described
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.dwell import LINGERING, along_lanes
 from skillc_runtime.simulation.metrics import coverage
-from skillc_runtime.simulation.recorder import Recording
+from skillc_runtime.simulation.recorder import Recording, joined
 
 EVERY = 5
 """Of so many steps one is drawn."""
@@ -48,14 +49,15 @@ class Drawing:
     @property
     def lingering(self) -> float:
         """The speed below which a tool dwells, mm/s."""
-        return LINGERING * float(self.lane_speed.max(initial=0.0))
+        return LINGERING * float(np.nanmax(self.lane_speed, initial=0.0))
 
 
 def drawing(wiping: Wiping, cell: SimulatedCell) -> Drawing:
     """Gather what is drawn of one wiping."""
     recording, wiped = cell.recording(wiping.tool).between(wiping.began, wiping.end), described(wiping, cell)
-    window, frame = recording.between(wiping.start, wiping.end), wiped.surface.inverse()
-    drawn, covered = Recording(window.rows[::EVERY]), coverage(window, wiped)
+    windows, frame = [recording.between(*stroke) for stroke in wiping.strokes], wiped.surface.inverse()
+    window, drawn = joined(windows), _apart(windows)
+    covered = coverage(window, wiped)
 
     def on_surface(points: Array) -> Array:
         return np.asarray(1e3 * (points @ frame.rotation.T + frame.position)[:, :2])
@@ -72,11 +74,18 @@ def drawing(wiping: Wiping, cell: SimulatedCell) -> Drawing:
         time=drawn.time - wiping.start,
         lane_speed=1e3 * np.linalg.norm(drawn.path_velocity, axis=1),
         tool_speed=1e3 * _along(drawn.path_velocity, drawn.velocity),
-        overlaid=along_lanes(drawn)[1] == "path",
+        overlaid=along_lanes(window)[1] == "path",
         contact_time=recording.time[::EVERY] - wiping.start,
         force=recording.force[::EVERY],
         force_n=wiping.force_n,
     )
+
+
+def _apart(windows: Sequence[Recording]) -> Recording:
+    """Return what is drawn of strokes, with a row of no numbers after each, so that no line leads to the next."""
+    rows = [each.rows[::EVERY] for each in windows]
+    gap = np.full((1, rows[0].shape[1]), np.nan)
+    return Recording(np.concatenate([part for each in rows for part in (each, gap)][:-1]))
 
 
 def _along(path_velocity: Array, velocity: Array) -> Array:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from skillc_runtime.report.result import WipingResult
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.metrics import Wiped, wiping_metrics
+from skillc_runtime.simulation.metrics import Stroke, Wiped, wiping_metrics
 from skillc_runtime.trace.events import ImplementationChosen
 from skillc_runtime.trace.outcome import Outcome
 from skillc_runtime.world.frames import size
@@ -20,9 +20,9 @@ PATH_SKILL, PUSH_SKILL = "FollowPath", "Push"
 
 @dataclass(frozen=True, slots=True)
 class Wiping:
-    """A tool, pushed with `force_n`, followed a path on a surface from `start` to `end`; the skill `began` before.
+    """A tool, pushed with `force_n`, followed paths on a surface; the skill `began` before.
 
-    `arm` is empty where the skill names none.
+    Between two strokes, each from one time to another, it was lifted. `arm` is empty where the skill names none.
     """
 
     surface: str
@@ -30,14 +30,23 @@ class Wiping:
     tool: str
     force_n: float
     began: float
-    start: float
-    end: float
+    strokes: tuple[Stroke, ...]
+
+    @property
+    def start(self) -> float:
+        """When the first path was begun."""
+        return self.strokes[0][0]
+
+    @property
+    def end(self) -> float:
+        """When the last path was done."""
+        return self.strokes[-1][1]
 
 
 def find_wipings(
     trees: Iterable[Outcome], choices: Mapping[int, ImplementationChosen], cell: SimulatedCell
 ) -> tuple[Wiping, ...]:
-    """Return for each surface the last call about it and a tool in which, pushing, a path was followed to the end."""
+    """Return for each surface the last call about it and a tool in which, pushing, paths were followed to the end."""
     state, found = cell.world.snapshot(), dict[str, Wiping]()
     for node in (node for tree in trees for node in _nodes(tree)):
         individuals = _individuals(choices.get(node.id), state)
@@ -45,10 +54,10 @@ def find_wipings(
         tools = [each for each in individuals if state.is_a(each, TOOL)]
         arm = next((each for each in individuals if each in cell.arms), "")
         pushes = [choice.bindings["force"] for choice, _ in _done(node, choices, PUSH_SKILL)]
-        for _, path in _done(node, choices, PATH_SKILL):
-            if surfaces and tools and pushes and path.started is not None and path.ended is not None:
-                force, began = float(pushes[-1].split()[0]), node.started or 0.0
-                found[surfaces[0]] = Wiping(surfaces[0], arm, tools[0], force, began, path.started, path.ended)
+        strokes = tuple(_strokes(node, choices))
+        if surfaces and tools and pushes and strokes:
+            force, began = float(pushes[-1].split()[0]), node.started or 0.0
+            found[surfaces[0]] = Wiping(surfaces[0], arm, tools[0], force, began, strokes)
     return tuple(found.values())
 
 
@@ -62,7 +71,7 @@ def described(wiping: Wiping, cell: SimulatedCell) -> Wiped:
 def judge(wiping: Wiping, cell: SimulatedCell) -> WipingResult:
     """Measure how good the wiping was."""
     recording = cell.recording(wiping.tool).between(wiping.began, wiping.end)
-    metrics = wiping_metrics(recording, wiping.start, wiping.end, described(wiping, cell))
+    metrics = wiping_metrics(recording, wiping.strokes, described(wiping, cell))
     dwell = metrics.lane_dwell
     return WipingResult(
         surface=cell.world.snapshot().vocabulary.short(wiping.surface),
@@ -86,6 +95,13 @@ def _individuals(choice: ImplementationChosen | None, state: WorldState) -> list
         return []
     names = {state.vocabulary.short(iri): iri for iri in state.individuals}
     return [names[value] for value in choice.bindings.values() if value in names]
+
+
+def _strokes(node: Outcome, choices: Mapping[int, ImplementationChosen]) -> Iterator[Stroke]:
+    """Yield from when to when each path below a node was followed."""
+    for _, path in _done(node, choices, PATH_SKILL):
+        if path.started is not None and path.ended is not None:
+            yield path.started, path.ended
 
 
 def _done(

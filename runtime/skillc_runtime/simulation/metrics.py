@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
@@ -11,10 +13,13 @@ from skillc_runtime.motion.pose import Array, Pose, rotation_of
 from skillc_runtime.simulation.coverage import PRESSED_N, CoverageMap
 from skillc_runtime.simulation.dwell import LaneDwell, lane_dwell
 from skillc_runtime.simulation.highpass import highpass
-from skillc_runtime.simulation.recorder import Recording
+from skillc_runtime.simulation.recorder import Recording, joined
 
 LOST_N = 0.5
 """Normal force below which contact counts as lost."""
+
+Stroke: TypeAlias = tuple[float, float]
+"""From when to when, in s, a tool was led over a surface without being lifted."""
 
 VIBRATION_HZ = 15.0
 COVERAGE_PERIOD_S = 0.01
@@ -39,10 +44,10 @@ class Wiped:
 class WipingMetrics:
     """The quality of one wiping, from the first wiping reference to the end of the last lane, at every simulation step.
 
-    coverage: share of 5 mm cells wiped. Forces in N: mean, root mean square about the command, lost contact included,
-    greatest from first contact to the start of wiping. contact_lost: share of time. Vibration of the tool above 15 Hz,
-    rms in mm/s. Tilt of the tool against the true normal. Tracking: rms distance in the plane from the reference.
-    lane_dwell: time lost at each corner, None where the path has none.
+    coverage: share of the 5 mm cells that count. Forces in N: mean, root mean square about the command, lost contact
+    included, greatest while the tool is put down, before strokes. contact_lost: share of time. Vibration of the tool
+    above 15 Hz, rms in mm/s. Tilt of the tool against the true normal. Tracking: rms distance in the plane from the
+    reference. lane_dwell: time lost at each corner, in the worst stroke, None where the path has none.
     """
 
     coverage: float
@@ -59,14 +64,16 @@ class WipingMetrics:
     duration_s: float
 
 
-def wiping_metrics(recording: Recording, start: float, end: float, wiped: Wiped) -> WipingMetrics:
-    """Judge the wiping from `start` to `end` s of a recording that begins before the first contact.
+def wiping_metrics(recording: Recording, strokes: Sequence[Stroke], wiped: Wiped) -> WipingMetrics:
+    """Judge the wiping in all strokes of a recording that begins before the first contact.
 
-    ValueError when nothing was recorded in between.
+    ValueError when nothing was recorded in them.
     """
-    window, before = recording.between(start, end), recording.between(0.0, start)
-    if len(window.time) < 2:
-        raise ValueError(f"nothing was recorded between {start:g} and {end:g} s")
+    windows = [window for stroke in strokes if len((window := recording.between(*stroke)).time) > 1]
+    if not windows:
+        times = ", ".join(f"{start:g} to {end:g} s" for start, end in strokes)
+        raise ValueError(f"nothing was recorded from {times}")
+    window, touching = joined(windows), recording.without(strokes)
     tilt = _tilt_deg(window, wiped.surface)
     return WipingMetrics(
         coverage=coverage(window, wiped).fraction,
@@ -74,13 +81,13 @@ def wiping_metrics(recording: Recording, start: float, end: float, wiped: Wiped)
         force_mean_n=float(window.force.mean()),
         force_rmse_n=_rms(window.force - wiped.force_command_n),
         contact_lost=float((window.force < LOST_N).mean()),
-        first_impact_n=float(before.force.max(initial=0.0)),
-        vibration_mm_s=1000 * _vibration(window),
+        first_impact_n=float(touching.force.max(initial=0.0)),
+        vibration_mm_s=1000 * _vibration(windows),
         tilt_rms_deg=_rms(tilt),
         tilt_max_deg=float(tilt.max()),
         tracking_mm=1000 * _tracking(window, wiped.surface),
-        lane_dwell=lane_dwell(window),
-        duration_s=end - start,
+        lane_dwell=max(filter(None, map(lane_dwell, windows)), key=lambda dwell: dwell.seconds, default=None),
+        duration_s=sum(end - start for start, end in strokes),
     )
 
 
@@ -102,10 +109,10 @@ def _rms(values: Array) -> float:
     return float(np.sqrt(np.mean(values * values)))
 
 
-def _vibration(window: Recording) -> float:
+def _vibration(windows: Sequence[Recording]) -> float:
     """Return the rms of the vector of high-passed tool velocity, m/s."""
-    fast = highpass(window.velocity, VIBRATION_HZ, _step(window))
-    return _rms(np.linalg.norm(fast, axis=1))
+    fast = [highpass(window.velocity, VIBRATION_HZ, _step(window)) for window in windows]
+    return _rms(np.linalg.norm(np.concatenate(fast), axis=1))
 
 
 def _tilt_deg(window: Recording, surface: Pose) -> Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -76,6 +77,18 @@ class Recording:
         """Return the rows with start <= time < end."""
         first, last = np.searchsorted(self.time, (start, end))
         return Recording(self.rows[first:last])
+
+    def without(self, stretches: Sequence[tuple[float, float]]) -> Recording:
+        """Return the rows before the last of some stretches, s, that are in none of them."""
+        wanted = self.time < max(end for _, end in stretches)
+        for start, end in stretches:
+            wanted &= (self.time < start) | (self.time >= end)
+        return Recording(self.rows[wanted])
+
+
+def joined(stretches: Sequence[Recording]) -> Recording:
+    """Return the rows of several stretches one after the other."""
+    return stretches[0] if len(stretches) == 1 else Recording(np.concatenate([each.rows for each in stretches]))
 
 
 class Recorder:
