@@ -47,11 +47,6 @@ class Guard:
         self._safety.told(command)
         self._arm.command(command)
 
-    @property
-    def limits(self) -> SafetyLimits:
-        """What makes the arm stop."""
-        return self._safety.limits
-
     def breach(self, state: ArmState, period: float) -> str | None:
         """Return which safety limit the arm breaks, once per breach; to be asked every control period of `period` s."""
         return self._safety.breach(state, period)
