@@ -1,0 +1,74 @@
+"""What it costs to keep clear of obstacles: a look at a posture, a straight way, a way around a pillar."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from time import perf_counter
+
+import mujoco
+
+from skillc_compiler.vocabulary.load import load
+from skillc_dsl.source import Source
+from skillc_ontology import catalogue
+from skillc_runtime.avoidance.body import body
+from skillc_runtime.avoidance.contacts import Contacts
+from skillc_runtime.avoidance.outfit import outfit
+from skillc_runtime.avoidance.scenery import Block, Place, scenery
+from skillc_runtime.avoidance.ways import Known, NoWay, way
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.world.frames import pose
+from skillc_runtime.world.scene import load_scene
+from skillc_runtime.world.sheet import sheet_of
+from skillc_runtime.world.terms import ARM_DEVICE, HAS_GRIPPER
+
+PILLARS = {"iiwa_table": (0.42, 0.33), "ur5e_whiteboard": (0.34, 0.3)}
+"""Where in the arm's base frame a pillar stands in the way, m."""
+
+REPEATS = 200
+
+
+def situation(scene: str) -> tuple[Contacts, Array, Known]:
+    """Return what an arm with a pillar before it can touch, its home posture, and what is known of it."""
+    vocabulary = load([Source(path, text) for path, text in catalogue.vocabulary_files()]).value
+    state = load_scene(catalogue.scene(scene), vocabulary)
+    arm = min(state.instances(ARM_DEVICE))
+    pillar = Block("pillar", Place((*PILLARS[scene], 0.0), (1.0, 0.0, 0.0, 0.0)), (0.06, 0.06, 0.55))
+    around = scenery(state, pose(state, arm))
+    around = replace(around, blocks=(*around.blocks, pillar))
+    shape = body(outfit(state, arm, dict.fromkeys(state.objects(arm, HAS_GRIPPER), 0.05)), around)
+    home = sheet_of(state, arm).posture("home")
+    return Contacts(shape, home), home, Known(shape.model.jnt_range[: shape.joints], (home,))
+
+
+def least(call: Callable[[], object]) -> float:
+    """Return the seconds that a call takes when nothing else runs."""
+    found = []
+    for _ in range(REPEATS):
+        began = perf_counter()
+        call()
+        found.append(perf_counter() - began)
+    return min(found)
+
+
+def measure(scene: str) -> str:
+    """Return what it costs in one scene, as ratios."""
+    contacts, home, known = situation(scene)
+    data = mujoco.MjData(contacts.body.model)
+    look = least(lambda: contacts.touch(home)) / least(lambda: mujoco.mj_kinematics(contacts.body.model, data))
+    aside, away = home.copy(), home.copy()
+    aside[0], away[0] = 1.4, -0.9
+    before = contacts.looks
+    way(contacts, home, [away], known)
+    straight, before = contacts.looks - before, contacts.looks
+    try:
+        pieces = len(way(contacts, home, [aside], known))
+        around = f"{contacts.looks - before} looks for a way of {pieces} pieces around a pillar"
+    except NoWay as why:
+        around = str(why)
+    return f"{scene}: a look costs {look:.1f} x mj_kinematics; {straight} looks for a straight way, {around}"
+
+
+if __name__ == "__main__":
+    for scene in PILLARS:
+        print(measure(scene))
