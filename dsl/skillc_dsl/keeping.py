@@ -11,7 +11,9 @@ _DIGEST_BYTES = 32
 
 
 def cache_folder() -> Path | None:
-    """Return skillc's folder in the user's cache, None for a user without a home."""
+    """Return SKILLC_CACHE, else skillc's folder in the user's cache; None for a user without a home."""
+    if named := os.environ.get("SKILLC_CACHE"):
+        return Path(named).absolute()
     try:
         base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
     except RuntimeError:

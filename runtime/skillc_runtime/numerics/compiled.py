@@ -84,8 +84,8 @@ def _kept() -> Iterator[Any]:
 def _folder() -> str:
     """Return where machine code is kept, empty where nothing can be; say so when it has to be made first."""
     try:
-        base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-        folder = base / "skillc" / f"laws-{_digest()}"
+        base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache", "skillc")
+        folder = Path(os.environ.get("SKILLC_CACHE") or base).absolute() / f"laws-{_digest()}"
         new = not folder.is_dir()
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     except (OSError, RuntimeError):
