@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cache
 
 import numpy as np
@@ -16,24 +17,34 @@ from skillc_runtime.primitives.gripper import ParallelGripper, ThreeFingerGrippe
 from skillc_runtime.primitives.move import MoveJoints, MoveLinear
 from skillc_runtime.primitives.primitive import Primitive, Status
 from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.world.changes import AddRelation, Change
 from skillc_runtime.world.frames import pose
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
 from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.terms import AT
 
 LAB = "http://example.org/lab#"
 ERASER = LAB + "Eraser-1"
 SCENES = ("iiwa_table", "ur5e_whiteboard")
-ARM = {"iiwa_table": LAB + "Iiwa-1", "ur5e_whiteboard": LAB + "Ur5e-1"}
-GRIPPER = {"iiwa_table": LAB + "Robotiq-1", "ur5e_whiteboard": LAB + "Wsg-1"}
-PLACE = {"iiwa_table": LAB + "Cell", "ur5e_whiteboard": LAB + "Store"}
+HANDS = (*SCENES, "panda_desk")
+"""Scenes with every gripper there is."""
+ARM = {"iiwa_table": LAB + "Iiwa-1", "ur5e_whiteboard": LAB + "Ur5e-1", "panda_desk": LAB + "Panda-1"}
+GRIPPER = {"iiwa_table": LAB + "Robotiq-1", "ur5e_whiteboard": LAB + "Wsg-1", "panda_desk": LAB + "Hand-1"}
+PLACE = {"iiwa_table": LAB + "Cell", "ur5e_whiteboard": LAB + "Store", "panda_desk": LAB + "Cell"}
 SURFACE = {"iiwa_table": LAB + "Table-1", "ur5e_whiteboard": LAB + "Whiteboard-1"}
-FINGERS = {"iiwa_table": ThreeFingerGripper, "ur5e_whiteboard": ParallelGripper}
+FINGERS = {"iiwa_table": ThreeFingerGripper, "ur5e_whiteboard": ParallelGripper, "panda_desk": ParallelGripper}
 
 
 @cache
 def vocabulary() -> Vocabulary:
     return load([Source(path, text) for path, text in catalogue.vocabulary_files()]).value
+
+
+def at_the_eraser(scene: str, seed: int = 0, changes: Sequence[Change] = ()) -> SimulatedCell:
+    """Return a cell whose robot is where the eraser is."""
+    moved = [AddRelation(LAB + "Heron-1", AT, LAB + "Store")] if scene == "ur5e_whiteboard" else []
+    return SimulatedCell(WorldModel(world(scene).changed([*moved, *changes])), seed)
 
 
 @cache
@@ -58,13 +69,13 @@ def move_fingers(cell: SimulatedCell, scene: str, opening: float, force: float =
     run(cell, FINGERS[scene](cell, gripper=GRIPPER[scene], opening=opening, force=force))
 
 
-def reach_for_eraser(cell: SimulatedCell, scene: str) -> None:
+def reach_for_eraser(cell: SimulatedCell, scene: str, force: float = 30.0) -> None:
     """Put the open gripper around the handle and close it."""
     state = cell.world.snapshot()
     move_fingers(cell, scene, 0.065)
     run(cell, MoveJoints(cell, arm=ARM[scene], target=pose(state, ERASER + "-approach"), pace=0.8))
     run(cell, MoveLinear(cell, arm=ARM[scene], target=pose(state, ERASER + "-grasp"), speed=0.2))
-    move_fingers(cell, scene, 0.0)
+    move_fingers(cell, scene, 0.0, force)
 
 
 def grasp(cell: SimulatedCell, scene: str) -> None:

@@ -9,6 +9,7 @@ import mujoco
 
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.robots.driver import ArmDriver
+from skillc_runtime.robots.tools import working_face
 from skillc_runtime.robots.watchdog import Watchdog
 from skillc_runtime.simulation.arm import SimulatedArm
 from skillc_runtime.simulation.base import SimulatedBase
@@ -23,9 +24,10 @@ from skillc_runtime.simulation.observer import ToolObserver
 from skillc_runtime.simulation.person import people
 from skillc_runtime.simulation.recorder import Recording
 from skillc_runtime.simulation.variation import Variation, draw
-from skillc_runtime.world.changes import SetProperty
+from skillc_runtime.world.changes import RemoveRelation, SetProperty
+from skillc_runtime.world.frames import placed, size
 from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.terms import DEVICE_STATE
+from skillc_runtime.world.terms import CONTAIN, DEVICE_STATE
 
 
 class SimulatedCell:
@@ -193,6 +195,17 @@ class SimulatedCell:
         for arm, gripper in self._hands.items():
             if gripper.holding is not None:
                 self._observers[gripper.holding].sample(now, self._drivers[arm])
+                why = gripper.slips(now)
+                if why is not None:
+                    self._lose(arm, gripper, gripper.holding, why)
+
+    def _lose(self, arm: str, gripper: SimulatedGripper, thing: str, why: str) -> None:
+        """Stop an arm whose gripper cannot hold a thing any more, and note that the thing is no longer in it."""
+        state, there = self._world.snapshot(), self._drivers[arm].pose
+        left_at = there @ working_face(size(state, thing)).inverse()
+        gripper.lose()
+        self._drivers[arm].abort(why)
+        self._world.commit([RemoveRelation(gripper.individual, CONTAIN, thing), *placed(thing, left_at)], why)
 
     def _carry_along(self, robot: str, motion: Pose) -> None:
         """Move what the arms of a driving robot hold along with it."""

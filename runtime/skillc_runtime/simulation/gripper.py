@@ -1,4 +1,8 @@
-"""A gripper in the simulation: a servo on the opening; contact from both sides is a grasp, a weld then keeps it."""
+"""A gripper in the simulation: a servo on the opening; contact from both sides is a grasp.
+
+A weld keeps it, since friction grasps creep in rigid-body simulation, as long as friction bears what pulls at the weld.
+A thing that it does not bear any more slips through the fingers, which hold it as well as contact and friction can.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +12,7 @@ from skillc_runtime.motion.pose import Array, Pose, quaternion_of
 from skillc_runtime.robots.tools import working_face
 from skillc_runtime.simulation.arm import Payload, SimulatedArm
 from skillc_runtime.simulation.facts import GripperFacts, ToolFacts
+from skillc_runtime.simulation.grip import Grip, grip
 from skillc_runtime.simulation.names import part, weld
 
 STILL_M_S, STILL_TIME_S = 0.002, 0.05
@@ -41,6 +46,12 @@ class SimulatedGripper:
         self.pads = frozenset(_pads(model, self._name))
         self._set_opening(facts.max_opening_m / 2)
         self._still_since, self._holding, self._idle = 0.0, "", True
+        self._grip: Grip | None = None
+
+    @property
+    def individual(self) -> str:
+        """The gripper's IRI."""
+        return self._facts.individual
 
     @property
     def max_opening_m(self) -> float:
@@ -94,7 +105,7 @@ class SimulatedGripper:
 
     def touches(self, thing: str) -> bool:
         """Whether pads of at least two fingers touch a thing from opposite sides."""
-        normals = self._normals(thing)
+        normals, _ = self._touched(thing)
         return any(one @ other < OPPOSING for one in normals for other in normals)
 
     def attach(self, thing: str, in_tool_centre: Pose) -> None:
@@ -104,10 +115,13 @@ class SimulatedGripper:
         """
         if not self.touches(thing):
             raise RuntimeError(f"the fingers do not touch {self._names[thing]} from both sides")
-        palm = _pose(self._data, self._model.body(part(self._name, "palm")).id)
+        hand = self._model.body(part(self._name, "palm")).id
         block = self._model.body(part(self._names[thing], "block")).id
-        truth = palm.inverse() @ _pose(self._data, block)
+        truth = _pose(self._data, hand).inverse() @ _pose(self._data, block)
         equality = self._model.equality(weld(self._name, self._names[thing])).id
+        force = abs(float(self._data.actuator_force[self._actuator]))
+        normals, friction = self._touched(thing)
+        self._grip = grip(self._data, equality, hand, normals, friction, force)
         row = self._model.eq_data[equality]
         row[:3], row[3:6], row[6:10], row[10] = 0.0, truth.position, quaternion_of(truth.rotation), 1.0
         self._data.eq_active[equality] = 1
@@ -123,8 +137,26 @@ class SimulatedGripper:
             return
         equality = self._model.equality(weld(self._name, self._names[self._holding])).id
         self._set_grip_contact(self._holding, True)
-        self._data.eq_active[equality], self._holding = 0, ""
+        self._data.eq_active[equality], self._holding, self._grip = 0, "", None
         self._arm.carry_nothing()
+
+    def slips(self, now: float) -> str | None:
+        """Return why what is held slips through the fingers, None while friction bears it.
+
+        To be called each step, between `mj_step2` and the next `mj_step1`.
+        """
+        pull = None if self._grip is None else self._grip.overload(self._data, now)
+        if self._grip is None or pull is None:
+            return None
+        return (
+            f"{self._names[self._holding]} slips out of {self._name}: {pull:.0f} N pull at it, "
+            f"the grip bears {self._grip.bears_n:.0f} N"
+        )
+
+    def lose(self) -> None:
+        """Leave what is held to contact and friction; the fingers close with the force they had."""
+        self.detach()
+        self.move(0.0, float(self._model.actuator_forcerange[self._actuator, 1]))
 
     def follow(self, motion: Pose) -> None:
         """Move a held thing along with the base that carries the arm: new = motion @ old, in the world."""
@@ -156,18 +188,17 @@ class SimulatedGripper:
             abs(self._data.actuator_force[self._actuator]) > 0.95 * self._model.actuator_forcerange[self._actuator, 1]
         )
 
-    def _normals(self, thing: str) -> list[Array]:
-        """Return the directions (3,), in the world, in which the pads press on a thing."""
+    def _touched(self, thing: str) -> tuple[list[Array], float]:
+        """Return the directions (3,), in the world, in which pads press on a thing, and the least friction there."""
         contacts, handle = self._data.contact, self._model.geom(part(self._names[thing], "handle")).id
-        found = []
+        normals: list[Array] = []
+        frictions: list[float] = []
         for index in range(self._data.ncon):
             one, other = contacts.geom[index]
-            normal = contacts.frame[index, :3]
-            if one in self.pads and other == handle:
-                found.append(normal.copy())
-            elif other in self.pads and one == handle:
-                found.append(-normal)
-        return found
+            if {one, other} & self.pads and handle in (one, other):
+                normals.append(contacts.frame[index, :3] * (1.0 if one in self.pads else -1.0))
+                frictions.append(float(contacts.friction[index, 0]))
+        return normals, min(frictions, default=0.0)
 
 
 def _pads(model: Any, gripper: str) -> list[int]:

@@ -1,0 +1,74 @@
+"""What friction in the fingers does not bear slips out of them, and whoever moves the arm hears of it."""
+
+import numpy as np
+import pytest
+from cells import ARM, ERASER, GRIPPER, HANDS, at_the_eraser, eraser_height, grasp, lift, reach_for_eraser
+
+from skillc_runtime.primitives.primitive import SkillFailure
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.world.changes import AddRelation, SetProperty
+from skillc_runtime.world.frames import pose
+from skillc_runtime.world.terms import CONTAIN, WEIGHT
+
+FORCE, FRICTION = 20.0, 1.0
+"""N; of rubber pads on a painted handle, as the grippers' models have it."""
+
+BORNE_KG = 2 * FRICTION * FORCE / 9.81
+
+
+def grasped(scene: str, kg: float, force: float) -> SimulatedCell:
+    there = at_the_eraser(scene, changes=[SetProperty(ERASER, WEIGHT, kg)])
+    reach_for_eraser(there, scene, force)
+    grasp(there, scene)
+    there.world.commit([AddRelation(GRIPPER[scene], CONTAIN, ERASER)])
+    return there
+
+
+def test_a_grip_bears_what_its_force_and_friction_bear() -> None:
+    scene = "panda_desk"
+    there = grasped(scene, 0.8 * BORNE_KG, FORCE)
+    before = eraser_height(there)
+    lift(there, scene)
+    assert there.gripper(GRIPPER[scene]).holding == ERASER
+    assert eraser_height(there) == pytest.approx(before + 0.1, abs=0.01)
+
+
+@pytest.mark.parametrize("scene", HANDS)
+def test_a_thing_too_heavy_for_the_grip_slips_and_the_motion_fails(scene: str) -> None:
+    there = grasped(scene, 1.2 * BORNE_KG, FORCE)
+    before = eraser_height(there)
+    with pytest.raises(
+        SkillFailure, match=r"lab:Eraser-1 slips out of lab:\S+: \d\d N pull at it, the grip bears 40 N"
+    ):
+        lift(there, scene)
+    there.advance(1.0)
+    assert there.gripper(GRIPPER[scene]).holding is None
+    assert eraser_height(there) == pytest.approx(before, abs=0.01), "it lies where it lay"
+    after = there.world.snapshot()
+    assert not after.holds(GRIPPER[scene], CONTAIN, ERASER)
+    assert np.linalg.norm(pose(after, ERASER).position[2] - before) < 0.06, "where it was lost, as far as is known"
+
+
+def test_slippery_fingers_do_not_hold() -> None:
+    scene = "iiwa_table"
+    there = at_the_eraser(scene, changes=[SetProperty(ERASER, WEIGHT, 0.5)])
+    handle = there.model.geom(there.facts.names[ERASER] + "/handle").id
+    there.model.geom_friction[[*there.gripper(GRIPPER[scene]).pads, handle], 0] = 0.05
+    reach_for_eraser(there, scene)
+    grasp(there, scene)
+    with pytest.raises(SkillFailure, match="the grip bears 3 N"):
+        lift(there, scene)
+    assert there.arm(ARM[scene]).fault is None, "it was told once"
+
+
+def test_a_jolt_is_no_slip() -> None:
+    scene = "iiwa_table"
+    there = grasped(scene, 0.12, 30.0)
+    lift(there, scene)
+    block = there.model.body(there.facts.names[ERASER] + "/block").id
+    for seconds, holds in ((0.02, True), (0.1, False)):
+        there.data.xfrc_applied[block, :3] = (0.0, 0.0, -90.0)
+        there.advance(seconds)
+        there.data.xfrc_applied[block] = 0.0
+        there.advance(0.1)
+        assert (there.gripper(GRIPPER[scene]).holding == ERASER) is holds
