@@ -10,11 +10,12 @@ from msgspec import structs
 
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.report.choices import Choices as Choices
 from skillc_runtime.report.result import ChoiceResult, StepResult, TaskResult
 from skillc_runtime.report.wiping import Wiping, judge
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import Execution
-from skillc_runtime.trace.events import Event, ImplementationChosen
+from skillc_runtime.trace.events import ImplementationChosen
 from skillc_runtime.trace.outcome import Outcome
 from skillc_runtime.world.terms import COMPLIANT_CONTROLLER
 
@@ -23,14 +24,6 @@ ENDED: Mapping[Status, Literal["success", "failure", "halted"]] = {
     Status.FAILURE: "failure",
     Status.HALTED: "halted",
 }
-
-
-class Choices(dict[int, ImplementationChosen]):
-    """A listener that keeps the last choice made at each node."""
-
-    def __call__(self, event: Event) -> None:
-        if isinstance(event, ImplementationChosen):
-            self[event.node] = event
 
 
 def summarise(

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from math import inf
 
+from skillc_runtime.report.choices import Choices
 from skillc_runtime.report.result import WipingResult
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.metrics import Stroke, Wiped, wiping_metrics
@@ -43,9 +45,7 @@ class Wiping:
         return self.strokes[-1][1]
 
 
-def find_wipings(
-    trees: Iterable[Outcome], choices: Mapping[int, ImplementationChosen], cell: SimulatedCell
-) -> tuple[Wiping, ...]:
+def find_wipings(trees: Iterable[Outcome], choices: Choices, cell: SimulatedCell) -> tuple[Wiping, ...]:
     """Return for each surface the last call about it and a tool in which, pushing, paths were followed to the end."""
     state, found = cell.world.snapshot(), dict[str, Wiping]()
     for node in (node for tree in trees for node in _nodes(tree)):
@@ -54,7 +54,7 @@ def find_wipings(
         tools = [each for each in individuals if state.is_a(each, TOOL)]
         arm = next((each for each in individuals if each in cell.arms), "")
         pushes = [choice.bindings["force"] for choice, _ in _done(node, choices, PUSH_SKILL)]
-        strokes = tuple(_strokes(node, choices))
+        strokes = tuple(sorted(_strokes(node, choices)))
         if surfaces and tools and pushes and strokes:
             force, began = float(pushes[-1].split()[0]), node.started or 0.0
             found[surfaces[0]] = Wiping(surfaces[0], arm, tools[0], force, began, strokes)
@@ -97,11 +97,11 @@ def _individuals(choice: ImplementationChosen | None, state: WorldState) -> list
     return [names[value] for value in choice.bindings.values() if value in names]
 
 
-def _strokes(node: Outcome, choices: Mapping[int, ImplementationChosen]) -> Iterator[Stroke]:
-    """Yield from when to when each path below a node was followed."""
+def _strokes(node: Outcome, choices: Choices) -> Iterator[Stroke]:
+    """Yield from when to when each path below a node was followed, in its last run."""
     for _, path in _done(node, choices, PATH_SKILL):
-        if path.started is not None and path.ended is not None:
-            yield path.started, path.ended
+        first, last = node.started or 0.0, inf if node.ended is None else node.ended
+        yield from (run for run in choices.runs.get(path.id, []) if run[0] >= first and run[1] <= last)
 
 
 def _done(
