@@ -192,9 +192,7 @@ def test_what_an_arm_measures_is_as_noisy_as_the_facts_say_and_the_same_for_the_
 def test_surfaces_may_be_missing_and_may_carry_something() -> None:
     facts = read_scene(world("iiwa_table"))
     drawn, name = draw(facts, 2), facts.names[SURFACE["iiwa_table"]]
-    bodies = {
-        model.body(each).name for model in (build(facts, deserted(drawn)),) for each in range(model.nbody)
-    }
+    bodies = {model.body(each).name for model in (build(facts, deserted(drawn)),) for each in range(model.nbody)}
     assert name not in bodies
     littered = build(facts, with_obstacles(drawn, facts))
     here, top = littered.body(obstacle(name)).pos, littered.body(name)
