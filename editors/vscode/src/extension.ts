@@ -13,7 +13,9 @@ function server(): ServerOptions {
 }
 
 async function start(): Promise<void> {
-  const options: LanguageClientOptions = { documentSelector: [{ language: "skill" }] };
+  const options: LanguageClientOptions = {
+    documentSelector: [{ language: "skill" }, { scheme: "file", pattern: "**/*.ttl" }],
+  };
   client = new LanguageClient("skillc", "skillc", server(), options);
   try {
     await client.start();

@@ -15,8 +15,8 @@ from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _diagnostics
 from skillc_runtime.commands._files import LibraryFiles
-from skillc_runtime.world.documents import SceneError
-from skillc_runtime.world.scene import Scene, read_scene
+from skillc_runtime.world.documents import Document, SceneError
+from skillc_runtime.world.scene import Scene, scene_in
 from skillc_runtime.world.state import WorldState
 
 Individuals: TypeAlias = dict[str, list[str]]
@@ -51,10 +51,11 @@ class Populated:
     problems: tuple[Diagnostic, ...]
 
 
-def read(path: Path, vocabulary: Vocabulary) -> Outcome[Scene | None]:
-    """Read a scene file."""
+def read(path: Path, vocabulary: Vocabulary, text: str | None = None) -> Outcome[Scene | None]:
+    """Read a scene file, or a text that stands for it."""
     try:
-        scene = read_scene(path, vocabulary)
+        document = Document.read(path) if text is None else Document(str(path), text)
+        scene = scene_in(document, vocabulary)
     except SceneError as error:
         return Outcome(None, tuple(_diagnostics.of_problems(error.problems)))
     return Outcome(scene, tuple(_diagnostics.of_problems(scene.problems)))

@@ -47,7 +47,7 @@ class Scene:
 def load_scene(path: Path, vocabulary: Vocabulary) -> WorldState:
     """Return the world of a scene file and of the packaged data sheets; SceneError with all that is wrong."""
     own = Document.read(path)
-    return _quickly(own, [own, *sheets()], vocabulary) or _sound(_read(own, vocabulary))
+    return _quickly(own, [own, *sheets()], vocabulary) or _sound(scene_in(own, vocabulary))
 
 
 def world_of(documents: Sequence[Document], vocabulary: Vocabulary) -> WorldState:
@@ -57,7 +57,7 @@ def world_of(documents: Sequence[Document], vocabulary: Vocabulary) -> WorldStat
 
 def read_scene(path: Path, vocabulary: Vocabulary) -> Scene:
     """Read a scene file beside the packaged data sheets; SceneError when there is no text to read."""
-    return _read(Document.read(path), vocabulary)
+    return scene_in(Document.read(path), vocabulary)
 
 
 def load_sheets(vocabulary: Vocabulary) -> WorldState:
@@ -96,7 +96,8 @@ def _quickly(own: Document, documents: Sequence[Document], vocabulary: Vocabular
         raise SceneError([unreadable(own.path, str(error))]) from error
 
 
-def _read(own: Document, vocabulary: Vocabulary) -> Scene:
+def scene_in(own: Document, vocabulary: Vocabulary) -> Scene:
+    """Read a scene's text beside the packaged data sheets; SceneError when there is no room for it."""
     try:
         make_sure(CAREFULLY * len(own.text))
     except NoRoom as error:

@@ -42,9 +42,14 @@ def root_of(file: Path, folders: Sequence[Path]) -> Root:
 
 def sources(root: Root, buffers: Mapping[Path, str]) -> dict[str, Source]:
     """Return the texts of a library by path relative to its folder; `buffers` stand for what is on disk."""
-    own = [file for file in buffers if root.holds(file)]
+    own = [file for file in buffers if root.holds(file) and not is_turtle(file)]
     files = sorted({*_on_disk(root), *own})
     return {path: _source(file, path, buffers) for file, path in ((f, _relative(f, root)) for f in files)}
+
+
+def is_turtle(file: Path) -> bool:
+    """Whether a file is a scene or a vocabulary by its name."""
+    return file.suffix in catalogue.ENDINGS
 
 
 def vocabularies(root: Root) -> tuple[Source, ...]:

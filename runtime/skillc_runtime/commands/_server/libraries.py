@@ -51,7 +51,7 @@ class Libraries:
         file = self.file(uri)
         opened = file not in self.buffers
         self.buffers[file] = text.replace("\r\n", "\n")
-        if opened:
+        if opened or files.is_turtle(file):
             self.forget(file)
             return file
         for root, known in self._sources.items():
@@ -119,6 +119,10 @@ class Libraries:
         analysis = self.analysis(root)
         return scenes.problems(self._populated[root], analysis)
 
+    def problems_around(self, root: Root) -> tuple[Diagnostic, ...]:
+        """Return what is wrong in the vocabularies and scenes of a library."""
+        return (*self.problems_of_vocabularies(root), *self.problems_of_scenes(root))
+
     def _understood(self, root: Root) -> Analysis:
         """Understand a library, and once more where the scenes of its tasks are not those of the last time."""
         if root not in self._sources:
@@ -128,7 +132,7 @@ class Libraries:
         terms = vocabulary_with(self._vocabularies[root]).value
         library = Library(root.folder.name, dict(self._sources[root]), files.shelf(), terms, before.individuals)
         found = analyse(library, parse)
-        self._populated[root] = now = self._scenes.of(found.program, library.vocabulary, root.folder)
+        self._populated[root] = now = self._scenes.of(found.program, library.vocabulary, root.folder, self.buffers)
         if now.individuals == before.individuals:
             return found
         return analyse(replace(library, scenes=now.individuals), parse)

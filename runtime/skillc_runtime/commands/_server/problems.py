@@ -24,8 +24,8 @@ def by_uri(libraries: Libraries, root: Root, analysis: Analysis, encoding: str) 
     found: dict[str, list[types.Diagnostic]] = defaultdict(list)
     for path in analysis.library.sources:
         found[libraries.uri(root, path)] = []
-    around = (*libraries.problems_of_vocabularies(root), *libraries.problems_of_scenes(root))
-    lines = Lines({**analysis.texts, **scenes.texts(around)}, encoding)
+    around = libraries.problems_around(root)
+    lines = Lines({**analysis.texts, **scenes.texts(around, libraries.buffers)}, encoding)
     for problem in (*analysis.problems, *around):
         found[libraries.uri(root, problem.span.path)].append(told(libraries, root, lines, problem))
     return dict(found)

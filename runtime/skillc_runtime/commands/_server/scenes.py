@@ -33,10 +33,13 @@ class Populated:
 class Scenes:
     """Remembers what stands in scene files. The world model is imported only when a task has a scene."""
 
-    _read: dict[tuple[Path, int, bytes], Outcome[Scene | None]] = field(default_factory=dict)
+    _read: dict[tuple[Path, int | str, bytes], Outcome[Scene | None]] = field(default_factory=dict)
 
-    def of(self, program: Program, base: Vocabulary, folder: Path) -> Populated:
-        """Return the scenes of a program's tasks; of a file that is no scene no individuals are known."""
+    def of(self, program: Program, base: Vocabulary, folder: Path, buffers: Mapping[Path, str]) -> Populated:
+        """Return the scenes of a program's tasks; of a file that is no scene no individuals are known.
+
+        `buffers` stand for what is on disk.
+        """
         if not any(task.scene for task in program.tasks):
             return Populated({})
         from skillc_runtime.commands import _scenes
@@ -44,10 +47,11 @@ class Scenes:
         terms = _own_terms(program.vocabulary, base)
 
         def read(path: Path, vocabulary: Vocabulary) -> Outcome[Scene | None]:
-            key = (path, path.stat().st_mtime_ns if path.is_file() else 0, terms)
+            text = buffers.get(path)
+            key = (path, (path.stat().st_mtime_ns if path.is_file() else 0) if text is None else text, terms)
             if key not in self._read:
                 self._read = {other: found for other, found in self._read.items() if other[0] != path}
-                self._read[key] = _scenes.read(path, vocabulary)
+                self._read[key] = _scenes.read(path, vocabulary, text)
             return self._read[key]
 
         desk = _scenes.Desk(folder.joinpath, str)
@@ -65,11 +69,15 @@ def problems(populated: Populated, analysis: Analysis) -> tuple[Diagnostic, ...]
     return tuple(each for each in (*populated.scenes.problems, *foreseen) if not _is_shipped(each.span.path))
 
 
-def texts(found: Iterable[Diagnostic]) -> dict[str, str]:
-    """Return the texts of the scenes that problems speak of, by the paths they have there."""
+def texts(found: Iterable[Diagnostic], buffers: Mapping[Path, str]) -> dict[str, str]:
+    """Return the texts of the scenes that problems speak of, by the paths they have there; see `Scenes.of`."""
     paths = {span.path for each in found for span in (each.span, *(label.span for label in each.labels))}
     wanted = sorted(path for path in paths if path.endswith(".ttl") and Path(path).is_file())
-    return {path: Path(path).read_text("utf-8-sig", errors="replace") for path in wanted}
+    return {path: _text(Path(path), buffers) for path in wanted}
+
+
+def _text(file: Path, buffers: Mapping[Path, str]) -> str:
+    return buffers[file] if file in buffers else file.read_text("utf-8-sig", errors="replace")
 
 
 def _is_shipped(path: str) -> bool:

@@ -12,6 +12,7 @@ from lsprotocol import types
 from pygls.lsp.server import LanguageServer
 
 from skillc_runtime.commands._server import documents, reading, writing
+from skillc_runtime.commands._server.files import is_turtle
 from skillc_runtime.commands._server.session import Session
 
 Answer: TypeAlias = Callable[[Session, Any], object]
@@ -44,6 +45,15 @@ ANSWERS: tuple[tuple[str, Answer, object], ...] = (
     (types.TEXT_DOCUMENT_FORMATTING, writing.formatting, None),
 )
 
+OF_TURTLE = (
+    types.TEXT_DOCUMENT_DID_OPEN,
+    types.TEXT_DOCUMENT_DID_CHANGE,
+    types.TEXT_DOCUMENT_DID_SAVE,
+    types.TEXT_DOCUMENT_DID_CLOSE,
+    types.TEXT_DOCUMENT_CODE_ACTION,
+)
+"""What is answered for scenes and vocabularies, too."""
+
 
 def make_session() -> Session:
     """Return a session whose server is ready to start.
@@ -54,8 +64,17 @@ def make_session() -> Session:
     server = LanguageServer("skillc", version("skillc"), types.TextDocumentSyncKind.Full)
     session = Session(server)
     for method, answer, options in ANSWERS:
-        server.feature(method, options)(partial(answer, session))
+        asked = answer if method in OF_TURTLE else partial(_of_skills, answer)
+        server.feature(method, options)(partial(asked, session))
     return session
+
+
+def _of_skills(answer: Answer, session: Session, params: Any) -> object:
+    """Answer what is asked of a file of skills; nothing of a scene or a vocabulary."""
+    document = getattr(params, "text_document", None)
+    if document is not None and is_turtle(session.file(document.uri)):
+        return None
+    return answer(session, params)
 
 
 def run() -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 from lsprotocol import types
 from pygls.exceptions import JsonRpcInvalidParams
@@ -18,8 +18,10 @@ from skillc_dsl.edits import apart
 from skillc_dsl.source import Source, Span
 from skillc_ontology import catalogue
 from skillc_runtime.commands._server import problems
+from skillc_runtime.commands._server.files import Root, is_turtle, place
 from skillc_runtime.commands._server.libraries import View, parse
 from skillc_runtime.commands._server.positions import Lines
+from skillc_runtime.commands._server.scenes import texts
 from skillc_runtime.commands._server.session import Session
 
 FIX_ALL = "source.fixAll.skillc"
@@ -76,21 +78,40 @@ def rename(session: Session, params: types.RenameParams) -> types.WorkspaceEdit:
         case Refused(reason=reason):
             raise JsonRpcInvalidParams(reason)
         case renaming:
-            return _workspace_edit(session, at.view, at.lines, renaming.edits)
+            return _workspace_edit(session, at.view.root, at.lines, renaming.edits)
 
 
 def code_actions(session: Session, params: types.CodeActionParams) -> list[types.CodeAction]:
     """Offer the fixes of the problems in a range, and all safe ones of the file at once."""
+    if is_turtle(session.file(params.text_document.uri)):
+        return _in_turtle(session, params)
     view = session.libraries.view(params.text_document.uri)
-    lines = session.lines(view)
     here = [problem for problem in view.analysis.problems if problem.span.path == view.path]
+    return _actions(session, params, view.root, session.lines(view), here)
+
+
+def _in_turtle(session: Session, params: types.CodeActionParams) -> list[types.CodeAction]:
+    """Offer the fixes of a scene or a vocabulary, as the first library sees it that has something to say of it."""
+    libraries, file = session.libraries, session.file(params.text_document.uri)
+    for root, analysis in libraries.known():
+        around = libraries.problems_around(root)
+        here = [problem for problem in around if place(problem.span.path, root) == file]
+        if here:
+            lines = Lines({**analysis.texts, **texts(around, libraries.buffers)}, session.encoding)
+            return _actions(session, params, root, lines, here)
+    return []
+
+
+def _actions(
+    session: Session, params: types.CodeActionParams, root: Root, lines: Lines, here: Sequence[Diagnostic]
+) -> list[types.CodeAction]:
     actions = []
     if _wanted(params, types.CodeActionKind.QuickFix.value):
         touched = [problem for problem in here if _meet(lines.range(problem.span), params.range)]
-        actions += [_quick_fix(session, view, lines, problem) for problem in touched if problem.fix]
+        actions += [_quick_fix(session, root, lines, problem) for problem in touched if problem.fix]
     safe = apart(problem.fix for problem in here if problem.fix and problem.fix.safe)
     if safe and _wanted(params, FIX_ALL):
-        edit = _workspace_edit(session, view, lines, safe)
+        edit = _workspace_edit(session, root, lines, safe)
         actions.append(types.CodeAction("Fix everything that is safe to fix", FIX_ALL, edit=edit))
     return actions
 
@@ -127,14 +148,14 @@ def _scenes_beside(view: View) -> Iterable[str]:
     return (file.relative_to(folder).as_posix() for pattern in ("*.ttl", "*/*.ttl") for file in folder.glob(pattern))
 
 
-def _quick_fix(session: Session, view: View, lines: Lines, problem: Diagnostic) -> types.CodeAction:
+def _quick_fix(session: Session, root: Root, lines: Lines, problem: Diagnostic) -> types.CodeAction:
     assert problem.fix is not None
     return types.CodeAction(
         title=problem.fix.message,
         kind=types.CodeActionKind.QuickFix,
-        diagnostics=[problems.told(session.libraries, view.root, lines, problem)],
+        diagnostics=[problems.told(session.libraries, root, lines, problem)],
         is_preferred=problem.fix.safe,
-        edit=_workspace_edit(session, view, lines, (problem.fix,)),
+        edit=_workspace_edit(session, root, lines, (problem.fix,)),
     )
 
 
@@ -147,10 +168,10 @@ def _meet(one: types.Range, other: types.Range) -> bool:
     return one.start <= other.end and other.start <= one.end
 
 
-def _workspace_edit(session: Session, view: View, lines: Lines, fixes: Iterable[Fix]) -> types.WorkspaceEdit:
+def _workspace_edit(session: Session, root: Root, lines: Lines, fixes: Iterable[Fix]) -> types.WorkspaceEdit:
     changes: dict[str, list[types.TextEdit]] = defaultdict(list)
     for fix in fixes:
-        uri = session.libraries.uri(view.root, fix.span.path)
+        uri = session.libraries.uri(root, fix.span.path)
         changes[uri].append(types.TextEdit(lines.range(fix.span), fix.text))
     edits: Mapping[str, list[types.TextEdit]] = dict(changes)
     return types.WorkspaceEdit(changes=edits)
