@@ -10,6 +10,7 @@ import pytest
 from avoidance.around import aside, cell, pillar, posture, true_gap
 from avoidance.test_ways import UPRIGHT
 from simulation.cells import ARM, SCENES
+from skillc_runtime.avoidance import ways
 from skillc_runtime.primitives.move import MoveJoints, TakePosture
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.simulation.cell import SimulatedCell
@@ -82,6 +83,7 @@ def test_without_search_it_goes_over_a_posture_of_its_sheet(monkeypatch: pytest.
 @pytest.mark.parametrize("scene", SCENES)
 def test_where_no_way_is_known_nothing_moves(scene: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "ompl", None)
+    monkeypatch.setattr(ways, "DRAWN", 0)
     there = stage(scene)
     q = there.arm(ARM[scene]).q
     with pytest.raises(SkillFailure, match="would touch lab:Pillar"):

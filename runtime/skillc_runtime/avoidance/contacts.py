@@ -61,11 +61,15 @@ class Contacts:
         return found
 
     def allow(self, start: Array, goal: Array) -> None:
-        """From now on let things be as near as they are where a motion starts and, short of touching, where it ends."""
-        begin, end = self.near(start), self.near(goal)
+        """From now on let things be as near as they are where a motion starts and, short of touching, where it ends.
+
+        What overlaps at the start may overlap twice as much on the way out; by more than the clearance it cannot really
+        overlap, so what is believed of it tells nothing.
+        """
+        begin = {pair: self._start(far) for pair, far in self.near(start).items()}
+        end = {pair: max(far - SLACK_M, 0.0) for pair, far in self.near(goal).items()}
         self._allowed = {
-            pair: min(self._least(pair), begin.get(pair, inf), max(end.get(pair, inf), 0.0))
-            for pair in {**begin, **end}
+            pair: min(self._least(pair), begin.get(pair, inf), end.get(pair, inf)) for pair in {**begin, **end}
         }
 
     def touch(self, q: Array) -> Touch | None:
@@ -73,7 +77,7 @@ class Contacts:
         wrong = [
             (far, pair)
             for pair, far in self.near(q).items()
-            if far < self._allowed.get(pair, self._least(pair)) - SLACK_M and pair not in self._passed
+            if far < self._allowed.get(pair, self._least(pair)) and pair not in self._passed
         ]
         if not wrong:
             return None
@@ -95,5 +99,11 @@ class Contacts:
         """Whether both belong to the arm, its hand or what that holds."""
         return self._moves[pair[0]] and self._moves[pair[1]]
 
+    def _start(self, far: float) -> float:
+        """Return how near things may come that are so far apart, in m, at the start."""
+        if far > 0:
+            return max(far - SLACK_M, 0.0)
+        return 2 * far - SLACK_M if far > -self.body.margin else -inf
+
     def _least(self, pair: Pair) -> float:
-        return 0.0 if self._within(pair) else self.body.margin
+        return 0.0 if self._within(pair) else max(self.body.margin - SLACK_M, 0.0)

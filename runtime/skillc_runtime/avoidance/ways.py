@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import islice, pairwise
 
 import numpy as np
 
@@ -26,6 +26,9 @@ AROUND_RAD = 1.6
 SEEDS = (1, 2, 3)
 MOST_LOOKS = 20_000
 """So many ways are searched for, the shortest is taken; each with so many looks at most."""
+
+DRAWN, ENOUGH = 400, 4
+"""Over so many drawn postures a way is tried; of so many found the shortest is taken."""
 
 MOST_SEARCHES = 2
 """For so many of several goals a way is searched for."""
@@ -99,24 +102,41 @@ def between(contacts: Contacts, start: Array, goal: Array) -> Iterator[Array]:
 
 def _around(contacts: Contacts, start: Array, goal: Array, known: Known) -> tuple[list[list[Array]], str]:
     """Return ways around, and what to say when there are none."""
-    before = contacts.looks
+    before, missing = contacts.looks, ""
     try:
         found = _searched(contacts, start, goal, known.range)
-        missing = f"no way around was found in {contacts.looks - before} looks"
     except NoSampler:
-        found, missing = [], "ways around are searched for only with the extra `motion`"
-    over = ([start, safe, goal] for safe in known.safe)
-    found = found or [postures for postures in over if first_touch(contacts, postures) is None]
-    return found, f"{missing}, and none leads over a posture of its data sheet"
+        found, missing = [], "; the extra `motion` searches longer"
+    found = found or _over(contacts, start, goal, known.safe)
+    found = found or _over(contacts, start, goal, _drawn(start, goal, known.range))
+    return found, f"no way around was found in {contacts.looks - before} looks{missing}"
+
+
+def _over(contacts: Contacts, start: Array, goal: Array, postures: Iterable[Array]) -> list[list[Array]]:
+    """Return the first ways that lead over one of some postures."""
+    ways = ([start, over, goal] for over in postures)
+    return list(islice((way for way in ways if first_touch(contacts, way) is None), ENOUGH))
+
+
+def _drawn(start: Array, goal: Array, limits: Array) -> Iterator[Array]:
+    """Yield postures around start and goal, always the same ones, at first near the straight way."""
+    draw, (low, high) = np.random.default_rng(0), _bounds(start, goal, limits)
+    for share in np.linspace(0.1, 1.0, DRAWN).tolist():
+        between = start + (goal - start) * draw.uniform()
+        yield between + share * (draw.uniform(low, high) - between)
+
+
+def _bounds(start: Array, goal: Array, limits: Array) -> tuple[Array, Array]:
+    """Return how far (nv,) joints may go on a way around: beyond start and goal, but not out of their range."""
+    low, high = np.minimum(start, goal), np.maximum(start, goal)
+    low = np.minimum(low, np.maximum(low - AROUND_RAD, limits[:, 0]))
+    return low, np.maximum(high, np.minimum(high + AROUND_RAD, limits[:, 1]))
 
 
 def _searched(contacts: Contacts, start: Array, goal: Array, limits: Array) -> list[list[Array]]:
     """Return ways around, found with joints in metres of their longest levers, so that all weigh alike."""
     levers = contacts.body.levers
-    low, high = np.minimum(start, goal), np.maximum(start, goal)
-    low = np.minimum(low, np.maximum(low - AROUND_RAD, limits[:, 0]))
-    high = np.maximum(high, np.minimum(high + AROUND_RAD, limits[:, 1]))
-    bounds = np.column_stack([low, high]) * levers[:, None]
+    bounds = np.column_stack(_bounds(start, goal, limits)) * levers[:, None]
     step = _step(contacts) / np.sqrt(len(levers))
 
     def free(point: Array) -> bool:
