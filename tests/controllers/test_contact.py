@@ -14,6 +14,16 @@ COURSES = {
     "feels a spike": ([(0.045, 0.3)] * 500 + [(0.04, 9.0)] * 2 + [(0.04, 0.5)], "approaching"),
     "bounces twice": ([(0.045, 0.3)] * 500 + ([(-0.01, 1.0)] * 10 + [(0.03, 0.5)] * 10) * 2, "approaching"),
     "touches from the start": ([(0.0005, 2.9)] * 501, "touching"),
+    "falls at first": (
+        [(0.0, 8.0)] * 20 + [(0.002 * i, 8 - i / 10) for i in range(70)] + [(0.14, -4.0)] * 100,
+        "approaching",
+    ),
+    "falls, then approaches, then is pressed": (
+        [(0.002 * i, 8 - i / 10) for i in range(70)] + [(0.14, -4.0)] * 100 + [(0.05, 0.2)] * 30 + [(0.04, 2.5)] * 6,
+        "touching",
+    ),
+    "falls and lies there": ([(0.14, -4.0)] * 100 + [(0.0, 3.0)] * 501, "touching"),
+    "moves away at first": ([(-0.1, 9.0)] * 100 + [(-0.1 + 0.0015 * i, 9 - i / 12) for i in range(95)], "approaching"),
     "meets nothing": ([(0.045, 0.3)] * 3000, "missing"),
 }
 
@@ -29,7 +39,7 @@ def test_course(name):
 
 def test_it_takes_as_long_at_every_rate():
     for period in (0.001, 0.002, 0.004):
-        approach, time = Approach(speed=0.05, travel=0.12, moved=True), 0.0
+        approach, time = Approach(speed=0.05, travel=0.12, steady=1.0), 0.0
         while approach.outcome == "approaching":
             approach, time = advance(approach, 0.0, 0.0, period), time + period
         assert time == pytest.approx(0.02, abs=period)

@@ -39,6 +39,13 @@ def test_a_button_that_jams_is_told_with_the_force_it_was_pressed_with() -> None
     assert at_rest(done.cell)
 
 
+@pytest.mark.parametrize("task", ["press_button_panda", "polish_sheet_ur5e", "insert_peg_iiwa", "teach_pose_panda"])
+def test_a_second_arm_does_the_same_work(task: str) -> None:
+    done = run(task, 700)
+    assert done.succeeded, done.why
+    assert at_rest(done.cell)
+
+
 def test_a_button_that_is_not_there_is_told() -> None:
     done = run("press_button", change=lambda cell: vanish(cell, "Button-1"), once=True)
     assert not done.succeeded

@@ -21,7 +21,8 @@ STILL_M_S, STILL_S = 0.002, 0.3
 """A tool slower than this for that long rests."""
 
 SEATED_SHARE = 0.9
-"""A peg that is in by this share of the hole's depth is at its bottom: the opening is not known better than that."""
+"""A peg that is in by this share of the hole's depth is at its bottom, as is one that seems as much too deep: where the
+opening is, is not known better than that."""
 
 
 class SinkBelow(Primitive):
@@ -81,7 +82,7 @@ class Seat(Primitive):
         if not resting and self.cell.now - self._began <= self._patience:
             return Status.RUNNING
         depth = -float(self._opening.inverse().at(self.arm.pose.position)[2])
-        seated = resting and depth >= SEATED_SHARE * self._bottom
+        seated = resting and abs(depth - self._bottom) <= (1 - SEATED_SHARE) * self._bottom
         noted = [SetProperty(self._peg, INSERTED_DEPTH, depth), SetProperty(self._peg, IS_SEATED, seated)]
         self.cell.world.commit(noted, "measured by inserting")
         if not seated:

@@ -1,18 +1,25 @@
-"""Noticing contact while a tool approaches, gently pushed: it stops, or a force is felt, for long enough to be sure."""
+"""Noticing contact while a tool approaches, gently pushed: it stops, or a force is felt, for long enough to be sure.
+
+What an arm feels contains the force that speeds it up or slows it down; so nothing is believed before it approaches
+steadily, however it moved when the approach began.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from typing import Literal
 
+STEADY_SHARE, STEADY_S = (2 / 3, 3 / 2), 0.02
+"""A tool approaches when its speed is within these shares of the approach speed, for this long."""
+
 SLOW_SHARE, SLOW_S = 1 / 3, 0.02
-"""A tool that has moved and then stays this much below its approach speed, for this long, has been stopped."""
+"""A tool that has approached and then stays this much below its approach speed, for this long, has been stopped."""
 
 FELT_N, FELT_S = 2.0, 0.005
-"""A force above this, for this long, is contact; only once the tool moves, since starting takes force as well."""
+"""A force above this, for this long, is contact."""
 
 STUCK_S = 0.5
-"""A tool that has not begun to move after this long was touching from the start."""
+"""A tool that stands for so long before it has approached was touching from the start, or is by now."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,29 +28,34 @@ class Approach:
 
     speed: float
     travel: float
-    elapsed: float = 0.0
-    moved: bool = False
+    steady: float = 0.0
     slow: float = 0.0
     felt: float = 0.0
     depth: float = 0.0
 
     @property
+    def moved(self) -> bool:
+        """Whether the tool has approached steadily."""
+        return self.steady >= STEADY_S
+
+    @property
     def outcome(self) -> Literal["approaching", "touching", "missing"]:
         """What is known by now; `missing` when nothing was there within the travel."""
-        if self.slow >= SLOW_S or self.felt >= FELT_S or (not self.moved and self.elapsed >= STUCK_S):
+        if self.slow >= (SLOW_S if self.moved else STUCK_S) or self.felt >= FELT_S:
             return "touching"
         return "missing" if self.depth > self.travel else "approaching"
 
 
 def advance(approach: Approach, speed: float, force_n: float, period: float) -> Approach:
     """Go on by `period` s: `speed` m/s towards the surface, `force_n` N with which something pushes back."""
-    moved = approach.moved or speed > 2 * SLOW_SHARE * approach.speed
-    slow = moved and speed < SLOW_SHARE * approach.speed
+    least, most = (share * approach.speed for share in STEADY_SHARE)
+    steady = approach.steady + period if least < speed < most else 0.0
+    moved = approach.moved or steady >= STEADY_S
+    slow = speed < SLOW_SHARE * approach.speed
     felt = moved and force_n > FELT_N
     return replace(
         approach,
-        elapsed=approach.elapsed + period,
-        moved=moved,
+        steady=max(approach.steady, STEADY_S) if moved else steady,
         slow=approach.slow + period if slow else 0.0,
         felt=approach.felt + period if felt else 0.0,
         depth=approach.depth + speed * period,
