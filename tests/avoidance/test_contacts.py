@@ -74,3 +74,14 @@ def test_what_is_near_at_the_start_may_stay_as_near_but_no_nearer() -> None:
     assert of.touch(nearer) is not None
     of.allow(start, start)
     assert of.touch(near) is not None
+
+
+def test_what_the_arm_stands_deep_in_at_the_start_is_not_asked_about() -> None:
+    of = contacts("iiwa_table", pillar("iiwa_table"))[0]
+    turns = np.arange(0.0, ASIDE_RAD, 0.02).tolist()
+    deep = min((aside("iiwa_table", turn) for turn in turns), key=lambda q: min(of.near(q).values(), default=1.0))
+    assert of.touch(deep) is not None
+    of.allow(deep, home("iiwa_table"))
+    assert of.first(aside("iiwa_table", turn) for turn in turns) is None
+    of.allow(home("iiwa_table"), home("iiwa_table"))
+    assert of.touch(deep) is not None

@@ -45,7 +45,7 @@ class Contacts:
         self._arm, self._contact = self._data.qpos[: body.joints], self._data.contact
         self._moves: list[bool] = (body.model.geom_contype == MOVES).tolist()
         self._passed = frozenset(pair for pair, far in self.near(home).items() if self._within(pair) and far <= 0)
-        self._allowed = dict[Pair, float]()
+        self._allowed, self._unsaid = dict[Pair, float](), frozenset[str]()
 
     def near(self, q: Array) -> dict[Pair, float]:
         """Return which geoms are nearer to each other than the clearance at joints q (nv,), and how far apart, m."""
@@ -63,11 +63,15 @@ class Contacts:
     def allow(self, start: Array, goal: Array) -> None:
         """From now on let things be as near as they are where a motion starts and, short of touching, where it ends.
 
-        What overlaps at the start may overlap twice as much on the way out; by more than the clearance it cannot really
-        overlap, so what is believed of it tells nothing.
+        What overlaps at the start may overlap twice as much on the way out. By more than the clearance nothing can
+        really overlap: what is believed of such a thing tells nothing, so it is not asked about.
         """
-        begin = {pair: self._start(far) for pair, far in self.near(start).items()}
+        begin = {
+            pair: max(far - SLACK_M, 0.0) if far > 0 else 2 * far - SLACK_M for pair, far in self.near(start).items()
+        }
         end = {pair: max(far - SLACK_M, 0.0) for pair, far in self.near(goal).items()}
+        deep = [pair for pair, far in begin.items() if far < -2 * self.body.margin and not self._within(pair)]
+        self._unsaid = frozenset(self._thing(pair) for pair in deep)
         self._allowed = {
             pair: min(self._least(pair), begin.get(pair, inf), end.get(pair, inf)) for pair in {**begin, **end}
         }
@@ -77,7 +81,7 @@ class Contacts:
         wrong = [
             (far, pair)
             for pair, far in self.near(q).items()
-            if far < self._allowed.get(pair, self._least(pair)) and pair not in self._passed
+            if far < self._allowed.get(pair, self._least(pair)) and self._counts(pair)
         ]
         if not wrong:
             return None
@@ -99,11 +103,13 @@ class Contacts:
         """Whether both belong to the arm, its hand or what that holds."""
         return self._moves[pair[0]] and self._moves[pair[1]]
 
-    def _start(self, far: float) -> float:
-        """Return how near things may come that are so far apart, in m, at the start."""
-        if far > 0:
-            return max(far - SLACK_M, 0.0)
-        return 2 * far - SLACK_M if far > -self.body.margin else -inf
+    def _thing(self, pair: Pair) -> str:
+        """Return the name of what stands around, of the two."""
+        return self.body.names[pair[1] if self._moves[pair[0]] else pair[0]]
+
+    def _counts(self, pair: Pair) -> bool:
+        """Whether it matters that two geoms are near each other."""
+        return pair not in self._passed and (self._within(pair) or self._thing(pair) not in self._unsaid)
 
     def _least(self, pair: Pair) -> float:
         return 0.0 if self._within(pair) else max(self.body.margin - SLACK_M, 0.0)
