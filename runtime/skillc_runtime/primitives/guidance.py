@@ -15,7 +15,7 @@ from skillc_runtime.world.terms import IS_TAUGHT
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
 
-LED_M = 0.02
+LED_M = 0.005
 """A tool that has come this far was led, not pushed by accident."""
 
 STILL_M_S = 0.005
