@@ -101,7 +101,7 @@ def test_a_wrong_goal_gives_a_bounded_force():
     far = at_rest(moved_by(state.tool, 0, 0, 5.0))
     for _ in range(400):
         law.command(state, far, stiff("iiwa14"), 0.001)
-    assert np.linalg.norm(law.contact_wrench[:3]) == pytest.approx(1500 * 0.05)
+    assert np.linalg.norm(law.contact_wrench[:3]) == pytest.approx(GAINS["iiwa14"].force_limit)
 
 
 def test_the_posture_is_kept_without_moving_the_tool():

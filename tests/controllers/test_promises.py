@@ -57,6 +57,19 @@ def test_no_reference_makes_the_tool_work_harder_than_skills_may_ask():
     assert min(worked) < -limit, "braking is not limited"
 
 
+def test_no_reference_makes_springs_and_dampers_pull_harder_than_skills_may_ask():
+    bench, chance, pulled = Bench("iiwa14"), np.random.default_rng(2), []
+    for _ in range(100):
+        bench.data.qvel[:] = chance.normal(0, 0.2, 7)
+        state = bench.state_at_rest()
+        law = law_of("iiwa14", bench, state)
+        reference, compliance = drawn(chance, "iiwa14", state)
+        law.command(state, reference, compliance, 0.001)
+        pulled.append(np.linalg.norm(law._exerted[:3] - compliance.wrench[:3]))
+    assert max(pulled) == pytest.approx(GAINS["iiwa14"].force_limit)
+    assert min(pulled) < 0.9 * max(pulled), "what is less is left alone"
+
+
 @pytest.mark.parametrize("elbow", [-1.0, -0.1, -0.01, 0.0, 0.01])
 def test_near_and_at_a_singularity_commands_stay_within_limits(robot, elbow):
     bench, chance, period = Bench(robot), np.random.default_rng(3), 0.001

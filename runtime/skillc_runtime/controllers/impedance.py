@@ -18,7 +18,7 @@ from skillc_runtime.controllers.gains import Gains, Number
 from skillc_runtime.controllers.joint_position import ComputedTorque
 from skillc_runtime.controllers.limits import TorqueLimit
 from skillc_runtime.controllers.nullspace import Nullspace
-from skillc_runtime.controllers.task_error import ACCELERATION, ERROR, MEASURED, TWIST, TaskError, task_error
+from skillc_runtime.controllers.task_error import ACCELERATION, ERROR, MEASURED, TWIST, TaskError, shorten, task_error
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
 from skillc_runtime.numerics.compiled import Matrix, OutMatrix, OutVector, Vector, compiled
@@ -84,6 +84,7 @@ class Impedance:
 
     def __init__(self, gains: Gains, law: ImpedanceGains, limit: TorqueLimit, joints: int) -> None:
         self._limit = limit
+        self._force_n = gains.force_limit
         self._power_w = gains.force_limit * gains.speed_limit
         self._floor = np.repeat([law.damping_floor, law.rotational_damping_floor], 3)
         self._task = TaskError(np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3))
@@ -121,7 +122,7 @@ class Impedance:
             state.tool.position, state.tool.rotation, state.jacobian, state.dq,
             reference.pose.position, reference.pose.rotation, reference.twist, reference.acceleration,
             compliance.stiffness, compliance.wrench, compliance.frame, task.softness,
-            self._damping.value, self._inertia, self._power_w,
+            self._damping.value, self._inertia, self._force_n, self._power_w,
         )  # fmt: skip
         if self._nullspace:
             self._tau += self._nullspace.torque(state)
@@ -170,11 +171,12 @@ def impedance_torque(
     softness: Vector,
     damping: Vector,
     inertia: Matrix,
+    force_n: float,
     power_w: float,
 ) -> None:
     """exerted (6,) = W - K sat(e) - D (J_C dq - nu_d), along C; tau (nv,) = J_C^T (exerted + Lam_C a_d).
 
-    Torques that would move the arm with more than `power_w` are scaled down as a whole.
+    The force of springs and dampers is at most `force_n`. Torques that would move the arm with more than `power_w` are scaled down as a whole.
     """
     velocity, force, in_base = np.empty(6), np.empty(6), np.empty(6)
     times(J, dq, velocity)
@@ -182,7 +184,9 @@ def impedance_torque(
         rows, axes, held, tool_position, tool_rotation, position, rotation, twist, acceleration,
         stiffness, frame, softness, velocity,
     )  # fmt: skip
-    exerted[:] = wrench - stiffness * rows[ERROR] - damping * (rows[MEASURED] - rows[TWIST])
+    exerted[:] = -stiffness * rows[ERROR] - damping * (rows[MEASURED] - rows[TWIST])
+    shorten(exerted[:3], force_n)
+    exerted += wrench
     times(inertia, rows[ACCELERATION], force)
     force += exerted
     product(force.reshape(2, 3), axes.T, in_base.reshape(2, 3))

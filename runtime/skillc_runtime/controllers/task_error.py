@@ -58,12 +58,12 @@ def task_error(
     in_base[MEASURED] = measured
     product(in_base.reshape(8, 3), axes, rows.reshape(8, 3))
     rows[:3] *= held
-    _clamp(rows[ERROR, :3], CLAMP_M)
-    _clamp(rows[ERROR, 3:], CLAMP_RAD)
+    shorten(rows[ERROR, :3], CLAMP_M)
+    shorten(rows[ERROR, 3:], CLAMP_RAD)
 
 
 @part
-def _clamp(vector: Array, longest: float) -> None:
+def shorten(vector: Array, longest: float) -> None:
     """Shorten a vector (3,) in place to a length."""
     square = vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]
     if square > longest * longest:

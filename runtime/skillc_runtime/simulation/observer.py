@@ -13,6 +13,7 @@ from skillc_runtime.simulation.coverage import PRESSED_N, CoverageMap
 from skillc_runtime.simulation.facts import ToolFacts
 from skillc_runtime.simulation.names import face_sensor
 from skillc_runtime.simulation.recorder import Recorder
+from skillc_runtime.simulation.strongest import StrongestForce
 
 STEPS_PER_UPDATE = 10
 """Coverage and reference are looked at every so many steps: at 100 Hz with steps of 1 ms."""
@@ -28,11 +29,12 @@ class ToolObserver:
         self._reach = float(np.hypot(*self._extent)) / 2
         self._seconds = STEPS_PER_UPDATE * model.opt.timestep
         self._steps = 0
-        self.recorder = Recorder(self._truth)
+        self.recorder, self.strongest = Recorder(self._truth), StrongestForce(name, model, data)
 
     def sample(self, time: float, driver: ArmDriver) -> None:
         """Take in one step that began at `time` s, in which `driver` moved the tool."""
         self.recorder.sample(time)
+        self.strongest.sample(self._truth[0])
         if self._steps % STEPS_PER_UPDATE == 0:
             self.recorder.sample_reference(time, driver.reference, driver.path)
             if self._truth[0] > PRESSED_N:

@@ -91,8 +91,7 @@ def _assignment(task: str, library: SkillLibrary, state: WorldState) -> Assignme
 
 
 def _greatest_force(cell: SimulatedCell) -> float:
-    recordings = (cell.recording(tool.individual) for tool in cell.facts.tools)
-    return max((float(recording.force.max(initial=0.0)) for recording in recordings), default=0.0)
+    return max((cell.strongest_force(tool.individual) for tool in cell.facts.tools), default=0.0)
 
 
 def _force_limit(cell: SimulatedCell) -> float | None:
