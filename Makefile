@@ -56,9 +56,9 @@ clean:           ## remove the environment and all output
 	@touch $@
 
 .venv/.runtime: pyproject.toml constraints.txt .venv/.created
-	$(INSTALL) -e '.[planner,video,editor]'
+	$(INSTALL) -e '.[planner,motion,video,editor]'
 	@touch $@
 
 .venv/.dev: .venv/.runtime
-	$(INSTALL) -e '.[planner,temporal,fast,video,editor,dev]'
+	$(INSTALL) -e '.[planner,temporal,motion,fast,video,editor,dev]'
 	@touch $@

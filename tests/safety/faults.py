@@ -74,6 +74,7 @@ KINDS = {
 MOTION = {"posture": "home", "pace": 0.5, "speed": 0.2, "blend": 0.01, "settle": 5.0, "patience": 5.0, "travel": 0.5}
 PRESSING = {"stiffness": 0.0, "force": 10.0, "opening": 0.02, "approach": 0.05, "depth": 0.02, "still": 1.5}
 SWINGING = {"radius": 0.01, "rate": 1.0, "amplitude": 0.01, "pitch": 0.001}
+FIGURE = {"width": 0.01, "height": 0.01, "across_rate": 2.0, "phase": 0.0}
 
 
 def things(scene: str) -> dict[str, str]:
@@ -99,8 +100,10 @@ def arguments(scene: str, cell: Cell) -> dict[str, object]:
     """Return what the parameters of primitives may be in a scene, by their names."""
     tool = cell.arm(things(scene)["arm"]).anchor
     raised = Pose(tool.position + np.array([0.0, 0.0, 0.05]), tool.rotation)
-    poses = {"target": raised, "path": [raised, tool], "along": -tool.rotation[:, 2], "plane": tool.rotation[:, 2]}
-    return {**things(scene), **MOTION, **PRESSING, **SWINGING, **poses}
+    beside = Pose(tool.position + np.array([0.02, 0.0, 0.025]), tool.rotation)
+    poses = {"via": beside, "target": raised, "path": [raised, tool]}
+    directions = {"along": -tool.rotation[:, 2], "plane": tool.rotation[:, 0]}
+    return {**things(scene), **MOTION, **PRESSING, **SWINGING, **FIGURE, **poses, **directions}
 
 
 class Pushing(Primitive):

@@ -176,7 +176,8 @@ def impedance_torque(
 ) -> None:
     """exerted (6,) = W - K sat(e) - D (J_C dq - nu_d), along C; tau (nv,) = J_C^T (exerted + Lam_C a_d).
 
-    The force of springs and dampers is at most `force_n`. Torques that would move the arm with more than `power_w` are scaled down as a whole.
+    The force of springs and dampers is at most `force_n`. Torques that would move the arm with more than `power_w` are
+    scaled down as a whole.
     """
     velocity, force, in_base = np.empty(6), np.empty(6), np.empty(6)
     times(J, dq, velocity)

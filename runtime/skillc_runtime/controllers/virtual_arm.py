@@ -97,7 +97,7 @@ class VirtualArm:
         mujoco.mj_jacBody(self._model, self._data, self._jacp, self._jacr, self._body)
 
     def weigh(self, dq: Array) -> None:
-        """Update `inertia` (nv, nv) and `bias` (nv,), Coriolis and centrifugal torques at dq (nv,), where the arm is."""
+        """Update `inertia` (nv, nv) and, at dq (nv,), `bias` (nv,): torques of Coriolis and centrifugal forces."""
         self._data.qvel[:] = dq
         mujoco.mj_comVel(self._model, self._data)
         mujoco.mj_rne(self._model, self._data, 0, self.bias)
