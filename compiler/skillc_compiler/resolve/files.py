@@ -62,12 +62,15 @@ class _Reader:
 
     def _find(self, importer: str, wanted: str, library: str) -> tuple[Source, str] | None:
         beside = posixpath.normpath(posixpath.join(posixpath.dirname(importer), wanted))
+        if importer not in self.own and posixpath.dirname(importer) and beside in self.shelf:
+            return self._shelved(beside)  # a file of another library means what stands beside it there
         if library == self.name and beside in self.own:
             return self.own[beside], library
-        if wanted in self.shelf:
-            found = self.shelf[wanted]
-            return found, SHELF if found.path.startswith(f"{SHELF}/") else self.name
-        return None
+        return self._shelved(wanted) if wanted in self.shelf else None
+
+    def _shelved(self, wanted: str) -> tuple[Source, str]:
+        found = self.shelf[wanted]
+        return found, SHELF if found.path.startswith(f"{SHELF}/") else self.name
 
     def _meant(self, file: s.File, line: s.Import, library: str) -> tuple[Source, str] | None:
         """Report a file that there is not; return the one that is meant, if its name is like that of one file only."""
