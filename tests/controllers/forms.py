@@ -17,12 +17,12 @@ from skillc_runtime.motion.path import joined, path
 from skillc_runtime.motion.pose import exp
 from skillc_runtime.motion.reference import Compliance, Reference
 from skillc_runtime.motion.segments import MotionLimits, segment
-from skillc_runtime.robots.guard import are_numbers
+from skillc_runtime.robots.guard import take_over
 from skillc_runtime.robots.resistance import Resistance
 from skillc_runtime.robots.safety import beyond, tool_speed
 from skillc_runtime.simulation.coverage import add_dose
-from skillc_runtime.simulation.hand import Hand, carry, load_mass, see_hand
-from skillc_runtime.simulation.wrist import external_wrench
+from skillc_runtime.simulation.hand import Hand, load_mass, measure
+from skillc_runtime.simulation.wrist import low_pass
 
 
 def laws(robot: str, count: int) -> list[list[float]]:
@@ -43,7 +43,7 @@ def laws(robot: str, count: int) -> list[list[float]]:
         released = chance.choice([0.0, 0.01, 1.0], 6)
         stiffness = released * np.repeat([GAINS[robot].linear_stiffness, GAINS[robot].rotational_stiffness], 3)
         compliance = Compliance(stiffness, chance.uniform(-20, 20, 6), exp(chance.uniform(-3, 3, 3)))
-        command = law.tool.command(state, Reference(pose, twist, acceleration), compliance, 0.001)
+        command = law.tool.command(state, Reference.of(pose, twist, acceleration), compliance, 0.001)
         told.append([*(command.tau if LAWS[robot] == "impedance" else command.q), *law.tool.contact_wrench])
     return told
 
@@ -84,7 +84,7 @@ def watched(count: int) -> list[list[float]]:
     for _ in range(count):
         bench.data.qvel[:] = chance.uniform(-0.3, 0.3, 7)
         state = bench.state_at_rest()
-        felt.told(chance.uniform(-20, 20, 7))
+        felt.told(chance.uniform(-20, 20, 7), state.bias, 0.002)
         felt.step(state, 0.002)
         middle, size = chance.uniform(-1, 1, (2, 3))
         outside = beyond(state.tool.position, middle, box, np.abs(size))
@@ -97,18 +97,21 @@ def measurements(count: int) -> list[list[float]]:
     chance, hand, found = np.random.default_rng(6), Hand(), []
     for _ in range(count):
         hand.on_link[:] = chance.uniform(-1, 1, (8, 3))
-        J, (bias, carrying), wrench = np.zeros((6, 7)), np.zeros((2, 7)), np.zeros((2, 3))
+        J, joints, wrench, readings = np.zeros((6, 7)), np.zeros((4, 7)), np.zeros(6), chance.uniform(-20, 20, 9)
         link, base = exp(chance.uniform(-3, 3, 3)), exp(chance.uniform(-3, 3, 3))
         axes, (centre, position, origin, weight) = chance.uniform(-1, 1, (7, 6)), chance.uniform(-1, 1, (4, 3))
-        see_hand(hand.in_base, J, hand.on_link, axes, centre, position, link, origin, base)
-        carry(bias, carrying, weight, base, hand.lever, J)
-        external_wrench(wrench, chance.uniform(-1, 1, (6, 9)), chance.uniform(-20, 20, 9), hand.wrist_axes)
+        low_pass(readings, *chance.uniform(-20, 20, (2, 9)), 0.3)
+        measure(
+            joints, hand.in_base, J, wrench, *chance.uniform(-1, 1, (4, 7)), hand.on_link, axes, centre, position, link,
+            origin, base, weight, chance.uniform(-1, 1, (6, 9)), readings,
+        )  # fmt: skip
         dose, tool, (place, origin) = np.zeros((20, 30)), np.array([0.1, 0.05]), chance.uniform(-0.1, 0.1, (2, 3))
         add_dose(dose, np.linspace(-0.2, 0.2, 30), np.linspace(-0.1, 0.1, 20), origin, base, place, link, tool, 0.01)
         mass, sines = np.eye(7), Lissajous(*chance.uniform(-1, 1, (3, 3))).at(chance.uniform(0, 5))
         load_mass(mass, hand.lever, J, 0.3)
-        numbers = are_numbers(bias, bias, bias, position), are_numbers(bias, bias, bias * np.nan, position)
-        seen = (hand.in_base, J, bias, wrench, mass, dose, sines)
+        kept = np.zeros(7)
+        numbers = [take_over(kept, *joints[:3], also, position) for also in (wrench, wrench * np.nan)]
+        seen = (hand.in_base, J, joints, wrench, mass, dose, sines, kept)
         found.append([*np.concatenate([each.ravel() for each in seen]), *map(float, numbers)])
     return found
 

@@ -19,7 +19,7 @@ def test_numbers_pass(robot):
     bench = Bench(robot)
     guard = Guard(bench, bench.state())
     guard.check(bench.state())
-    guard.command(told(robot, np.array(HOMES[robot]) + 0.01))
+    guard.command(told(robot, np.array(HOMES[robot]) + 0.01), 0.001)
     assert np.allclose(bench.data.ctrl, np.array(HOMES[robot]) + 0.01)
 
 
@@ -29,7 +29,7 @@ def test_a_bad_command_becomes_holding(robot, bad):
     state = bench.state()
     guard = Guard(bench, state)
     with pytest.raises(ControlError, match="does not yield a number"):
-        guard.command(told(robot, np.array([bad, *HOMES[robot][1:]])))
+        guard.command(told(robot, np.array([bad, *HOMES[robot][1:]])), 0.001)
     assert np.allclose(bench.data.ctrl, state.bias if LAWS[robot] == "impedance" else state.q)
 
 

@@ -48,7 +48,7 @@ def test_an_isotropic_compliance_does_not_depend_on_its_frame(robot):
     outputs = []
     for turn in ([0, 0, 0], [0.3, -1.0, 2.0], [0, np.pi / 2, 0]):
         bench, state, law = fresh(robot)
-        goal = Reference(
+        goal = Reference.of(
             moved_by(state.tool, 0.01, -0.02, 0.005, turn=(0.02, 0.05, -0.03)),
             np.array([0.05, 0.02, -0.03, 0.1, 0.0, 0.2]),
             np.array([0.1, 0.2, 0.3, 0.0, 0.0, 0.1]),

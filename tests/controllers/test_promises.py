@@ -7,6 +7,8 @@ import pytest
 from rig import GAINS, HOMES, LAWS, ROBOTS, Bench, moved_by
 
 from skillc_runtime.controllers.controller import ControlError
+from skillc_runtime.controllers.limits import EFFORT
+from skillc_runtime.controllers.task_error import EXERTED
 from skillc_runtime.controllers.virtual_arm import virtual_model
 from skillc_runtime.motion.path import path
 from skillc_runtime.motion.pose import exp
@@ -27,7 +29,7 @@ def drawn(chance, robot, state):
     pose = moved_by(state.tool, *chance.normal(0, 0.3, 3), turn=chance.normal(0, 1.0, 3))
     K = np.repeat([GAINS[robot].linear_stiffness, GAINS[robot].rotational_stiffness], 3)
     released = Compliance(K * chance.choice([0.0, 0.3, 1.0], 6), chance.normal(0, 50, 6), exp(chance.normal(0, 1, 3)))
-    return Reference(pose, *chance.normal(0, 2, (2, 6))), released
+    return Reference.of(pose, *chance.normal(0, 2, (2, 6))), released
 
 
 def noted(bench):
@@ -49,9 +51,10 @@ def test_no_reference_makes_the_tool_work_harder_than_skills_may_ask():
         bench.data.qvel[:] = chance.normal(0, 1.0, 7)
         state = bench.state_at_rest()
         law = law_of("iiwa14", bench, state)
-        law._nullspace = None
-        law.command(state, *drawn(chance, "iiwa14", state), 0.001)
-        worked.append(law._tau @ state.dq)
+        law._posture.stiffness = law._posture.damping = 0.0
+        law._limit.rate, law._limit.rows[EFFORT] = np.inf, np.inf
+        told = law.command(state, *drawn(chance, "iiwa14", state), 0.001)
+        worked.append((told.tau - state.bias) @ state.dq)
     assert max(worked) == pytest.approx(limit)
     assert any(0 < each < 0.9 * limit for each in worked), "what needs less is left alone"
     assert min(worked) < -limit, "braking is not limited"
@@ -65,7 +68,7 @@ def test_no_reference_makes_springs_and_dampers_pull_harder_than_skills_may_ask(
         law = law_of("iiwa14", bench, state)
         reference, compliance = drawn(chance, "iiwa14", state)
         law.command(state, reference, compliance, 0.001)
-        pulled.append(np.linalg.norm(law._exerted[:3] - compliance.wrench[:3]))
+        pulled.append(np.linalg.norm(law._task.rows[EXERTED, :3] - compliance.wrench[:3]))
     assert max(pulled) == pytest.approx(GAINS["iiwa14"].force_limit)
     assert min(pulled) < 0.9 * max(pulled), "what is less is left alone"
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from skillc_runtime.controllers.gains import Gains, Number
 from skillc_runtime.controllers.joint_position import JointServo
-from skillc_runtime.controllers.limits import JointLimit
+from skillc_runtime.controllers.limits import FASTEST, TOLD, JointLimit, limit_joints
 from skillc_runtime.controllers.task_error import ACCELERATION, ERROR, MEASURED, TWIST, TaskError, task_error
 from skillc_runtime.controllers.virtual_arm import VirtualArm
 from skillc_runtime.motion.pose import Array, Pose
@@ -73,7 +73,7 @@ class ForwardDynamics:
         self._rate = np.repeat([law.admittance, law.rotational_admittance], 3) / law.admittance_time
         self._lag = law.admittance_time
         self._felt = np.zeros(6)
-        self._dq, self._q = np.zeros(arm.joints), np.zeros(arm.joints)
+        self._dq = np.zeros(arm.joints)
 
     @property
     def tool(self) -> Pose:
@@ -94,53 +94,47 @@ class ForwardDynamics:
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> JointPosition:
         """Return the joint positions."""
         self._felt[:] = state.wrench
-        arm, task, tool = self._arm, self._task, self._arm.live_tool
-        arm.move(self._limit.q)
+        arm, task, limit = self._arm, self._task, self._limit
+        tool = arm.live_tool
+        arm.move(limit.q)
         arm.weigh(self._dq)
-        virtual_motion(
-            self._q, self._dq, task.rows, task.axes, task.held,
-            tool.position, tool.rotation, arm.jacobian, arm.inertia, arm.bias, self._limit.q, self._limit.velocity,
-            reference.pose.position, reference.pose.rotation, reference.twist, reference.acceleration,
-            compliance.stiffness, compliance.wrench, compliance.frame, task.softness, self._felt,
-            self._rate, self._lag, period,
+        followed = virtual_motion(
+            self._dq, task.rows, task.axes, limit.rows,
+            tool.position, tool.rotation, arm.jacobian, arm.inertia, arm.bias, state.q,
+            reference.rows, compliance.stiffness, compliance.wrench, compliance.frame,
+            self._felt, self._rate, self._lag, period,
         )  # fmt: skip
-        return JointPosition(self._limit.step(self._q, state, period))
+        return JointPosition(limit.followed(followed, state))
 
 
 @compiled
 def virtual_motion(
-    q: OutVector,
     dq: OutVector,
     rows: OutMatrix,
     axes: OutMatrix,
-    held: OutVector,
+    limits: OutMatrix,
     tool_position: Vector,
     tool_rotation: Matrix,
     J: Matrix,
     inertia: OutMatrix,
     bias: Vector,
-    q_before: Vector,
-    dq_limit: Vector,
-    position: Vector,
-    rotation: Matrix,
-    twist: Vector,
-    acceleration: Vector,
+    measured: Vector,
+    reference: Matrix,
     stiffness: Vector,
     wrench: Vector,
     frame: Matrix,
-    softness: Vector,
     felt: Vector,
     rate: Vector,
     lag: float,
     period: float,
-) -> None:
-    """Compute dq (nv,), slowed down as a whole where a joint would be too fast, and q (nv,). rate (6,): A / T."""
-    task_error(
-        rows, axes, held, tool_position, tool_rotation, position, rotation, twist, acceleration,
-        stiffness, frame, softness, felt,
-    )  # fmt: skip
+) -> bool:
+    """Compute dq (nv,), slowed down as a whole where a joint would be too fast, and what is told. rate (6,): A / T.
+
+    Return False when the arm, whose joints are `measured`, does not follow.
+    """
+    task_error(rows, axes, tool_position, tool_rotation, reference, stiffness, frame, felt)
     wanted = rate * (rows[MEASURED] + wrench - stiffness * rows[ERROR]) + rows[TWIST] / lag + rows[ACCELERATION]
-    in_base, torque, ddq = np.empty(6), np.empty(q.size), np.empty(q.size)
+    in_base, torque, ddq = np.empty(6), np.empty(dq.size), np.empty(dq.size)
     product(wanted.reshape(2, 3), axes.T, in_base.reshape(2, 3))
     transposed_times(J, in_base, torque)
     torque -= bias
@@ -148,5 +142,5 @@ def virtual_motion(
     cholesky_solve(inertia, torque, ddq)
     keep = exp(-period / lag)
     dq[:] = keep * dq + (1 - keep) * lag * ddq
-    dq /= max(1.0, np.abs(dq / dq_limit).max())
-    q[:] = q_before + period * dq
+    dq /= max(1.0, np.abs(dq / limits[FASTEST]).max())
+    return limit_joints(limits, limits[TOLD] + period * dq, measured, period)

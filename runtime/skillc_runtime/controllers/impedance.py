@@ -16,12 +16,22 @@ import numpy as np
 from skillc_runtime.controllers.filters import Lag
 from skillc_runtime.controllers.gains import Gains, Number
 from skillc_runtime.controllers.joint_position import ComputedTorque
-from skillc_runtime.controllers.limits import TorqueLimit
-from skillc_runtime.controllers.nullspace import Nullspace
-from skillc_runtime.controllers.task_error import ACCELERATION, ERROR, MEASURED, TWIST, TaskError, shorten, task_error
+from skillc_runtime.controllers.limits import TorqueLimit, limit_torque
+from skillc_runtime.controllers.nullspace import Nullspace, posture_torque
+from skillc_runtime.controllers.task_error import (
+    ACCELERATION,
+    DAMPING,
+    ERROR,
+    EXERTED,
+    MEASURED,
+    TWIST,
+    TaskError,
+    shorten,
+    task_error,
+)
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
-from skillc_runtime.numerics.compiled import Matrix, OutMatrix, OutVector, Vector, compiled
+from skillc_runtime.numerics.compiled import Matrix, OutMatrix, OutVector, Vector, compiled, part
 from skillc_runtime.numerics.linear import cholesky, cholesky_solve, product, times, transposed_times
 from skillc_runtime.robots.arm import ArmLimits, ArmState, Mode, Torque
 from skillc_runtime.robots.laws import Laws
@@ -89,88 +99,63 @@ class Impedance:
         self._floor = np.repeat([law.damping_floor, law.rotational_damping_floor], 3)
         self._task = TaskError(np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3))
         self._damping = Lag(self._floor, gains.command_time)
-        self._nullspace = Nullspace(law.nullspace_stiffness, joints) if joints > 6 else None
-        self._age, self._tool = INERTIA_PERIOD_S, Pose.of((0, 0, 0))
-        self._inertia, self._mobility = np.zeros((6, 6)), np.zeros((6, 6))
-        self._exerted, self._tau = np.zeros(6), np.zeros(joints)
+        self._posture = Nullspace(law.nullspace_stiffness, joints)
+        self._age, self._inertia, self._seen = INERTIA_PERIOD_S, np.zeros((6, 6)), np.zeros((4, 3))
 
     @property
     def tool(self) -> Pose:
         """The measured tool centre point in base, changing with every command."""
-        return self._tool
+        return Pose(self._seen[0], self._seen[1:])
 
     @property
     def contact_wrench(self) -> Array:
         """An estimate (6,): the opposite of what springs, dampers and push exert; exact at constant speed."""
-        return (self._exerted.reshape(2, 3) @ -self._task.axes.T).ravel()
+        exerted: Array = self._task.rows[EXERTED]
+        return (exerted.reshape(2, 3) @ -self._task.axes.T).ravel()
 
     def reset(self, state: ArmState, q: Array, dq: Array) -> None:
         """Start; `q` becomes the rest posture."""
-        self._see(state)
+        self._seen[0], self._seen[1:] = state.tool.position, state.tool.rotation
         self._age = INERTIA_PERIOD_S
         self._damping.value[:] = self._floor
-        if self._nullspace:
-            self._nullspace.rest[:] = q
+        self._posture.rest[:] = q
 
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Torque:
         """Return the joint torques."""
-        self._see(state)
         self._renew(state, reference, compliance, period)
-        task = self._task
-        impedance_torque(
-            self._tau, self._exerted, task.rows, task.axes, task.held,
-            state.tool.position, state.tool.rotation, state.jacobian, state.dq,
-            reference.pose.position, reference.pose.rotation, reference.twist, reference.acceleration,
-            compliance.stiffness, compliance.wrench, compliance.frame, task.softness,
-            self._damping.value, self._inertia, self._force_n, self._power_w,
+        told, task, posture, limit = np.empty_like(state.q), self._task, self._posture, self._limit
+        posture.manipulability = impedance_torque(
+            told, task.rows, task.axes, self._seen, limit.rows,
+            state.q, state.dq, state.bias, state.jacobian, state.tool.position, state.tool.rotation, reference.rows,
+            compliance.stiffness, compliance.wrench, compliance.frame, self._inertia, self._force_n, self._power_w,
+            posture.rest, posture.stiffness, posture.damping, posture.regularisation, limit.rate * period,
         )  # fmt: skip
-        if self._nullspace:
-            self._tau += self._nullspace.torque(state)
-        return Torque(self._limit.step(self._tau, state, period))
-
-    def _see(self, state: ArmState) -> None:
-        """Keep where the tool is; the state may be the arm's own and turn to nonsense."""
-        self._tool.position[:], self._tool.rotation[:] = state.tool.position, state.tool.rotation
+        return Torque(told)
 
     def _renew(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> None:
-        """Lam_C = (J_C M^-1 J_C^T)^-1; D_i = 2 zeta sqrt(K_i Lam_C,ii), at least the floor; every so often.
-
-        Where Lam_C^-1 D would decay too fast for the period, by its greatest possible eigenvalue, D is less.
-        """
+        """Renew inertia and damping every so often; the damping follows with the command time."""
         self._age += period
         if self._age < INERTIA_PERIOD_S:
             return
-        rotation, mobility = reference.pose.rotation, self._mobility
-        tool_inertia(self._inertia, mobility, state.jacobian, state.mass_matrix, rotation, compliance.frame)
-        damping = 2 * compliance.damping_ratio * np.sqrt(compliance.stiffness * self._inertia.diagonal())
-        added = np.maximum(damping - self._floor, 0.0)
-        D = self._floor + added
-        decay = sqrt(D @ (mobility * mobility) @ D)
-        self._damping.step(self._floor + min(1.0, FASTEST_DECAY / (decay * period)) * added, self._age)
+        wanted, fastest = np.empty(6), FASTEST_DECAY / period
+        design_damping(
+            wanted, self._inertia, state.jacobian, state.mass_matrix, reference.pose.rotation, compliance.frame,
+            compliance.stiffness, self._floor, compliance.damping_ratio, fastest,
+        )  # fmt: skip
+        self._task.rows[DAMPING] = self._damping.step(wanted, self._age)
         self._age = 0.0
 
 
-@compiled
-def impedance_torque(
-    tau: OutVector,
-    exerted: OutVector,
-    rows: OutMatrix,
-    axes: OutMatrix,
-    held: OutVector,
-    tool_position: Vector,
-    tool_rotation: Matrix,
-    J: Matrix,
-    dq: Vector,
-    position: Vector,
-    rotation: Matrix,
-    twist: Vector,
-    acceleration: Vector,
-    stiffness: Vector,
-    wrench: Vector,
-    frame: Matrix,
-    softness: Vector,
-    damping: Vector,
-    inertia: Matrix,
+@part
+def tool_torque(
+    tau: Array,
+    rows: Array,
+    axes: Array,
+    J: Array,
+    dq: Array,
+    stiffness: Array,
+    wrench: Array,
+    inertia: Array,
     force_n: float,
     power_w: float,
 ) -> None:
@@ -179,13 +164,8 @@ def impedance_torque(
     The force of springs and dampers is at most `force_n`. Torques that would move the arm with more than `power_w` are
     scaled down as a whole.
     """
-    velocity, force, in_base = np.empty(6), np.empty(6), np.empty(6)
-    times(J, dq, velocity)
-    task_error(
-        rows, axes, held, tool_position, tool_rotation, position, rotation, twist, acceleration,
-        stiffness, frame, softness, velocity,
-    )  # fmt: skip
-    exerted[:] = -stiffness * rows[ERROR] - damping * (rows[MEASURED] - rows[TWIST])
+    exerted, force, in_base = rows[EXERTED], np.empty(6), np.empty(6)
+    exerted[:] = -stiffness * rows[ERROR] - rows[DAMPING] * (rows[MEASURED] - rows[TWIST])
     shorten(exerted[:3], force_n)
     exerted += wrench
     times(inertia, rows[ACCELERATION], force)
@@ -198,9 +178,50 @@ def impedance_torque(
 
 
 @compiled
-def tool_inertia(
-    inertia: OutMatrix, mobility: OutMatrix, J: Matrix, mass_matrix: Matrix, rotation: Matrix, frame: Matrix
-) -> None:
+def impedance_torque(
+    told: OutVector,
+    rows: OutMatrix,
+    axes: OutMatrix,
+    seen: OutMatrix,
+    limits: OutMatrix,
+    q: Vector,
+    dq: Vector,
+    bias: Vector,
+    J: Matrix,
+    tool_position: Vector,
+    tool_rotation: Matrix,
+    reference: Matrix,
+    stiffness: Vector,
+    wrench: Vector,
+    frame: Matrix,
+    inertia: Matrix,
+    force_n: float,
+    power_w: float,
+    rest: Vector,
+    rest_stiffness: float,
+    rest_damping: float,
+    lam_square: float,
+    longest: float,
+) -> float:
+    """Compute the whole law, told (nv,); keep the tool (4, 3) in `seen`, what is exerted in `rows`.
+
+    Return the manipulability, which only an arm with more than six joints has use for: they have a posture to keep.
+    """
+    seen[0], seen[1:] = tool_position, tool_rotation
+    tau, velocity, manipulability = np.empty(q.size), np.empty(6), np.inf
+    times(J, dq, velocity)
+    task_error(rows, axes, tool_position, tool_rotation, reference, stiffness, frame, velocity)
+    tool_torque(tau, rows, axes, J, dq, stiffness, wrench, inertia, force_n, power_w)
+    if q.size > 6:
+        keeping = np.empty(q.size)
+        manipulability = posture_torque(keeping, q, dq, J, rest, rest_stiffness, rest_damping, lam_square)
+        tau += keeping
+    limit_torque(told, limits, tau, q, bias, longest)
+    return manipulability
+
+
+@part
+def tool_inertia(inertia: Array, mobility: Array, J: Array, mass_matrix: Array, rotation: Array, frame: Array) -> None:
     """mobility (6, 6) = J_C M^-1 J_C^T, inertia its inverse but for the least mobility; C: rotation @ frame."""
     joints = J.shape[1]
     axes, J_C, factor, column = np.empty((3, 3)), np.empty((6, joints)), mass_matrix.copy(), np.empty(joints)
@@ -217,6 +238,31 @@ def tool_inertia(
     cholesky(whole)
     for i in range(6):
         cholesky_solve(whole, unit[i], inertia[i])
+
+
+@compiled
+def design_damping(
+    damping: OutVector,
+    inertia: OutMatrix,
+    J: Matrix,
+    mass_matrix: Matrix,
+    rotation: Matrix,
+    frame: Matrix,
+    stiffness: Vector,
+    floor: Vector,
+    damping_ratio: float,
+    fastest: float,
+) -> None:
+    """Lam_C = (J_C M^-1 J_C^T)^-1; D_i = 2 zeta sqrt(K_i Lam_C,ii), at least the floor.
+
+    Where Lam_C^-1 D would decay faster than `fastest` in 1/s, by its greatest possible eigenvalue, D is less.
+    """
+    mobility, decays = np.empty((6, 6)), np.empty(6)
+    tool_inertia(inertia, mobility, J, mass_matrix, rotation, frame)
+    added = np.maximum(2 * damping_ratio * np.sqrt(stiffness * np.diag(inertia)) - floor, 0.0)
+    whole = floor + added
+    times(mobility * mobility, whole, decays)
+    damping[:] = floor + min(1.0, fastest / sqrt((whole * decays).sum())) * added
 
 
 def damping_rate(state: ArmState, damping: float, rotational_damping: float) -> float:

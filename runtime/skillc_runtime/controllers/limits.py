@@ -6,7 +6,7 @@ import numpy as np
 
 from skillc_runtime.controllers.controller import ControlError
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.numerics.compiled import OutVector, Vector, compiled
+from skillc_runtime.numerics.compiled import OutMatrix, OutVector, Vector, compiled
 from skillc_runtime.robots.arm import ArmLimits, ArmState
 
 RANGE_MARGIN_RAD = 0.05
@@ -15,23 +15,29 @@ RANGE_MARGIN_RAD = 0.05
 GREATEST_LAG_RAD = 0.2
 """A position-controlled arm that lags behind its command by more, over all joints, is stuck."""
 
+RAMP, LOW, HIGH, SPRING, EFFORT = range(5)
+"""Rows of `TorqueLimit.rows`: torque so far, where joints are pushed back from, how hard, and the greatest torque."""
+
+TOLD, SPEED, LEAST, MOST, FASTEST = range(5)
+"""Rows of `JointLimit.rows`: positions and speeds commanded last, and their limits."""
+
 
 class TorqueLimit:
-    """Limits torques in rate, range and effort; since all laws share it, changing between them makes no jump."""
+    """Limits torques in rate, range and effort; since all laws share it, changing between them makes no jump.
+
+    rows (5, nv) is what `limit_torque` knows; `rate` in N m/s holds for torques without bias.
+    """
 
     def __init__(self, limits: ArmLimits, rate: float) -> None:
-        """`rate` in N m/s holds for torques without bias."""
-        self._effort, self._rate = limits.effort.copy(), rate
-        self._low, self._high = limits.range[:, 0] + RANGE_MARGIN_RAD, limits.range[:, 1] - RANGE_MARGIN_RAD
-        self._spring = limits.effort / 4 / RANGE_MARGIN_RAD
-        self._ramp = np.zeros_like(limits.effort)
+        low, high = limits.range[:, 0] + RANGE_MARGIN_RAD, limits.range[:, 1] - RANGE_MARGIN_RAD
+        spring = limits.effort / 4 / RANGE_MARGIN_RAD
+        self.rows: Array = np.array([np.zeros_like(low), low, high, spring, limits.effort])
+        self.rate = rate
 
     def step(self, tau: Array, state: ArmState, period: float) -> Array:
         """Return what to command (nv,) in N m for torques without bias. A new array."""
-        told, longest = np.empty_like(tau), self._rate * period
-        limit_torque(
-            told, self._ramp, tau, state.q, state.bias, self._low, self._high, self._spring, self._effort, longest
-        )
+        told = np.empty_like(tau)
+        limit_torque(told, self.rows, tau, state.q, state.bias, self.rate * period)
         return told
 
 
@@ -39,16 +45,20 @@ class JointLimit:
     """Limits joint positions in range and speed. Laws continue from q and dq (nv,), which were commanded last."""
 
     def __init__(self, limits: ArmLimits, q: Array) -> None:
-        self._low, self._high = limits.range[:, 0].copy(), limits.range[:, 1].copy()
-        self.velocity = limits.velocity.copy()
-        self.q, self.dq = q.copy(), np.zeros_like(q)
+        self.rows: Array = np.array([q, np.zeros_like(q), *limits.range.T, limits.velocity])
+        self.q: Array = self.rows[TOLD]
+        self.dq: Array = self.rows[SPEED]
 
     def step(self, q: Array, state: ArmState, period: float) -> Array:
         """Return what to command (nv,) in rad, a new array.
 
         ControlError when the arm does not follow; it is then commanded to stay where it is.
         """
-        if limit_joints(self.q, self.dq, q, state.q, self._low, self._high, self.velocity, period):
+        return self.followed(limit_joints(self.rows, q, state.q, period), state)
+
+    def followed(self, followed: bool, state: ArmState) -> Array:
+        """Return what `limit_joints` left to command, a new array, if it found the arm to follow; else as `step`."""
+        if followed:
             return self.q.copy()
         lag = np.abs(self.q - state.q).max()
         self.q[:], self.dq[:] = state.q, 0.0
@@ -56,42 +66,23 @@ class JointLimit:
 
 
 @compiled
-def limit_torque(
-    told: OutVector,
-    ramp: OutVector,
-    tau: Vector,
-    q: Vector,
-    bias: Vector,
-    low: Vector,
-    high: Vector,
-    spring: Vector,
-    effort: Vector,
-    longest: float,
-) -> None:
-    """Let `ramp` follow tau by steps of at most `longest`; add the bias and what pushes joints back into range."""
-    ramp += np.minimum(np.maximum(tau - ramp, -longest), longest)
-    back = spring * (np.minimum(np.maximum(q, low), high) - q)
-    told[:] = np.minimum(np.maximum(ramp + back + bias, -effort), effort)
+def limit_torque(told: OutVector, rows: OutMatrix, tau: Vector, q: Vector, bias: Vector, longest: float) -> None:
+    """Let the ramp follow tau by steps of at most `longest`; add the bias and what pushes joints back into range."""
+    rows[RAMP] += np.minimum(np.maximum(tau - rows[RAMP], -longest), longest)
+    back = rows[SPRING] * (np.minimum(np.maximum(q, rows[LOW]), rows[HIGH]) - q)
+    told[:] = np.minimum(np.maximum(rows[RAMP] + back + bias, -rows[EFFORT]), rows[EFFORT])
 
 
 @compiled
-def limit_joints(
-    told: OutVector,
-    dq: OutVector,
-    q: Vector,
-    measured: Vector,
-    low: Vector,
-    high: Vector,
-    velocity: Vector,
-    period: float,
-) -> bool:
-    """Let `told`, with speeds dq, follow q within limits; return False, and do nothing, when the arm is too far."""
+def limit_joints(rows: OutMatrix, q: Vector, measured: Vector, period: float) -> bool:
+    """Let what is told follow q within limits; return False, and do nothing, when the arm is too far."""
+    told = rows[TOLD]
     lag = told - measured
     if (lag * lag).sum() > GREATEST_LAG_RAD * GREATEST_LAG_RAD:
         return False
-    longest = velocity * period
+    longest = rows[FASTEST] * period
     wanted = told + np.minimum(np.maximum(q - told, -longest), longest)
-    inside = np.minimum(np.maximum(wanted, low), high)
-    dq[:] = (inside - told) / period
-    told[:] = inside
+    inside = np.minimum(np.maximum(wanted, rows[LEAST]), rows[MOST])
+    rows[SPEED] = (inside - told) / period
+    rows[TOLD] = inside
     return True

@@ -24,19 +24,18 @@ SINGULAR_BELOW, SINGULAR_REGULARISATION = 5e-3, 1e-2
 
 
 class Nullspace:
-    """Pulls towards `rest` (nv,) with `stiffness` N m/rad, damped as for unit inertia. Arrays are reused."""
+    """Pulls towards `rest` (nv,) with `stiffness` N m/rad, damped as for unit inertia, N m s/rad."""
 
     def __init__(self, stiffness: float, joints: int) -> None:
         self.rest = np.zeros(joints)
         self.manipulability = np.inf
-        self._stiffness, self._damping = stiffness, 2 * sqrt(stiffness)
-        self._tau = np.zeros(joints)
+        self.stiffness, self.damping = stiffness, 2 * sqrt(stiffness)
 
     def torque(self, state: ArmState) -> Array:
         """Return tau_null (nv,) in N m."""
-        tau, lam = self._tau, self.regularisation
+        tau, lam = np.empty_like(self.rest), self.regularisation
         self.manipulability = posture_torque(
-            tau, state.q, state.dq, state.jacobian, self.rest, self._stiffness, self._damping, lam
+            tau, state.q, state.dq, state.jacobian, self.rest, self.stiffness, self.damping, lam
         )
         return tau
 

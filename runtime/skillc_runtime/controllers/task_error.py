@@ -13,51 +13,47 @@ from skillc_runtime.numerics.linear import product, rotation_between
 CLAMP_M, CLAMP_RAD = 0.05, 0.3
 """Greatest error that a spring sees, so that a wrong goal cannot produce an unbounded force."""
 
-ERROR, TWIST, ACCELERATION, MEASURED = 0, 1, 2, 3
-"""Rows of `TaskError.rows`."""
+ERROR, TWIST, ACCELERATION, MEASURED, HELD, SOFTNESS, EXERTED, DAMPING = range(8)
+"""Rows of `TaskError.rows`; the last two are for laws to use."""
 
 
 class TaskError:
-    """What `task_error` computes for an arm whose axes have `stiffness` (6,) when nobody has released them."""
+    """What `task_error` computes for an arm whose axes have `stiffness` (6,) when nobody has released them.
+
+    One block of rows is one argument: what a compiled call costs beside its work grows with their number.
+    """
 
     def __init__(self, stiffness: Array) -> None:
-        self.softness = 10 / stiffness
-        self.axes, self.held, self.rows = np.eye(3), np.zeros(6), np.zeros((4, 6))
+        self.axes, self.rows = np.eye(3), np.zeros((8, 6))
+        self.rows[SOFTNESS] = 10 / stiffness
 
 
 @part
 def task_error(
     rows: Array,
     axes: Array,
-    held: Array,
     tool_position: Array,
     tool_rotation: Array,
-    position: Array,
-    rotation: Array,
-    twist: Array,
-    acceleration: Array,
+    reference: Array,
     stiffness: Array,
     frame: Array,
-    softness: Array,
     measured: Array,
 ) -> None:
-    """Compute error and feed-forward in the compliance frame C from tool pose, reference, compliance and softness.
+    """Compute error and feed-forward in the compliance frame C from tool pose, reference (8, 3) and compliance.
 
-    axes (3, 3): C in base. rows (4, 6): error, tool minus reference, m and rad, clamped in length; twist and
-    acceleration of the reference; `measured`, given in base. held (6,): 1 for a stiff axis, 0 for a released one,
-    between below a tenth of the full stiffness; it scales the first three rows, since a released axis follows no
-    reference.
+    axes (3, 3): C in base. rows: error, tool minus reference, m and rad, clamped in length; twist and acceleration of
+    the reference; `measured`, given in base; what is held: 1 for a stiff axis, 0 for a released one, between below a
+    tenth of the full stiffness. That scales the first three rows, since a released axis follows no reference.
     """
-    held[:] = np.minimum(stiffness * softness, 1.0)
+    rows[HELD] = np.minimum(stiffness * rows[SOFTNESS], 1.0)
+    rotation, in_base = reference[1:4], np.empty((8, 3))
     product(rotation, frame, axes)
-    in_base = np.empty((4, 6))
-    in_base[ERROR, :3] = tool_position - position
-    rotation_between(rotation, tool_rotation, in_base[ERROR, 3:])
-    in_base[TWIST] = twist
-    in_base[ACCELERATION] = acceleration
-    in_base[MEASURED] = measured
-    product(in_base.reshape(8, 3), axes, rows.reshape(8, 3))
-    rows[:3] *= held
+    in_base[0] = tool_position - reference[0]
+    rotation_between(rotation, tool_rotation, in_base[1])
+    in_base[2:6] = reference[4:]
+    in_base[6], in_base[7] = measured[:3], measured[3:]
+    product(in_base, axes, rows[:4].reshape(8, 3))
+    rows[:3] *= rows[HELD]
     shorten(rows[ERROR, :3], CLAMP_M)
     shorten(rows[ERROR, 3:], CLAMP_RAD)
 

@@ -9,7 +9,7 @@ from skillc_runtime.motion.overlays import Faded
 from skillc_runtime.motion.pose import Array, Pose, exp, skew
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory, at_rest
 from skillc_runtime.motion.tempo import Tempo
-from skillc_runtime.numerics.compiled import Matrix, OutVector, compiled
+from skillc_runtime.numerics.compiled import Matrix, OutMatrix, compiled
 from skillc_runtime.numerics.linear import product
 
 TURN_DECELERATION = 2.0
@@ -129,7 +129,7 @@ class Guide:
             motion = self._braking(motion, time)
         if rate == 1.0:
             return motion
-        return Reference(motion.pose, rate * motion.twist, rate * rate * motion.acceleration + slope * motion.twist)
+        return Reference.of(motion.pose, rate * motion.twist, rate * rate * motion.acceleration + slope * motion.twist)
 
     def _braking(self, motion: Reference, time: float) -> Reference:
         """Add what is left of the motion before: r = offset + r_b, R = E R_b."""
@@ -138,7 +138,7 @@ class Guide:
         E = exp(turn)
         turning = E @ motion.twist[3:]
         angular = change + E @ motion.acceleration[3:] + skew(spin) @ turning
-        return Reference(
+        return Reference.of(
             Pose(motion.pose.position + offset, E @ motion.pose.rotation),
             np.concatenate([motion.twist[:3] + velocity, turning + spin]),
             np.concatenate([motion.acceleration[:3] + acceleration, angular]),
@@ -147,28 +147,22 @@ class Guide:
     def _overlaid(self, motion: Reference, now: float) -> Reference:
         """Add the overlays."""
         time, rate, slope = self._beat.at(now)
-        pose = Pose(motion.pose.position.copy(), motion.pose.rotation)
-        overlaid = Reference(pose, motion.twist.copy(), motion.acceleration.copy())
+        rows = motion.rows.copy()
         for faded, axes in self._overlays.values():
-            add_overlay(pose.position, overlaid.twist, overlaid.acceleration, faded.at(time), axes, rate, slope)
+            add_overlay(rows, faded.at(time), axes, rate, slope)
         if any(faded.gone(time) for faded, _ in self._overlays.values()):
             self._overlays = {h: entry for h, entry in self._overlays.items() if not entry[0].gone(time)}
-        return overlaid
+        return Reference(rows)
 
 
 @compiled
-def add_overlay(
-    position: OutVector,
-    twist: OutVector,
-    acceleration: OutVector,
-    motion: Matrix,
-    axes: Matrix,
-    rate: float,
-    slope: float,
-) -> None:
-    """Add an overlay's motion (3, 3) along `axes` (3, 3); the chain rule turns its time, of `rate`, into time."""
+def add_overlay(rows: OutMatrix, motion: Matrix, axes: Matrix, rate: float, slope: float) -> None:
+    """Add an overlay's motion (3, 3) along `axes` (3, 3) to a reference's rows (8, 3).
+
+    The chain rule turns its time, of `rate`, into time.
+    """
     added = np.empty((3, 3))
     product(motion, axes.T, added)
-    position += added[0]
-    twist[:3] += rate * added[1]
-    acceleration[:3] += slope * added[1] + rate * rate * added[2]
+    rows[0] += added[0]
+    rows[4] += rate * added[1]
+    rows[6] += slope * added[1] + rate * rate * added[2]

@@ -19,7 +19,7 @@ from skillc_runtime.motion.piece import COLUMNS, motion_at
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Reference, at_rest
 from skillc_runtime.motion.segments import MotionLimits, Segment, segment
-from skillc_runtime.numerics.compiled import Matrix, OutMatrix, OutVector, compiled, part
+from skillc_runtime.numerics.compiled import Matrix, OutMatrix, compiled, part
 from skillc_runtime.numerics.linear import cross, product, rotation_by, times
 
 START, END = COLUMNS, COLUMNS + 1
@@ -55,9 +55,9 @@ class Path:
         """Return the reference at `time` s, in the frame of the poses."""
         if not self.segments:
             return at_rest(self.corners[0])
-        position, rotation, (twist, acceleration) = np.empty(3), np.empty((3, 3)), np.empty((2, 6))
-        path_at(position, rotation, twist, acceleration, self.table, time)
-        return Reference(Pose(position, rotation), twist, acceleration)
+        rows = np.empty((8, 3))
+        path_at(rows, self.table, time)
+        return Reference(rows)
 
     def moved(self, frame: Pose) -> Path:
         """Return the same motion, given in `frame`, in the frame's parent."""
@@ -98,10 +98,9 @@ def _add(motion: Array, before: Array) -> None:
 
 
 @compiled
-def path_at(
-    position: OutVector, rotation: OutMatrix, twist: OutVector, acceleration: OutVector, table: Matrix, time: float
-) -> None:
-    """Compute the reference at `time` s from the `table` of a path."""
+def path_at(rows: OutMatrix, table: Matrix, time: float) -> None:
+    """Compute the rows of the reference at `time` s from the `table` of a path."""
+    position, rotation = rows[0], rows[1:4]
     last = max(int(np.searchsorted(table[:, START], time, side="right")) - 1, 0)
     motion = np.empty((3, 6))
     motion_at(motion, table[last, :COLUMNS], time - table[last, START])
@@ -114,8 +113,7 @@ def path_at(
     else:
         _start_from(position, rotation, table[last])
     _move(position, rotation, motion[0])
-    twist[:] = motion[1]
-    acceleration[:] = motion[2]
+    rows[4:] = motion[1:].reshape(4, 3)
 
 
 def path(poses: Sequence[Pose], limits: MotionLimits, blend_m: float = 0.0) -> Path:

@@ -9,29 +9,54 @@ import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
 
+POSITION, ROTATION, TWIST, ACCELERATION = slice(0, 1), slice(1, 4), slice(4, 6), slice(6, 8)
+"""Rows of `Reference.rows`."""
+
 
 @dataclass(frozen=True, slots=True)
 class Reference:
     """Where the tool centre point shall be and how it shall move; pose, twist and acceleration in one stated frame.
 
-    twist (6,): [linear m/s, angular rad/s]; acceleration (6,): [m/s^2, rad/s^2]; both along the axes of
-    the pose's parent frame.
+    rows (8, 3): all of it, one argument for compiled functions. Both motions are along the axes of the pose's parent
+    frame.
     """
 
-    pose: Pose
-    twist: Array
-    acceleration: Array
+    rows: Array
+
+    @staticmethod
+    def of(pose: Pose, twist: Array, acceleration: Array) -> Reference:
+        """Return the reference of a pose, a twist (6,) and an acceleration (6,)."""
+        rows = np.empty((8, 3))
+        rows[POSITION], rows[ROTATION] = pose.position, pose.rotation
+        rows[TWIST], rows[ACCELERATION] = twist.reshape(2, 3), acceleration.reshape(2, 3)
+        return Reference(rows)
+
+    @property
+    def pose(self) -> Pose:
+        """Where the tool shall be."""
+        return Pose(self.rows[0], self.rows[ROTATION])
+
+    @property
+    def twist(self) -> Array:
+        """Its velocity (6,): [linear m/s, angular rad/s]."""
+        return self.rows[TWIST].ravel()
+
+    @property
+    def acceleration(self) -> Array:
+        """Its acceleration (6,): [linear m/s^2, angular rad/s^2]."""
+        return self.rows[ACCELERATION].ravel()
 
     def moved(self, frame: Pose) -> Reference:
         """Return the same, given in `frame`, in the frame's parent; `frame` itself rests."""
-        R = frame.rotation.T
-        turned = [(vector.reshape(2, 3) @ R).ravel() for vector in (self.twist, self.acceleration)]
-        return Reference(frame @ self.pose, *turned)
+        rows = self.rows @ frame.rotation.T
+        rows[POSITION] += frame.position
+        rows[ROTATION] = frame.rotation @ self.rows[ROTATION]
+        return Reference(rows)
 
 
 def at_rest(pose: Pose) -> Reference:
     """Return the reference that holds a pose."""
-    return Reference(pose, np.zeros(6), np.zeros(6))
+    return Reference.of(pose, np.zeros(6), np.zeros(6))
 
 
 @dataclass(frozen=True, slots=True)

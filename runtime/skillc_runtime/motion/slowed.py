@@ -23,7 +23,7 @@ class Slowed:
     def at(self, time: float) -> Reference:
         """Return the reference `time` s after the start."""
         fast = self.trajectory.at(time / self.factor)
-        return Reference(fast.pose, fast.twist / self.factor, fast.acceleration / self.factor**2)
+        return Reference.of(fast.pose, fast.twist / self.factor, fast.acceleration / self.factor**2)
 
     def moved(self, frame: Pose) -> Slowed:
         """Return the same motion, given in `frame`, in the frame's parent."""

@@ -78,7 +78,7 @@ class ArmTask(Measured):
             return self._tool.reference.moved(self._base())
         reference = self._joints.sample(self._now)
         tool, jacobian = self._reach.tool_at(reference.q, self._state)
-        return Reference(tool, jacobian @ reference.dq, jacobian @ reference.ddq).moved(self._base())
+        return Reference.of(tool, jacobian @ reference.dq, jacobian @ reference.ddq).moved(self._base())
 
     @property
     def path(self) -> Reference:

@@ -61,7 +61,7 @@ class ArmDriver(ArmTask):
             self._take_in(state)
             if (breach := self._guard.breach(state, self.period)) is not None:
                 self.hold_still(breach)
-            self._guard.command(self._decide(state))
+            self._guard.command(self._decide(state), self.period)
         except ControlError as fault:
             self.broken = str(fault)
             raise

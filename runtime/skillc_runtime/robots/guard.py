@@ -11,7 +11,7 @@ import numpy as np
 
 from skillc_runtime.controllers.controller import ControlError
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.numerics.compiled import Vector, compiled
+from skillc_runtime.numerics.compiled import OutVector, Vector, compiled
 from skillc_runtime.robots.arm import Arm, ArmState, Command, JointPosition, Torque
 from skillc_runtime.robots.safety import Safety, SafetyLimits
 
@@ -35,16 +35,15 @@ class Guard:
 
     def check(self, state: ArmState) -> None:
         """Take in what the arm measures. ControlError when some of it is not a number; the arm is told to hold."""
-        if not are_numbers(state.q, state.dq, state.wrench, state.tool.position):
+        if not take_over(self._holding, self._rest(state), state.q, state.dq, state.wrench, state.tool.position):
             self._give_up("the arm reports something that is not a number")
-        self._holding[:] = self._rest(state)
 
-    def command(self, command: Command) -> None:
-        """Tell the arm. ControlError when the command is not all numbers; the arm is told to hold instead."""
+    def command(self, command: Command, period: float) -> None:
+        """Tell the arm for the next `period` s. ControlError when not all is numbers; it is told to hold instead."""
         told = command.tau if isinstance(command, Torque) else command.q
         if not sum_of_squares(told) < np.inf:
             self._give_up("the control law does not yield a number")
-        self._safety.told(command)
+        self._safety.told(command, self._holding, period)
         self._arm.command(command)
 
     def breach(self, state: ArmState, period: float) -> str | None:
@@ -65,6 +64,12 @@ class Guard:
 
 
 @compiled
-def are_numbers(q: Vector, dq: Vector, wrench: Vector, position: Vector) -> bool:
-    """Tell whether all of it is finite: whatever is not makes its sum of squares infinite or no number."""
-    return sum_of_squares(q) + sum_of_squares(dq) + sum_of_squares(wrench) + sum_of_squares(position) < np.inf
+def take_over(holding: OutVector, rest: Vector, q: Vector, dq: Vector, wrench: Vector, position: Vector) -> bool:
+    """Hold what is `rest` (nv,) from now on, if all of the others is finite; else return False.
+
+    Whatever is not makes its sum of squares infinite or no number.
+    """
+    finite = sum_of_squares(q) + sum_of_squares(dq) + sum_of_squares(wrench) + sum_of_squares(position) < np.inf
+    if finite:
+        holding[:] = rest
+    return bool(finite)

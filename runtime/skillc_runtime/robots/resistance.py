@@ -30,17 +30,16 @@ class Resistance:
 
     def __init__(self, state: ArmState) -> None:
         joints = state.q.size
-        self._tau, self._bias, self._impulse = state.bias.copy(), state.bias.copy(), np.zeros(joints)
-        self._dq, self._torque, self._wrench = state.dq.copy(), np.zeros(joints), np.zeros(6)
+        self._dq, self._impulse, self._torque = state.dq.copy(), np.zeros(joints), np.zeros(joints)
+        self._wrench = np.zeros(6)
         self._elapsed = 0.0
 
-    def told(self, tau: Array) -> None:
-        """Take in the joint torques (nv,) in N m, bias included, that hold for the next period."""
-        self._tau[:] = tau
+    def told(self, tau: Array, bias: Array, period: float) -> None:
+        """Take in the joint torques (nv,) in N m, bias included, that hold for the next `period` s, and the bias."""
+        gather(self._impulse, tau, bias, period)
 
     def step(self, state: ArmState, period: float) -> None:
         """Take in what was measured at the end of a period of `period` s."""
-        gather(self._impulse, self._bias, self._tau, state.bias, period)
         self._elapsed += period
         if self._elapsed > WINDOW_S - period / 2:
             share = 1 - exp(-self._elapsed / LAG_S)
@@ -54,10 +53,9 @@ class Resistance:
 
 
 @compiled
-def gather(impulse: OutVector, bias: OutVector, tau: Vector, bias_now: Vector, period: float) -> None:
-    """Add to the impulse (nv,) what tau gave beside the bias of the period's start; take the bias of its end."""
+def gather(impulse: OutVector, tau: Vector, bias: Vector, period: float) -> None:
+    """Add to the impulse (nv,) what tau gives beside the bias of the period's start."""
     impulse += (tau - bias) * period
-    bias[:] = bias_now
 
 
 @compiled

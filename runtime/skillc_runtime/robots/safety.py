@@ -50,10 +50,10 @@ class Safety:
         self._resistance = Resistance(state) if torque else None
         self._age, self._breached = 0.0, False
 
-    def told(self, command: Command) -> None:
-        """Take in what the arm is told for the next period."""
+    def told(self, command: Command, bias: Array, period: float) -> None:
+        """Take in what the arm is told for the next `period` s, and its bias (nv,) in N m."""
         if self._resistance is not None and isinstance(command, Torque):
-            self._resistance.told(command.tau)
+            self._resistance.told(command.tau, bias, period)
 
     def breach(self, state: ArmState, period: float) -> str | None:
         """Return which limit is broken, once per breach; to be called every control period."""

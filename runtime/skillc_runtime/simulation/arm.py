@@ -21,7 +21,7 @@ from skillc_runtime.robots.arm import (
 )
 from skillc_runtime.simulation import noise
 from skillc_runtime.simulation.facts import ArmFacts
-from skillc_runtime.simulation.hand import Hand, load_mass, measure
+from skillc_runtime.simulation.hand import BIAS, CARRYING, SPEED, Hand, Q, load_mass, measure
 from skillc_runtime.simulation.names import part
 from skillc_runtime.simulation.variation import Variation
 from skillc_runtime.simulation.wrist import Wrist
@@ -83,16 +83,18 @@ class SimulatedArm:
         self._motion_axes = data.cdof[self._dofs]
         self._centre = data.subtree_com[model.body_rootid[self._link]]
         self._hand = Hand()
-        self._here = _blank(count, self._hand.tool)
+        self._joints = np.zeros((4, count))
+        self._here = _blank(self._joints, self._hand.tool)
         self._state = _read_only(self._here)
-        self._wrench_halves = self._here.wrench.reshape(2, 3)
         self._full_mass, self._next_mass_time = np.zeros((model.nv, model.nv)), 0.0
-        self._weight, self._carrying, self._quiet = np.zeros(3), np.zeros(count), np.zeros(count)
+        self._weight, self._carrying, self._quiet = np.zeros(3), self._joints[CARRYING], np.zeros(count)
         self._flange = _in_body(model.site(part(name, "flange")))
         self._wrist = _wrist(facts, gripper, model, data, reality.seed)
+        self._gain = np.zeros((6, 9)) if self._wrist is None else self._wrist.gain
+        self._readings = np.zeros(9) if self._wrist is None else self._wrist.readings
         self._speed_noise = noise.of_joints(facts, reality.seed)
         self._configure(NO_PAYLOAD, self.fixed_tool)
-        self._increment, self._steps_left, self._steps_per_command = np.zeros(count), 0, steps_per_command
+        self._target, self._steps_left, self._steps_per_command = np.zeros(count), 0, steps_per_command
         self._held = np.zeros(count)
         self._unheard, self._patience = 0, round(SILENCE_S / model.opt.timestep)
         self._q[:] = start = reality.start(facts)
@@ -123,26 +125,23 @@ class SimulatedArm:
         """Return the present state, in the arm's base frame."""
         hand, here, noise = self._hand, self._here, self._speed_noise
         measure(
-            here.q, here.dq, here.bias, hand.in_base, here.jacobian, self._carrying,
+            self._joints, hand.in_base, here.jacobian, here.wrench,
             self._q, self._dq, self._bias, self._quiet if noise is None else noise.row(),
             hand.on_link, self._motion_axes, self._centre, self._link_position, self._link_rotation,
-            self._base_position, self._base_rotation, self._weight,
+            self._base_position, self._base_rotation, self._weight, self._gain, self._readings,
         )  # fmt: skip
         if self._data.time >= self._next_mass_time:
             self._update_mass_matrix()
-        if self._wrist is not None:
-            self._wrist.external(hand.wrist_axes, self._wrench_halves)
         return self._state
 
     def command(self, command: Command) -> None:
         """Take a command for the next step; TypeError for a kind the interface does not take."""
         self._unheard = 0
-        match command, self._interface:
-            case Torque(tau=tau), "torque":
+        match command:
+            case Torque(tau=tau) if self._interface == "torque":
                 self._control[:] = tau
-            case JointPosition(q=q), "position":
-                self._increment = (q - self._control) / self._steps_per_command
-                self._steps_left = self._steps_per_command
+            case JointPosition(q=q) if self._interface == "position":
+                self._target[:], self._steps_left = q, self._steps_per_command
             case _:
                 raise TypeError(f"a {self._interface} controlled arm takes no {type(command).__name__}")
 
@@ -156,8 +155,15 @@ class SimulatedArm:
         elif self._interface == "position":
             self._feedforward[:] = self._here.bias
             if self._steps_left > 0:
-                self._control += self._increment
-                self._steps_left -= 1
+                self._approach()
+
+    def _approach(self) -> None:
+        """Move the servos' targets so that they arrive with the last step of the control period."""
+        if self._steps_left == 1:
+            self._control[:] = self._target
+        else:
+            self._control += (self._target - self._control) / self._steps_left
+        self._steps_left -= 1
 
     def _brake(self) -> None:
         """Hold still without commands: carried by torques and braked at each joint, or with servos that stay."""
@@ -200,9 +206,11 @@ class SimulatedArm:
         self._next_mass_time = self._data.time + MASS_MATRIX_PERIOD_S - 1e-9
 
 
-def _blank(joints: int, tool: Pose) -> ArmState:
-    q, dq, bias = (np.zeros(joints) for _ in range(3))
-    return ArmState(q, dq, tool, np.zeros((6, joints)), np.zeros((joints, joints)), bias, np.zeros(6))
+def _blank(joints: Array, tool: Pose) -> ArmState:
+    """Return a state of which q, dq and bias are rows of `joints`."""
+    count = joints.shape[1]
+    jacobian, mass = np.zeros((6, count)), np.zeros((count, count))
+    return ArmState(joints[Q], joints[SPEED], tool, jacobian, mass, joints[BIAS], np.zeros(6))
 
 
 def _read_only(state: ArmState) -> ArmState:

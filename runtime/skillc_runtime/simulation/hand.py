@@ -6,7 +6,7 @@ import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.numerics.compiled import Matrix, OutMatrix, OutVector, Vector, compiled
-from skillc_runtime.numerics.linear import cross, product, transposed_times
+from skillc_runtime.numerics.linear import cross, product, times, transposed_times
 
 TOOL = 6
 """The row of the tool centre point."""
@@ -14,19 +14,21 @@ TOOL = 6
 LEVER = 7
 """The row of what leads from there to the payload's centre of mass."""
 
+Q, SPEED, BIAS, CARRYING = range(4)
+"""Rows of what is measured at the joints; the last are the torques that carry a payload."""
+
 
 class Hand:
     """Tool centre point, wrist axes and payload of an arm; all arrays are reused.
 
-    tool: the tool centre point; wrist_axes (3, 3): one axis a row; lever (3,): from the tool centre point to the
-    payload's centre of mass; all in the arm's base frame, as of the last call of `see_hand` with `on_link` and
-    `in_base`, which hold all of it, one vector a row.
+    tool: the tool centre point; lever (3,): from there to the payload's centre of mass; in the arm's base frame, as of
+    the last call of `see_hand`. `on_link` and `in_base` hold all of it, and the wrist's axes, one vector a row.
     """
 
     def __init__(self) -> None:
         self.on_link, self.in_base = np.zeros((8, 3)), np.zeros((8, 3))
         self.tool = Pose(self.in_base[TOOL], self.in_base[:3].T)
-        self.wrist_axes, self.lever = self.in_base[3:6], self.in_base[LEVER]
+        self.lever = self.in_base[LEVER]
 
     def hold(self, tool: Pose, wrist: Array, payload: Array) -> None:
         """Take the tool centre point, the wrist's axes (3, 3) and the payload's centre (3,), in the link's frame."""
@@ -77,13 +79,19 @@ def carry(
 
 
 @compiled
+def external_wrench(wrench: OutVector, gain: Matrix, readings: Vector, axes: Matrix) -> None:
+    """wrench (6,) = gain (6, 9) readings (9,), its halves along `axes` (3, 3), one a row."""
+    at_wrist = np.empty(6)
+    times(gain, readings, at_wrist)
+    product(at_wrist.reshape(2, 3), axes, wrench.reshape(2, 3))
+
+
+@compiled
 def measure(
-    q: OutVector,
-    dq: OutVector,
-    bias: OutVector,
+    joints: OutMatrix,
     in_base: OutMatrix,
     J: OutMatrix,
-    carrying: OutVector,
+    wrench: OutVector,
     true_q: Vector,
     true_dq: Vector,
     own_bias: Vector,
@@ -96,15 +104,19 @@ def measure(
     base_position: Vector,
     base_rotation: Matrix,
     weight: Vector,
+    gain: Matrix,
+    readings: Vector,
 ) -> None:
-    """Compute what an arm measures: joints, speeds with their noise, bias with that of a payload, hand and Jacobian."""
+    """Compute what an arm measures: hand and Jacobian; speeds with their noise, bias with that of a payload; wrench.
+
+    joints (4, nv); gain (6, 9) and readings (9,): of the sensor at the wrist, see there.
+    """
     see_hand(
         in_base, J, on_link, motion_axes, centre, link_position, link_rotation, base_position, base_rotation
     )  # fmt: skip
-    q[:] = true_q
-    dq[:] = true_dq + noise
-    bias[:] = own_bias
-    carry(bias, carrying, weight, base_rotation, in_base[LEVER], J)
+    joints[Q], joints[SPEED], joints[BIAS] = true_q, true_dq + noise, own_bias
+    carry(joints[BIAS], joints[CARRYING], weight, base_rotation, in_base[LEVER], J)
+    external_wrench(wrench, gain, readings, in_base[3:6])
 
 
 @compiled

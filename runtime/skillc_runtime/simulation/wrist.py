@@ -9,8 +9,7 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose, skew
-from skillc_runtime.numerics.compiled import Matrix, OutMatrix, Vector, compiled
-from skillc_runtime.numerics.linear import product, times
+from skillc_runtime.numerics.compiled import OutVector, Vector, compiled
 from skillc_runtime.simulation.names import part, wrist_sensor
 from skillc_runtime.simulation.noise import Noise
 
@@ -21,7 +20,10 @@ class Wrist:
     MuJoCo reports what the parent does to the child: a hanging child of 2 kg reads +20 N upwards. An accelerometer
     beside the sensor reads s = a - g. With masses m at c, relative to the sensor: f_ext = m s - f_S,
     t_ext = c x m s - t_S, at the tool centre point p: t_ext - p x f_ext. So weight and inertia are removed at once,
-    but for the inertia of turning. All of it is one constant matrix until something is grasped: w = G [f; t; s].
+    but for the inertia of turning. All of it is one constant matrix until something is grasped: w = G [f; t; s], along
+    the sensor's axes.
+
+    gain (6, 9): G; readings (9,): [f; t; s], low-passed, zeros before any sample.
     """
 
     def __init__(self, model: Any, data: Any, gripper: str, time_constant_s: float, noise: Noise | None = None) -> None:
@@ -29,10 +31,10 @@ class Wrist:
         first = model.sensor(wrist_sensor(gripper, "force")).adr[0]
         self._raw = data.sensordata[first : first + 9]
         self._share = 1.0 - math.exp(-model.opt.timestep / time_constant_s) if time_constant_s > 0 else 1.0
-        self._filtered, self._started = np.zeros(9), False
+        self.readings, self._started = np.zeros(9), False
         self._noise = noise
         self._hand_mass, self._hand_centre = _hand(model, part(gripper, "palm"))
-        self._gain, self._change = np.zeros((6, 9)), np.zeros(9)
+        self.gain, self._quiet = np.zeros((6, 9)), np.zeros(9)
 
     def configure(self, tool: Pose, payload_kg: float, payload_centre: Array) -> None:
         """Take a tool centre point and a payload with its centre of mass (3,) m, both in the sensor's frame."""
@@ -41,33 +43,21 @@ class Wrist:
         at_sensor = np.hstack([-np.eye(6), np.vstack([mass * np.eye(3), moment])])
         to_tool = np.eye(6)
         to_tool[3:, :3] = -skew(tool.position)
-        self._gain = to_tool @ at_sensor
+        self.gain[:] = to_tool @ at_sensor
 
     def sample(self) -> None:
         """Take in the reading of one simulation step; the first one fills the filter."""
         if self._started:
-            np.subtract(self._raw, self._filtered, out=self._change)
-            if self._noise is not None:
-                self._change += self._noise.row()
-            self._change *= self._share
-            self._filtered += self._change
+            noise = self._quiet if self._noise is None else self._noise.row()
+            low_pass(self.readings, self._raw, noise, self._share)
         else:
-            self._filtered[:], self._started = self._raw, True
-
-    def external(self, axes: Array, out: Array) -> None:
-        """Write what the environment does to the tool centre point, N and N m; zeros before any sample.
-
-        axes (3, 3): the sensor's axes, a row each, in the frame of the wrench. out (2, 3): [force; moment].
-        """
-        external_wrench(out, self._gain, self._filtered, axes)
+            self.readings[:], self._started = self._raw, True
 
 
 @compiled
-def external_wrench(out: OutMatrix, gain: Matrix, readings: Vector, axes: Matrix) -> None:
-    """out (2, 3) = (gain (6, 9) readings (9,)) along `axes` (3, 3), one a row."""
-    wrench = np.empty(6)
-    times(gain, readings, wrench)
-    product(wrench.reshape(2, 3), axes, out)
+def low_pass(readings: OutVector, raw: Vector, noise: Vector, share: float) -> None:
+    """Let the readings (9,) go a share of the way to the noisy raw ones."""
+    readings += share * (raw + noise - readings)
 
 
 def _hand(model: Any, palm: str) -> tuple[float, Array]:
