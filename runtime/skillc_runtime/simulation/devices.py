@@ -100,7 +100,8 @@ def _check_face(model: Any, name: str, tool: ToolFacts) -> None:
 def _set_foundation(model: Any, tool: ToolFacts, stiffness: float) -> None:
     """Set the springs under the working face, an elastic foundation: K_z = k, K_rx = k b^2/12, K_ry = k a^2/12.
 
-    a, b: extent of the face along x and y; the dampers follow in the same way.
+    a, b: extent of the face along x and y; the dampers follow in the same way. A face whose model has joints for it
+    gives way along itself as well, as much as it does when pressed: K_x = K_y = k.
     """
     damping = tool.sheet.number("padDamping")
     a, b = tool.size[:2]
@@ -109,6 +110,8 @@ def _set_foundation(model: Any, tool: ToolFacts, stiffness: float) -> None:
         if found is None:
             raise SheetError(f"the model {tool.model.name} has no joint `{joint}` under its working face")
         found.stiffness[0], found.damping[0] = stiffness * lever, damping * lever
+    for joint in filter(None, map(model.joint, ("shear_x", "shear_y"))):
+        joint.stiffness[0], joint.damping[0] = stiffness, damping
 
 
 def _add_face_sensors(spec: Any, name: str) -> None:
