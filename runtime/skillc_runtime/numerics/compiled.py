@@ -1,6 +1,7 @@
 """Compiles functions over arrays where numba is installed (the extra `fast`); elsewhere they run as they are.
 
-The machine code is kept in the user's cache folder, named after the sources it was made of.
+Each is compiled when it is first called, or when another that calls it is compiled. The machine code is kept in the
+user's cache folder, named after the sources it was made of.
 """
 
 from __future__ import annotations
@@ -8,7 +9,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from functools import cache
 from hashlib import sha256
 from importlib import import_module
@@ -40,13 +41,25 @@ def compiled(function: Callable[Parameters, Result]) -> Callable[Parameters, Res
     """
     if not COMPILES:
         return function
-    with _kept() as numba:
+    made: Any = import_module("numba").njit(error_model="numpy")(function)
+    compile_for = made.compile
+
+    def compile_once(_first_call: object) -> object:
+        """Compile for the annotated types, whatever those of the first call, and for no others."""
         types = get_annotations(function, eval_str=True)
         returns = _type(types.pop("return"))
-        made: Callable[Parameters, Result] = numba.njit(
-            returns(*map(_type, types.values())), cache=numba.config.CACHE_DIR != "", error_model="numpy"
-        )(function)
-    return made
+        with _lock(), _kept() as kept:
+            if made.overloads:
+                return made.overloads[tuple(map(_type, types.values()))].entry_point
+            if kept:
+                made.enable_caching()
+            machine_code = compile_for(returns(*map(_type, types.values())))
+            made.disable_compile()
+        return machine_code
+
+    made.compile = compile_once
+    lazy: Callable[Parameters, Result] = made
+    return lazy
 
 
 def part(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
@@ -68,16 +81,22 @@ def _type(annotation: Any) -> Any:
     return types.Array(types.float64, dimensions, *(("A", True) if access == "read" else ("C", False)))
 
 
+def _lock() -> AbstractContextManager[object]:
+    """Return what numba holds while it compiles, so that threads never wait for each other in turn."""
+    lock: AbstractContextManager[object] = import_module("numba.core.compiler_lock").global_compiler_lock
+    return lock
+
+
 @contextmanager
-def _kept() -> Iterator[Any]:
-    """Give numba with its cache in our folder; its own setting is put back afterwards."""
-    numba: Any = import_module("numba")
-    before = numba.config.CACHE_DIR
-    numba.config.CACHE_DIR = _folder()
+def _kept() -> Iterator[bool]:
+    """Let numba keep what it compiles in our folder, if there is one; its own setting is put back afterwards."""
+    config: Any = import_module("numba").config
+    before = config.CACHE_DIR
+    config.CACHE_DIR = _folder()
     try:
-        yield numba
+        yield config.CACHE_DIR != ""
     finally:
-        numba.config.CACHE_DIR = before
+        config.CACHE_DIR = before
 
 
 @cache
