@@ -1,6 +1,6 @@
 """What is proved of random bodies is never contradicted by the engine that runs them.
 
-50 libraries by default; `PROOF_EXAMPLES` in the environment makes it more.
+25 libraries by default; `PROOF_EXAMPLES` in the environment makes it more.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from skillc_runtime.tree.run import Run
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.state import WorldState
 
-EXAMPLES = int(os.environ.get("PROOF_EXAMPLES", "50"))
+EXAMPLES = int(os.environ.get("PROOF_EXAMPLES", "25"))
 RUNS, TICKS = 6, 60
 
 

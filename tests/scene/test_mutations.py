@@ -14,7 +14,7 @@ from skillc_runtime.commands import _library
 from skillc_runtime.world.documents import Document
 from skillc_runtime.world.scene import scene_of
 
-SEEDS = int(os.environ.get("SCENE_SEEDS", "12"))
+SEEDS = int(os.environ.get("SCENE_SEEDS", "6"))
 SHEETS = tuple(Document(name, text) for name, text in catalogue.vocabulary_files())
 
 

@@ -15,7 +15,7 @@ from skillc_compiler.turtle.problems import Edit, Place
 from skillc_compiler.turtle.statements import Parsed
 from skillc_ontology import catalogue
 
-SEEDS = int(os.environ.get("TURTLE_SEEDS", "60"))
+SEEDS = int(os.environ.get("TURTLE_SEEDS", "30"))
 FILES = [("everything", EVERYTHING), *catalogue.vocabulary_files()]
 FILES += [(name, catalogue.scene(name).read_text("utf-8")) for name in catalogue.scenes()]
 CHARACTERS = ".;,[]()<>\"'\\@^_:#a1 \n%{}|`\x00\x7fé\u2028"

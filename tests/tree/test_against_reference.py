@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 from hypothesis import HealthCheck, event, given, settings
 
 from skillc_runtime.primitives.primitive import Status
@@ -13,10 +15,14 @@ from tree.stage import FLAGS, ON, PERIOD_S, Stage, world
 from tree.strategies import Play, plays
 
 TICKS = 40
+EXAMPLES = int(os.environ.get("SKILLC_TREES", "100"))
+"""How many random trees run; thousands on occasion."""
 
 
 @given(plays())
-@settings(max_examples=250, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
+@settings(
+    max_examples=EXAMPLES, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large]
+)
 def test_the_engine_agrees_with_the_reference(play: Play) -> None:
     statuses, log, failure = by_reference(play)
     stage = Stage(world(), play.scripts)

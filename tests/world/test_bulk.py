@@ -24,7 +24,7 @@ from world.lab import NS, VOCABULARY, fact, individual, iri
 from world.sameness import everything
 from world.test_state import CLASSES, NAMES, additions, vocabularies
 
-SEEDS = int(os.environ.get("SCENE_SEEDS", "10"))
+SEEDS = int(os.environ.get("SCENE_SEEDS", "5"))
 SHEETS = tuple(Document(name, text) for name, text in catalogue.vocabulary_files())
 SCENES = catalogue.scenes()
 
