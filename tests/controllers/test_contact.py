@@ -2,7 +2,7 @@
 
 import pytest
 
-from skillc_runtime.robots.contact import Approach, advance
+from skillc_runtime.robots.contact import Approach, Pressed, advance, go_on
 
 COURSES = {
     # name: (speed and force at each ms, what is known at the end)
@@ -43,3 +43,23 @@ def test_it_takes_as_long_at_every_rate():
         while approach.outcome == "approaching":
             approach, time = advance(approach, 0.0, 0.0, period), time + period
         assert time == pytest.approx(0.02, abs=period)
+
+
+PRESSED = {
+    # name: (speed at each ms, whether it falls in the end)
+    "rests": ([0.0] * 500, False),
+    "goes along a slope": ([0.012] * 500, False),
+    "presses in a spring": ([0.09] * 40, False),
+    "falls": ([0.002 * i for i in range(70)], True),
+    "is pushed for an instant": ([0.3] * 9 + [0.0], False),
+    "is lifted": ([-0.3] * 100, False),
+}
+
+
+@pytest.mark.parametrize("name", PRESSED)
+def test_a_pressed_tool(name):
+    speeds, falling = PRESSED[name]
+    pressed = Pressed(speed=0.05)
+    for speed in speeds:
+        pressed = go_on(pressed, speed, 0.001)
+    assert pressed.falling == falling

@@ -40,7 +40,7 @@ def wiped(surface: str, **changes: float) -> WipingResult:
 
 GOOD: dict[str, Work] = {
     "wiping": wiping(),
-    "polishing": Polished(how=wiped("lab:Sheet-1"), share=1.0, swing_m=0.009, swing_asked_m=0.01),
+    "polishing": Polished(how=wiped("lab:Sheet-1"), share=1.0, swing_m=0.0095, swing_asked_m=0.01),
     "pressing": Pressed(button="lab:Button-1", asked_n=10.0, held_n=10.0, greatest_n=10.5, took=0.9),
     "inserting": Inserted(socket="lab:Socket-1", depth_m=0.03, hole_m=0.03, greatest_n=20.0, took=0.5),
     "teaching": Taught(pose="lab:Taught-1", off_m=0.001, greatest_n=18.0, mean_n=5.0, took=0.4),

@@ -31,7 +31,7 @@ WORSE = {
 OTHERS: dict[str, list[tuple[dict[str, float], str]]] = {
     "polishing": [
         ({"share": 0.98}, "rubbed long enough 98 %, wanted at least 99 %"),
-        ({"swing_m": 0.007}, "swing kept 70 %, wanted at least 75 %"),
+        ({"swing_m": 0.007}, "swing kept 70 %, wanted at least 90 %"),
     ],
     "pressing": [
         ({"held_n": 9.0}, "held force 90 % of F, wanted at least 95 % of F"),

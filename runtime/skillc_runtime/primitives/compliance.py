@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from skillc_runtime.motion.pose import Array, log
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.localise import localise
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.robots.contact import Approach, advance
+from skillc_runtime.robots.contact import Approach, Pressed, advance, go_on
 
 if TYPE_CHECKING:
     from skillc_runtime.robots.arm import ArmState
@@ -62,6 +62,7 @@ class ReleaseAxis(Primitive):
 class Push(Primitive):
     """Approach what lies opposite to `along` (3,) at `approach` m/s, then press on it with `force` N in the scope.
 
+    Where what bears the press gives way, a hole, an edge, the tool goes on as it approached until it is borne again.
     Fails when nothing is met within `travel` m; stops the arm when, later, contact is lost and it sinks by as much.
     """
 
@@ -70,10 +71,10 @@ class Push(Primitive):
     ) -> None:
         super().__init__(cell)
         self.arm = cell.arm(arm)
-        self._along, self._force, self._travel = along, force, travel
-        self._approach = Approach(approach, travel)
+        self._along, self._force, self._travel, self._speed = along, force, travel, approach
+        self._going: Approach | Pressed = Approach(approach, travel)
         self._axis = along
-        self._now = self._touched_at = 0.0
+        self._touched_at = 0.0
         self._surface: float | None = None
 
     def start(self) -> None:
@@ -86,7 +87,7 @@ class Push(Primitive):
         if self._force > self.arm.gains.force_limit:
             raise SkillFailure(f"{self._force:g} N is more than the {self.arm.gains.force_limit:g} N the arm allows")
         self._axis = self.arm.in_base(self._along)
-        self.arm.push(self._along, self._approach.speed * self.arm.gains.release_damping)
+        self._approach()
         self.arm.watch(self._observe)
 
     def tick(self) -> Status:
@@ -105,18 +106,39 @@ class Push(Primitive):
     def _observe(self, state: ArmState) -> None:
         """Look, once a control period, whether something is touched, and later whether it still is there."""
         height = float(self._axis @ state.tool.position)
-        if self._surface is not None:
-            if self._surface - height > self._travel:
-                self._give_up(f"contact was lost: the tool sank by {self._travel * 100:.0f} cm")
-            return
         speed = -float(self._axis @ (state.jacobian[:3] @ state.dq))
+        if self._surface is not None and self._surface - height > self._travel:
+            self._give_up(f"contact was lost: the tool sank by {self._travel * 100:.0f} cm")
+            return
+        match self._going:
+            case Approach():
+                self._go_nearer(self._going, speed, height)
+            case Pressed():
+                self._going = go_on(self._going, speed, self.arm.period)
+                if self._going.falling:
+                    self._approach()
+            case _:
+                assert_never(self._going)
+
+    def _approach(self) -> None:
+        """Push no harder than takes the tool along at the speed of the approach."""
+        self._going = Approach(self._speed, self._travel)
+        self.arm.push(self._along, self._speed * self.arm.gains.release_damping)
+
+    def _go_nearer(self, approach: Approach, speed: float, height: float) -> None:
         force = float(self._axis @ self.arm.wrench_in_base[:3])
-        self._approach = advance(self._approach, speed, force, self.arm.period)
-        if self._approach.outcome == "touching":
-            self._surface = height
-            self.arm.push(self._along, self._force)
-        elif self._approach.outcome == "missing":
-            self._give_up(f"nothing to push against within {self._travel * 100:.0f} cm")
+        self._going = advance(approach, speed, force, self.arm.period)
+        match self._going.outcome:
+            case "touching":
+                self._going = Pressed(self._speed)
+                self._surface = height if self._surface is None else self._surface
+                self.arm.push(self._along, self._force)
+            case "missing":
+                self._give_up(f"nothing to push against within {self._travel * 100:.0f} cm")
+            case "approaching":
+                pass
+            case _:
+                assert_never(self._going.outcome)
 
     def _give_up(self, reason: str) -> None:
         self.arm.unwatch(self._observe)

@@ -17,8 +17,8 @@ from skillc_runtime.world.terms import DEPTH, INSERTED_DEPTH, IS_SEATED
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
 
-STILL_M_S, STILL_S = 0.002, 0.3
-"""A tool slower than this for that long rests."""
+STILL_M, STILL_S = 0.0003, 0.3
+"""A tool that stays within this for that long rests; its speed is measured with too much noise to tell."""
 
 SEATED_SHARE = 0.9
 """A peg that is in by this share of the hole's depth is at its bottom, as is one that seems as much too deep: where the
@@ -59,8 +59,8 @@ class Seat(Primitive):
     def __init__(self, cell: Cell, *, arm: str, object: str, socket: str, patience: float) -> None:
         super().__init__(cell)
         self.arm, self._peg, self._socket, self._patience = cell.arm(arm), object, socket, patience
-        self._began = self._moved_at = self._bottom = 0.0
-        self._opening = Pose.of((0.0, 0.0, 0.0))
+        self._began = self._came_at = self._bottom = 0.0
+        self._opening, self._place = Pose.of((0.0, 0.0, 0.0)), np.zeros(3)
 
     def start(self) -> None:
         """Look up where the opening is believed to be; SkillFailure when the hole's depth is not known."""
@@ -71,14 +71,16 @@ class Seat(Primitive):
         except SheetError as error:
             raise SkillFailure(str(error)) from error
         self._opening = pose(state, self._socket)
-        self._began = self._moved_at = self.cell.now
+        self._began = self._came_at = self.cell.now
+        self._place = self.arm.pose.position
 
     def tick(self) -> Status:
         """Return SUCCESS once the peg rests at the bottom."""
         raise_fault(self.arm)
-        if float(np.linalg.norm(self.arm.velocity[:3])) > STILL_M_S:
-            self._moved_at = self.cell.now
-        resting = self.cell.now - self._moved_at >= STILL_S
+        place = self.arm.pose.position
+        if float(np.linalg.norm(place - self._place)) > STILL_M:
+            self._place, self._came_at = place, self.cell.now
+        resting = self.cell.now - self._came_at >= STILL_S
         if not resting and self.cell.now - self._began <= self._patience:
             return Status.RUNNING
         depth = -float(self._opening.inverse().at(self.arm.pose.position)[2])

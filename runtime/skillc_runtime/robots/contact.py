@@ -1,4 +1,5 @@
 """Noticing contact while a tool approaches, gently pushed: it stops, or a force is felt, for long enough to be sure.
+And noticing, once it is pressed, that what it was pressed on is not there any more: it goes faster than it approached.
 
 What an arm feels contains the force that speeds it up or slows it down; so nothing is believed before it approaches
 steadily, however it moved when the approach began.
@@ -20,6 +21,9 @@ FELT_N, FELT_S = 2.0, 0.005
 
 STUCK_S = 0.5
 """A tool that stands for so long before it has approached was touching from the start, or is by now."""
+
+FALL_SHARE, FALL_S = 2.0, 0.01
+"""A pressed tool that goes faster than this share of its approach speed, for this long, meets nothing any more."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,3 +64,21 @@ def advance(approach: Approach, speed: float, force_n: float, period: float) -> 
         felt=approach.felt + period if felt else 0.0,
         depth=approach.depth + speed * period,
     )
+
+
+@dataclass(frozen=True, slots=True)
+class Pressed:
+    """A tool that is pressed on what it approached with `speed` m/s; it has gone too fast for that for `fast` s."""
+
+    speed: float
+    fast: float = 0.0
+
+    @property
+    def falling(self) -> bool:
+        """Whether there is nothing any more that bears the press."""
+        return self.fast >= FALL_S
+
+
+def go_on(pressed: Pressed, speed: float, period: float) -> Pressed:
+    """Go on by `period` s with `speed` m/s in the direction of the press."""
+    return replace(pressed, fast=pressed.fast + period if speed > FALL_SHARE * pressed.speed else 0.0)

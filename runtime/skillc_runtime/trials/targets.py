@@ -55,7 +55,7 @@ WIPING: tuple[Metric[WipingResult], ...] = (
 
 POLISHING: tuple[Metric[Polished], ...] = (
     Metric("rubbed long enough", "%", lambda w: 100 * w.share, "at least", 99.0),
-    Metric("swing kept", "%", lambda w: _percent(w.swing_m, w.swing_asked_m), "at least", 75.0),
+    Metric("swing kept", "%", lambda w: _percent(w.swing_m, w.swing_asked_m), "at least", 90.0),
 )
 
 PRESSING: tuple[Metric[Pressed], ...] = (
