@@ -67,8 +67,10 @@ MISTAKES = [
     ("OrientationW 1.0", "OrientationW 0.0", "no-rotation", "(0, 0, 0, 0) of lab:Iiwa-1", "1.0"),
     ("OrientationW 1.0", "OrientationW 0.7", "no-rotation", "the length of the quaternion is 0.7 and not 1", "1.0"),
     ("OrientationW 1.0", "OrientationW 1e200", "no-rotation", "lab:Iiwa-1", "1.0"),
-    ("SizeX 0.30", "SizeX -0.30", "not-positive", "lab:Pedestal.skiros:SizeX = -0.3", ""),
-    ("SizeZ 0.05", "SizeZ 0", "not-positive", "greater than 0", ""),
+    ("SizeX 0.30", "SizeX -0.30", "wrong-data-type", "lab:Pedestal.skiros:SizeX = -0.3`: it is above 0", ""),
+    ("offsetRange 0.02", "offsetRange -0.02", "wrong-data-type", "offsetRange = -0.02`: it is at least 0", ""),
+    ("cleanThreshold 1.0", "cleanThreshold 99", "wrong-data-type", "it is at least 0 and at most 1", ""),
+    ("stiffnessRange 0.3", "stiffnessRange 1", "wrong-data-type", "it is at least 0 and below 1", ""),
     (
         "skillc:hasSheet skillc:iiwa14-sheet ;",
         "",
