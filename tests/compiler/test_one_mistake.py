@@ -13,6 +13,7 @@ from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source
 
 TRIED = int(os.environ.get("MISTAKES", "60"))
+IMPORT = re.compile(r'^import "([^"]+)"', re.MULTILINE)
 WORD = re.compile(r"[A-Za-z_]\w{2,}")
 SKIPPED = re.compile(r'#[^\n]*|python "[^"]*"|<[^>]*>|(?<=scene )"[^"]*"')
 WORDS_OF_THE_LANGUAGE = """
@@ -27,9 +28,11 @@ KEYWORDS = frozenset(WORDS_OF_THE_LANGUAGE.split())
 
 @cache
 def sources() -> tuple[Source, ...]:
-    """Return the standard library and the wiping library as one."""
-    standard = [Source(name, source.text) for name, source in shelf().items()]
-    return (*standard, *library("wiping"))
+    """Return the wiping library, and what is imported of the standard library, as one."""
+    wiping = library("wiping")
+    imported = {name for source in (*shelf().values(), *wiping) for name in IMPORT.findall(source.text)}
+    standard = [Source(name, source.text) for name, source in shelf().items() if name in imported]
+    return (*standard, *wiping)
 
 
 def problems(changed: Sequence[Source]) -> tuple[Diagnostic, ...]:

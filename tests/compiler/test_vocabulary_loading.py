@@ -2,7 +2,15 @@
 
 import pyoxigraph as ox
 
-from skillc_compiler.library.vocabulary import NumberType, PlainType, Position, Signature, VectorType, Vocabulary
+from skillc_compiler.library.vocabulary import (
+    Bounds,
+    NumberType,
+    PlainType,
+    Position,
+    Signature,
+    VectorType,
+    Vocabulary,
+)
 from skillc_compiler.turtle.parser import parse
 from skillc_compiler.vocabulary.load import load
 from skillc_compiler.vocabulary.positions import positions
@@ -126,3 +134,23 @@ def test_places_are_those_of_a_whole_parser() -> None:
     found = {iri: (at.path, at.line, at.column) for iri, at in positions(shipped).items()}
     assert len(declared) > 150
     assert declared.items() <= found.items()
+
+
+def test_restrictions_bound_numbers_also_by_the_name_of_a_datatype() -> None:
+    found = loaded(
+        "t:Share a rdfs:Datatype ; owl:equivalentClass [ a rdfs:Datatype ; owl:onDatatype xsd:double ;\n"
+        "    owl:withRestrictions ( [ xsd:minInclusive 0 ] [ xsd:maxExclusive 1 ] ) ] .\n"
+        "t:part a owl:DatatypeProperty ; rdfs:range t:Share .\n"
+        "t:count a owl:DatatypeProperty ; rdfs:range [ a rdfs:Datatype ; owl:onDatatype xsd:integer ;\n"
+        "    owl:withRestrictions ( [ xsd:minExclusive 0 ] [ xsd:maxInclusive 9 ] ) ] .\n"
+    )
+    part, count = found.properties[T + "part"], found.properties[T + "count"]
+    assert part.type == NumberType("Number") and part.bounds == Bounds(least=0.0, below=1.0)
+    assert count.type == PlainType("Int") and str(count.bounds) == "above 0 and at most 9"
+
+
+def test_a_datatype_that_restricts_itself_is_none() -> None:
+    text = "t:D a rdfs:Datatype ; owl:equivalentClass [ a rdfs:Datatype ; owl:onDatatype t:D ] .\n"
+    outcome = load([Source("t.ttl", HEAD + text + "t:p a owl:DatatypeProperty ; rdfs:range t:D .\n")])
+    assert [each.name for each in outcome.diagnostics] == ["unknown-datatype"]
+    assert T + "p" not in outcome.value.properties

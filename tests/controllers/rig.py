@@ -71,7 +71,7 @@ class Bench:
         mujoco.mj_forward(self.model, self.data)
         ranges = self.model.jnt_range.copy()
         control = self.model.actuator_ctrlrange if self.interface == "torque" else self.model.actuator_forcerange
-        self.limits = ArmLimits(ranges, np.full(self.nv, 2.0), control[:, 1].copy())
+        self.limits = ArmLimits(ranges, np.full(self.nv, 2.0), control[:, 1].copy(), np.full(self.nv, np.inf))
         self.driver = ArmDriver(
             self, virtual_model(ROBOTS / f"{robot}.xml"), GAINS[robot], self.limits, lambda: self.base, period
         )

@@ -32,7 +32,8 @@ def robot(request: pytest.FixtureRequest) -> tuple[VirtualArm, Array, ArmLimits]
     model = virtual_model(ROBOTS / f"{request.param}.xml")
     arm, q = VirtualArm(model), np.array(HOMES[request.param])
     arm.move(q)
-    return arm, q, ArmLimits(model.jnt_range.copy(), np.full(q.size, 2.0), np.full(q.size, 100.0))
+    many = np.ones(q.size)
+    return arm, q, ArmLimits(model.jnt_range.copy(), 2.0 * many, 100.0 * many, np.inf * many)
 
 
 def line(arm: VirtualArm, *way: float, turn: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Trajectory:

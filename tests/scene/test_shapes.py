@@ -94,9 +94,10 @@ def test_shapes_find_what_skillc_finds() -> None:
     assert wrong > 0
 
 
-def test_a_second_value_and_a_lost_one_do_not_conform() -> None:
+def test_a_second_value_a_lost_one_and_one_out_of_bounds_do_not_conform() -> None:
     lab = "http://example.org/lab#"
     table = URIRef(f"{lab}Table-1")
     size = URIRef("http://rvmi.aau.dk/ontologies/skiros.owl#SizeX")
     assert not conforms(scene("iiwa_table").add((table, size, Literal(2.0))))
     assert not conforms(scene("iiwa_table").remove((table, size, None)))
+    assert not conforms(scene("iiwa_table").set((table, size, Literal(-0.3))))

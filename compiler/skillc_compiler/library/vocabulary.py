@@ -96,10 +96,33 @@ class RelationTerm(msgspec.Struct, frozen=True, kw_only=True):
     source: Position | None = None
 
 
+class Bounds(msgspec.Struct, frozen=True, kw_only=True):
+    """Which numbers there may be: `least` and `greatest` belong to them, `above` and `below` do not."""
+
+    least: float | None = None
+    above: float | None = None
+    greatest: float | None = None
+    below: float | None = None
+
+    def hold(self, number: float) -> bool:
+        """Whether there may be a number."""
+        return (
+            (self.least is None or number >= self.least)
+            and (self.above is None or number > self.above)
+            and (self.greatest is None or number <= self.greatest)
+            and (self.below is None or number < self.below)
+        )
+
+    def __str__(self) -> str:
+        ends = (("at least", self.least), ("above", self.above), ("at most", self.greatest), ("below", self.below))
+        return " and ".join(f"{word} {end:g}" for word, end in ends if end is not None)
+
+
 class PropertyTerm(msgspec.Struct, frozen=True, kw_only=True):
     """A data property.
 
-    `values` is the finite set of a text property that has one. `computed_by` names a Python function
+    `values` is the finite set of a text property that has one, `bounds` say which numbers another has. `computed_by`
+    names a Python function
     "module:function" (world state, individual) -> value that derives it from other facts.
     """
 
@@ -107,6 +130,7 @@ class PropertyTerm(msgspec.Struct, frozen=True, kw_only=True):
     domains: tuple[str, ...]
     type: ValueType
     values: tuple[str, ...] = ()
+    bounds: Bounds | None = None
     functional: bool = True
     computed_by: str | None = None
     comment: str = ""

@@ -141,32 +141,6 @@ Good:
         skiros:PositionX 0 ; skiros:PositionY 0 ; skiros:PositionZ 0 ;
         skiros:OrientationX 0 ; skiros:OrientationY 0 ; skiros:OrientationZ 0 ; skiros:OrientationW 1 .
 
-## not-positive: a size, weight or the like is not above zero
-
-Bad:
-
-    @prefix lab: <http://example.org/lab#> .
-    @prefix skiros: <http://rvmi.aau.dk/ontologies/skiros.owl#> .
-    @prefix skillc: <https://w3id.org/skillc/core#> .
-
-    lab:Here a skillc:Workstation ; skiros:FrameId "here" ; skiros:BaseFrameId "map" ;
-        skiros:PositionX 0 ; skiros:PositionY 0 ; skiros:PositionZ 0 ;
-        skiros:OrientationX 0 ; skiros:OrientationY 0 ; skiros:OrientationZ 0 ; skiros:OrientationW 1 .
-    lab:Bench a skillc:Furniture ; skiros:at lab:Here ;
-        skiros:SizeX 0 ; skiros:SizeY 1 ; skiros:SizeZ 1 .
-
-Good:
-
-    @prefix lab: <http://example.org/lab#> .
-    @prefix skiros: <http://rvmi.aau.dk/ontologies/skiros.owl#> .
-    @prefix skillc: <https://w3id.org/skillc/core#> .
-
-    lab:Here a skillc:Workstation ; skiros:FrameId "here" ; skiros:BaseFrameId "map" ;
-        skiros:PositionX 0 ; skiros:PositionY 0 ; skiros:PositionZ 0 ;
-        skiros:OrientationX 0 ; skiros:OrientationY 0 ; skiros:OrientationZ 0 ; skiros:OrientationW 1 .
-    lab:Bench a skillc:Furniture ; skiros:at lab:Here ;
-        skiros:SizeX 1 ; skiros:SizeY 1 ; skiros:SizeZ 1 .
-
 ## not-a-range: the lower end of a range is above its upper end
 
 Bad:

@@ -72,7 +72,9 @@ Good:
     lab:A a skillc:Workstation ; skiros:contain lab:Box .
     lab:Box a skiros:Product .
 
-## wrong-data-type: a value is not of the type that its property takes
+## wrong-data-type: a value is not of the type that its property takes, or not within its bounds
+
+A size is above 0, a friction at least 0, a threshold a share from 0 to 1: what the vocabulary says of the property.
 
 Bad:
 

@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import pyoxigraph as ox
 
-from skillc_compiler.library.vocabulary import NumberType, PlainType, Position, ValueType, VectorType, local_name
+from skillc_compiler.library.vocabulary import (
+    Bounds,
+    NumberType,
+    PlainType,
+    Position,
+    ValueType,
+    VectorType,
+    local_name,
+)
 from skillc_compiler.vocabulary.graph import Graph, Node
-from skillc_compiler.vocabulary.names import OWL, RANGE, RDFS, SKILLC, XSD
+from skillc_compiler.vocabulary.names import EQUAL_CLASS, OWL, RANGE, RDFS, SKILLC, XSD
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 
@@ -29,22 +37,35 @@ PLAIN: dict[str, ValueType] = {
     **{datatype: PlainType("Int") for datatype in INTEGERS},
     f"{SKILLC}Pose": PlainType("Pose"),
 }
+FACETS = {
+    f"{XSD}minInclusive": "least",
+    f"{XSD}minExclusive": "above",
+    f"{XSD}maxInclusive": "greatest",
+    f"{XSD}maxExclusive": "below",
+    **{f"{SKILLC}{end}": end for end in ("least", "above", "greatest", "below")},
+}
+"""What restricts numbers in a datatype, or is said of a property, by the names that `Bounds` has for it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Typed:
-    """A type, and the finite set of its values where there is one."""
+    """A type, and the finite set of its values or the bounds of its numbers where there are any."""
 
     type: ValueType
     values: tuple[str, ...] = ()
+    bounds: Bounds | None = None
 
 
 def value_type(graph: Graph, iri: str) -> Typed | None:
-    """Return a data property's type from its range and `skillc:dimension`; None where the language has none for it."""
+    """Return a data property's type from its range, `skillc:dimension` and the bounds that are said of it.
+
+    None where the language has no type for it.
+    """
     ranges = graph.objects(iri, RANGE)
     if not ranges:
         return Typed(PlainType("Text"))
-    return _typed(graph, ranges[0], graph.text(iri, f"{SKILLC}dimension") or "Number")
+    typed = _typed(graph, ranges[0], graph.text(iri, f"{SKILLC}dimension") or "Number")
+    return typed and _bounded(typed, graph, [ox.NamedNode(iri)])
 
 
 def ranges_of(graph: Graph, iri: str) -> tuple[str, ...]:
@@ -67,19 +88,52 @@ def value_types_known(graph: Graph, properties: Iterable[str], places: Mapping[s
             )
 
 
-def _typed(graph: Graph, range_: Node, dimension: str) -> Typed | None:
-    """Return the type of one range; one with restrictions is that which it restricts."""
+def _typed(graph: Graph, range_: Node, dimension: str, within: frozenset[Node] = frozenset()) -> Typed | None:
+    """Return the type of one range; one with restrictions is that which it restricts, in bounds. None in a circle."""
+    if range_ in within:
+        return None
+    around = within | {range_}
     match range_:
         case ox.BlankNode():
             restricted = graph.objects(range_, f"{OWL}onDatatype")
-            return _typed(graph, restricted[0], dimension) if restricted else _enumerated(graph, range_)
+            if not restricted:
+                return _enumerated(graph, range_)
+            return _restricted(graph, range_, _typed(graph, restricted[0], dimension, around))
         case ox.NamedNode(value=datatype) if datatype in NUMBERS:
             return Typed(NumberType(dimension))
         case ox.NamedNode(value=datatype) if datatype == f"{SKILLC}Vector":
             return Typed(VectorType(dimension))
         case ox.NamedNode(value=datatype) if datatype in PLAIN:
             return Typed(PLAIN[datatype])
+        case ox.NamedNode(value=datatype):
+            defined = [each for each in graph.objects(datatype, EQUAL_CLASS) if isinstance(each, ox.BlankNode)]
+            return _typed(graph, defined[0], dimension, around) if defined else None
     return None
+
+
+def _restricted(graph: Graph, node: ox.BlankNode, typed: Typed | None) -> Typed | None:
+    """Return what a restriction leaves of a type; lengths and patterns of texts are passed over."""
+    facets = (each for head in graph.objects(node, f"{OWL}withRestrictions") for each in graph.members(head))
+    return typed and _bounded(typed, graph, facets)
+
+
+def _bounded(typed: Typed, graph: Graph, saying: Iterable[Node]) -> Typed:
+    """Return a type with the bounds that some nodes state."""
+    ends = {
+        end: number
+        for each in saying
+        for facet, end in FACETS.items()
+        for literal in graph.objects(each, facet)
+        if (number := _number(literal)) is not None
+    }
+    return replace(typed, bounds=Bounds(**ends)) if ends else typed
+
+
+def _number(node: Node) -> float | None:
+    try:
+        return float(node.value) if isinstance(node, ox.Literal) else None
+    except ValueError:
+        return None
 
 
 def _word(typed: Typed) -> str:

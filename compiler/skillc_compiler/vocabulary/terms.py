@@ -106,6 +106,7 @@ def properties(terms: Terms) -> dict[str, PropertyTerm]:
                 domains=_ends(terms, iri, DOMAIN) or (THING,),
                 type=typed.type,
                 values=typed.values,
+                bounds=typed.bounds,
                 functional=_is(terms, iri, "FunctionalProperty"),
                 computed_by=terms.graph.text(iri, f"{SKILLC}computedBy"),
                 comment=terms.graph.text(iri, COMMENT) or "",

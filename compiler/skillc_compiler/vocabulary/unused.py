@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import pyoxigraph as ox
 
-from skillc_compiler.vocabulary.graph import Graph
+from skillc_compiler.vocabulary.datatypes import FACETS
+from skillc_compiler.vocabulary.graph import Graph, Node
 from skillc_compiler.vocabulary.names import EQUAL_CLASS, OWL, SUBCLASS, TYPE
 from skillc_compiler.vocabulary.precedence import Split
 from skillc_compiler.vocabulary.reading import Ontology
@@ -18,7 +19,7 @@ PREDICATES = frozenset(
     f"{OWL}{name}"
     for name in (
         *("allValuesFrom", "maxCardinality", "maxQualifiedCardinality", "hasValue", "hasSelf", "hasKey"),
-        *("propertyChainAxiom", "propertyDisjointWith", "sameAs", "differentFrom", "withRestrictions"),
+        *("propertyChainAxiom", "propertyDisjointWith", "sameAs", "differentFrom"),
     )
 )
 """Each statement with one of these is an axiom, or the part of one, that is not used."""
@@ -27,6 +28,7 @@ CLASSES = frozenset(
     for name in ("ReflexiveProperty", "AllDisjointProperties", "AllDifferent", "NegativePropertyAssertion")
 )
 """Whatever is of these classes is an axiom that is not used."""
+RESTRICTIONS = f"{OWL}withRestrictions"
 
 
 def unused(parts: Iterable[Split], graph: Graph) -> Iterator[Diagnostic]:
@@ -65,12 +67,17 @@ def imports(own: Sequence[Ontology], graph: Graph) -> Iterator[Diagnostic]:
 
 def _kinds(triple: ox.Quad, graph: Graph) -> Iterator[str]:
     said = triple.predicate.value
-    if said in PREDICATES:
+    if said in PREDICATES or (said == RESTRICTIONS and not _are_bounds(triple.object, graph)):
         yield _short(said)
     elif said == TYPE and isinstance(triple.object, ox.NamedNode) and triple.object.value in CLASSES:
         yield _short(triple.object.value)
     elif said in (SUBCLASS, EQUAL_CLASS) and isinstance(triple.object, ox.BlankNode):
         yield from _expression(triple.object, said, graph)
+
+
+def _are_bounds(head: Node, graph: Graph) -> bool:
+    """Whether all in a list of restrictions are bounds of numbers."""
+    return all(any(graph.objects(each, facet) for facet in FACETS) for each in graph.members(head))
 
 
 def _expression(node: ox.BlankNode, said: str, graph: Graph) -> Iterator[str]:

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from skillc_ontology.catalogue import model as model_path
 from skillc_runtime.avoidance.scenery import Block, place_of
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.frames import size
@@ -53,14 +52,14 @@ def outfit(state: WorldState, arm: str, opening_m: dict[str, float]) -> Outfit:
     grippers = sorted(state.objects(arm, HAS_GRIPPER))
     return Outfit(
         name=state.vocabulary.short(arm),
-        model=str(model_path(sheet.text("model"))),
+        model=str(sheet.model),
         hand=_hand(state, grippers[0], opening_m[grippers[0]]) if grippers else None,
         clearance_m=number(state, sheet.individual, CLEARANCE, default=0.0),
     )
 
 
 def _hand(state: WorldState, gripper: str, opening_m: float) -> Hand:
-    model = str(model_path(sheet_of(state, gripper).text("model")))
+    model = str(sheet_of(state, gripper).model)
     frame = state.value(gripper, FRAME_ID)
     inside = sorted(state.objects(gripper, CONTAIN))
     held = (_held(state, thing) for thing in inside if state.value(thing, BASE_FRAME_ID) == frame)

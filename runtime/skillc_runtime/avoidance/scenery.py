@@ -9,7 +9,6 @@ from typing import TypeAlias
 
 import numpy as np
 
-from skillc_ontology.catalogue import model as model_path
 from skillc_runtime.motion.pose import Pose, quaternion_of
 from skillc_runtime.world.frames import FrameError, pose
 from skillc_runtime.world.sheet import SheetError, sheet_of
@@ -88,7 +87,7 @@ def _blocks(state: WorldState, inward: Pose) -> Iterator[Block]:
 def _modelled(state: WorldState, inward: Pose) -> Iterator[Modelled]:
     for individual in sorted(state.instances(FIXTURE)):
         with suppress(FrameError, SheetError):
-            path = model_path(sheet_of(state, individual).text("model"))
+            path = sheet_of(state, individual).model
             middle = inward @ pose(state, individual)
             if np.linalg.norm(middle.position) < FAR_M:
                 yield Modelled(state.vocabulary.short(individual), place_of(middle), str(path))

@@ -51,11 +51,15 @@ class ModeRefused(Exception):
 
 @dataclass(frozen=True, slots=True)
 class ArmLimits:
-    """What an arm can do: joint range (nv, 2) rad, velocity (nv,) rad/s, effort (nv,) N m."""
+    """What an arm can do: joint range (nv, 2) rad, velocity (nv,) rad/s, effort (nv,) N m, acceleration (nv,) rad/s^2.
+
+    The acceleration is infinite where nobody states it.
+    """
 
     range: Array
     velocity: Array
     effort: Array
+    acceleration: Array
 
 
 @dataclass(frozen=True, slots=True)

@@ -132,8 +132,8 @@ class ArmTask(Measured):
 
         Speed as for `move_joints`; on the way it goes past postures without stopping if `blend` > 0, to 1 at most.
         """
-        speed, most = share * self.limits.velocity, self._tool_speed_m_s
-        return self._reach.joint_path((self.joint_anchor, *way), speed, most, blend, self._state)
+        postures, calm = (self.joint_anchor, *way), (share, self._tool_speed_m_s)
+        return self._reach.joint_path(postures, self.limits, *calm, blend, self._state)
 
     def follow_joints(self, motion: JointTrajectory) -> None:
         """Move the joints as a motion says, which must start at `joint_anchor`, else ValueError."""

@@ -57,15 +57,16 @@ class Reach:
         return speed * min(1.0, CALM * most_m_s / max(fastest * float((speed / way).min()), 1e-12))
 
     def joint_path(
-        self, postures: Sequence[Array], speed: Array, most_m_s: float, blend: float, state: ArmState
+        self, postures: Sequence[Array], limits: ArmLimits, share: float, most_m_s: float, blend: float, state: ArmState
     ) -> JointPath:
-        """Return a joint motion through postures, each (nv,), at joint speeds (nv,), the tool below a speed.
+        """Return a joint motion through postures, each (nv,), at a share of joint speeds, the tool below a speed.
 
         It passes those on the way without stopping where `blend` is above 0, to 1 at most.
         """
-        calm = [self.calmed(*piece, speed, most_m_s, state) for piece in pairwise(postures)]
+        calm = [self.calmed(*piece, share * limits.velocity, most_m_s, state) for piece in pairwise(postures)]
         slowest = np.min(calm, axis=0)
-        return joint_path(postures, slowest, slowest / JOINT_RAMP_S, [blend] * (len(postures) - 2))
+        ramp = np.minimum(slowest / JOINT_RAMP_S, limits.acceleration)
+        return joint_path(postures, slowest, ramp, [blend] * (len(postures) - 2))
 
     def away(self, wanted: Array, q: Array) -> str | None:
         """Return which joint is farthest from where it shall be, and how far; None when all are near enough."""

@@ -261,4 +261,7 @@ def _limits(model: Any, joints: list[int], actuator: int, facts: ArmFacts) -> Ar
     span = slice(actuator, actuator + len(joints))
     force, control = model.actuator_forcerange[span, 1], model.actuator_ctrlrange[span, 1]
     effort = force if facts.interface == "position" else control
-    return ArmLimits(model.jnt_range[joints].copy(), facts.sheet.numbers("jointSpeeds"), effort.copy())
+    sheet, count = facts.sheet, len(joints)
+    stated = sheet.states("jointAccelerations")
+    fastest = sheet.limits("jointAccelerations", count) if stated else np.full(count, np.inf)
+    return ArmLimits(model.jnt_range[joints].copy(), sheet.limits("jointSpeeds", count), effort.copy(), fastest)

@@ -19,23 +19,14 @@ from skillc_runtime.world.terms import CONTACT_FORCE_LIMIT, HAS_SENSOR, HAS_WORK
 
 def driver(facts: ArmFacts, arm: SimulatedArm, period_s: float) -> ArmDriver:
     """Return the driver of an arm with the controller its facts name; SheetError for an unknown one, a missing gain."""
+    jerk_limit = number(facts.sheet.state, facts.sheet.individual, JERK_LIMIT, inf)
     try:
-        chosen = replace(gains(facts.controller, facts.sheet.number), jerk_limit=_jerk_limit(facts))
+        chosen = replace(gains(facts.controller, facts.sheet.number), jerk_limit=jerk_limit)
     except UnknownController as error:
         raise SheetError(f"{facts.sheet.state.vocabulary.short(facts.individual)}: {error}") from error
     _engage(facts, arm, chosen.law)
     virtual, limits = virtual_model(facts.model), safety(facts)
     return ArmDriver(arm, virtual, chosen, arm.limits, lambda: arm.base, period_s, limits)
-
-
-def _jerk_limit(facts: ArmFacts) -> float:
-    """Return the greatest jerk of planned motions, m/s^3; SheetError for one that is not above 0."""
-    state, sheet = facts.sheet.state, facts.sheet.individual
-    limit = number(state, sheet, JERK_LIMIT, inf)
-    if limit <= 0:
-        short = state.vocabulary.short
-        raise SheetError(f"{short(sheet)} has a {short(JERK_LIMIT)} of {limit:g} m/s^3; it must be above 0")
-    return limit
 
 
 def _engage(facts: ArmFacts, arm: SimulatedArm, law: LawGains) -> None:

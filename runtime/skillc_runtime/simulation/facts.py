@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from skillc_ontology.catalogue import model as model_path
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.simulation.fixture_facts import FixtureFacts, read_fixtures
@@ -172,7 +171,7 @@ def _arm(state: WorldState, arm: str) -> ArmFacts:
         individual=arm,
         robot=robots[0] if robots else None,
         base=pose(state, arm),
-        model=model_path(sheet.text("model")),
+        model=sheet.model,
         interface=_interface(state, arm),
         home=sheet.posture("home"),
         force_torque=bool(sensors),
@@ -198,7 +197,7 @@ def _gripper(state: WorldState, gripper: str) -> GripperFacts:
     sheet = sheet_of(state, gripper)
     return GripperFacts(
         gripper,
-        model_path(sheet.text("model")),
+        sheet.model,
         sheet.number("maxOpening"),
         sheet.number("maxForce"),
         sheet.number("fingerSpeed"),
@@ -215,7 +214,7 @@ def _tool(state: WorldState, tool: str) -> ToolFacts:
     sheet = sheet_of(state, tool)
     return ToolFacts(
         individual=tool,
-        model=model_path(sheet.text("model")),
+        model=sheet.model,
         pose=pose(state, tool),
         size=size(state, tool),
         mass_kg=number(state, tool, WEIGHT),

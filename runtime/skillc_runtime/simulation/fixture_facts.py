@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from skillc_ontology.catalogue import model as model_path
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.simulation.friction import friction, ranges
 from skillc_runtime.world.frames import pose
@@ -60,7 +59,7 @@ def _fixture(state: WorldState, fixture: str) -> FixtureFacts:
     return FixtureFacts(
         individual=fixture,
         pose=pose(state, fixture),
-        model=model_path(sheet.text("model")),
+        model=sheet.model,
         sheet=sheet,
         place_range_m=within(PLACE_RANGE),
         depth_range_m=within(DEPTH_RANGE),

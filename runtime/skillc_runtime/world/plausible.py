@@ -1,4 +1,4 @@
-"""What a scene must say to be plausible, beyond the axioms: turns turn, sizes are positive, ranges are ranges."""
+"""What a scene must say to be plausible, beyond the axioms: turns turn, ranges are ranges."""
 
 from __future__ import annotations
 
@@ -11,21 +11,17 @@ from skillc_runtime.world.terms import (
     FRICTION,
     FRICTION_HIGH,
     FRICTION_LOW,
-    GRASP_WIDTH,
     ORIENTATION,
-    SIZE,
     SURFACE,
-    WEIGHT,
 )
 
-POSITIVE = (*SIZE, WEIGHT, GRASP_WIDTH)
 LEAST_NORM, GREATEST_NORM = 0.99, 1.01
 """How long the quaternion of a rotation may be, which has length 1: numbers in files are rounded."""
 
 
 def implausible(state: WorldState) -> Iterator[Flaw]:
     """Yield what no thing can be like; rules about terms that the vocabulary lacks find nothing."""
-    for rule in (_turns, _sizes, _frictions):
+    for rule in (_turns, _frictions):
         yield from rule(state)
 
 
@@ -40,15 +36,6 @@ def _turns(state: WorldState) -> Iterator[Flaw]:
                 f"the length of the quaternion is {hypot(*numbers):.3g} and not 1"
             )
             yield Flaw(individual, ORIENTATION[0], "no-rotation", message, "for no turn write OrientationW 1.0")
-
-
-def _sizes(state: WorldState) -> Iterator[Flaw]:
-    short = state.vocabulary.short
-    for name in POSITIVE:
-        for individual, value in stored(state, name):
-            if isinstance(value, int | float) and value <= 0:
-                message = f"{short(individual)}.{short(name)} = {value:g}: it must be greater than 0"
-                yield Flaw(individual, name, "not-positive", message)
 
 
 def _frictions(state: WorldState) -> Iterator[Flaw]:

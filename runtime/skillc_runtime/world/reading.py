@@ -106,7 +106,8 @@ class Reader:
         if not self._vocabulary.properties[property_].functional:
             yield SetProperty(subject, property_, tuple(each for each, _ in distinct)), place
             return
-        yield SetProperty(subject, property_, value), place
+        if len(distinct) == 1 or self._is_within(property_, value):
+            yield SetProperty(subject, property_, value), place
         for other, second in distinct[1:]:
             both = f"{show(value)} and {show(other)}"
             message = f"{self._short(subject)} has two values of {self._short(property_)}: {both}"
@@ -114,6 +115,10 @@ class Reader:
             point = _decimal(place, second)
             help_ = f"write `{point.text}`: decimals take a point" if point else "keep one of them"
             self.problems.append(Problem(second.object_place, "functional-property", message, help_, notes, point))
+
+    def _is_within(self, property_: str, value: Value) -> bool:
+        bounds = self._vocabulary.properties[property_].bounds
+        return bounds is None or not isinstance(value, int | float) or bounds.hold(value)
 
     def _no_class(self, each: Statement, subject: str) -> None:
         if subject in self._untyped or subject in self._doubtful:

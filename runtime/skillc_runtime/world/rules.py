@@ -113,6 +113,8 @@ def wrong_value(term: PropertyTerm, value: Value) -> str | None:
         return f"it takes {expected}"
     if term.values and value not in term.values:
         return "it is one of " + ", ".join(term.values)
+    if term.bounds is not None and isinstance(value, int | float) and not term.bounds.hold(value):
+        return f"it is {term.bounds}"
     return None
 
 

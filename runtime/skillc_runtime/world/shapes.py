@@ -1,7 +1,7 @@
 """A vocabulary as SHACL shapes, so that other tools check scenes as skillc does.
 
-They say what individuals must state, datatypes and sets of values, domains and ranges, how many values there may be,
-and which classes are disjoint. What SHACL Core has no word for stays with skillc: asymmetric, irreflexive and
+They say what individuals must state, datatypes, sets of values and bounds, domains and ranges, how many values there
+may be, and which classes are disjoint. What SHACL Core has no word for stays with skillc: asymmetric, irreflexive and
 transitive relations, misspelt terms, frames and poses.
 """
 
@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping
 
 from skillc_compiler.library.vocabulary import (
     THING,
+    Bounds,
     ClassTerm,
     NumberType,
     PlainType,
@@ -65,6 +66,7 @@ class _Shapes:
         kinds = _datatypes(term)
         within = [f"sh:or ( {' '.join(f'[ sh:datatype xsd:{kind} ]' for kind in kinds)} )"] if kinds else []
         within += ["sh:in ( " + " ".join(f'"{value}"' for value in term.values) + " )"] if term.values else []
+        within += _ends(term.bounds) if term.bounds is not None else []
         within += ["sh:maxCount 1"] if term.functional else []
         of = [self._name(domain) for domain in term.domains if domain != THING]
         owner = [f"sh:or ( {' '.join(f'[ sh:class {each} ]' for each in of)} )"] if of else []
@@ -112,6 +114,16 @@ class _Shapes:
 
     def _name(self, iri: str) -> str:
         return f"<{iri}>"
+
+
+def _ends(bounds: Bounds) -> list[str]:
+    ends = (
+        ("minInclusive", bounds.least),
+        ("minExclusive", bounds.above),
+        ("maxInclusive", bounds.greatest),
+        ("maxExclusive", bounds.below),
+    )
+    return [f"sh:{word} {end}" for word, end in ends if end is not None]
 
 
 def _datatypes(term: PropertyTerm) -> tuple[str, ...]:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
+from skillc_ontology.catalogue import model
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.terms import HAS_POSTURE, HAS_SHEET, JOINT_VALUES, POSTURE_NAME, SKILLC
@@ -30,9 +32,29 @@ class Sheet:
         """Return a text; SheetError when missing."""
         return text(self.state, self.individual, SKILLC + name)
 
+    @property
+    def model(self) -> Path:
+        """The file of the device's MJCF; SheetError when it is not stated or not there."""
+        try:
+            return model(self.text("model"))
+        except FileNotFoundError as error:
+            raise SheetError(f"{self._short(self.individual)}: {error}") from error
+
     def numbers(self, name: str) -> Array:
         """Return numbers that are written in one text, separated by spaces; SheetError when missing or unreadable."""
         return _numbers(self.text(name), f"skillc:{name} of {self._short(self.individual)}")
+
+    def limits(self, name: str, count: int) -> Array:
+        """Return so many numbers above 0, one for each joint; SheetError when missing, others or of another count."""
+        found = self.numbers(name)
+        if found.size != count or not (found > 0).all():
+            what = f"skillc:{name} of {self._short(self.individual)}"
+            raise SheetError(f"{what} must be {count} numbers above 0, one for each joint: {self.text(name)!r}")
+        return found
+
+    def states(self, name: str) -> bool:
+        """Whether the sheet says something."""
+        return self.state.value(self.individual, SKILLC + name) is not None
 
     def posture(self, name: str) -> Array:
         """Return the joint values (nv,) rad of a named posture; SheetError lists the names there are."""

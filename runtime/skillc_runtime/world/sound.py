@@ -82,7 +82,8 @@ def _are_values(found: list[Value | None], term: PropertyTerm) -> bool:
     """Whether all are values of a property; numbers and texts are looked at together."""
     kinds = set(map(type, found))
     if kinds == {float} and isinstance(term.type, NumberType):
-        return all(isinstance(value, float) and isfinite(value) for value in found)
+        bounds = term.bounds
+        return all(isinstance(v, float) and isfinite(v) and (bounds is None or bounds.hold(v)) for v in found)
     if kinds == {str} and term.type == PlainType("Text"):
         return not term.values or {value for value in found if isinstance(value, str)} <= {*term.values}
     each = (one for value in found for one in (value if isinstance(value, tuple) and not term.functional else (value,)))
