@@ -11,7 +11,7 @@ import numpy as np
 from skillc_runtime.motion.pose import Pose, quaternion_of
 from skillc_runtime.robots.tools import working_face
 from skillc_runtime.simulation.facts import ArmFacts, GripperFacts, ToolFacts
-from skillc_runtime.simulation.names import face_sensor, part, wrist_sensor
+from skillc_runtime.simulation.names import contact_sensor, face_sensor, part, wrist_sensor
 from skillc_runtime.world.sheet import SheetError
 
 WRIST_SENSORS = (
@@ -20,6 +20,9 @@ WRIST_SENSORS = (
     ("acceleration", mujoco.mjtSensor.mjSENS_ACCELEROMETER),
 )
 """What a wrist measures, in this order."""
+
+NET_FORCE = 3
+"""How MuJoCo's contact sensor makes one of many contacts: it adds their forces up, in world axes."""
 
 TOUCH_MARGIN_M = 0.01
 """How far the zone of a tool's touch sensor reaches beyond its working geom, so that pressed-in contacts count."""
@@ -62,6 +65,7 @@ def add_tool(spec: Any, names: Mapping[str, str], tool: ToolFacts, pad_stiffness
     frame = spec.worldbody.add_frame(pos=tool.pose.position, quat=quaternion_of(tool.pose.rotation))
     spec.attach(model, prefix=part(name, ""), frame=frame)
     _add_face_sensors(spec, name)
+    _add_contact_sensor(spec, name, root)
 
 
 def _set_servos(model: Any, arm: ArmFacts) -> None:
@@ -123,6 +127,17 @@ def _add_face_sensors(spec: Any, name: str) -> None:
         ("velocity", mujoco.mjtSensor.mjSENS_FRAMELINVEL),
     ):
         _add_sensor(spec, face_sensor(name, quantity), kind, part(name, "face"))
+
+
+def _add_contact_sensor(spec: Any, name: str, root: Any) -> None:
+    """Add the force (3,) of a tool on all that it touches, as the solver has it; its own body is `root`."""
+    spec.add_sensor(
+        name=contact_sensor(name),
+        type=mujoco.mjtSensor.mjSENS_CONTACT,
+        objtype=mujoco.mjtObj.mjOBJ_XBODY,
+        objname=root.name,
+        intprm=[1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), NET_FORCE, 1],
+    )
 
 
 def _add_sensor(spec: Any, name: str, kind: Any, site: str) -> None:

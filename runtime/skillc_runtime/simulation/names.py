@@ -38,6 +38,11 @@ def wrist_sensor(gripper: str, quantity: str) -> str:
     return f"{gripper}/wrist/{quantity}"
 
 
+def contact_sensor(tool: str) -> str:
+    """Return the name of the sensor of all contacts of a tool together."""
+    return f"{tool}/contact"
+
+
 def face_sensor(tool: str, quantity: str) -> str:
     """Return the name of a sensor at a tool's working face."""
     return f"{tool}/face/{quantity}"

@@ -34,7 +34,7 @@ class ToolObserver:
     def sample(self, time: float, driver: ArmDriver) -> None:
         """Take in one step that began at `time` s, in which `driver` moved the tool."""
         self.recorder.sample(time)
-        self.strongest.sample(self._truth[0])
+        self.strongest.sample()
         if self._steps % STEPS_PER_UPDATE == 0:
             self.recorder.sample_reference(time, driver.reference, driver.path)
             if self._truth[0] > PRESSED_N:
