@@ -15,6 +15,7 @@ from skillc_runtime.simulation.arm import SimulatedArm
 from skillc_runtime.simulation.base import SimulatedBase
 from skillc_runtime.simulation.build import build
 from skillc_runtime.simulation.button import SimulatedButton, buttons
+from skillc_runtime.simulation.complaints import tell_complaints
 from skillc_runtime.simulation.coverage import CoverageMap
 from skillc_runtime.simulation.drivers import driver
 from skillc_runtime.simulation.facts import SceneFacts, SurfaceFacts, read_scene
@@ -50,6 +51,7 @@ class SimulatedCell:
 
         SheetError, FrameError or ValueError when facts are missing or contradict the models.
         """
+        tell_complaints()
         self._world = world
         self.facts: SceneFacts = read_scene(world.snapshot())
         self.variation: Variation = reality(self.facts, seed)
