@@ -15,6 +15,7 @@ from skillc_runtime.simulation.facts import BaseFacts, SceneFacts, SurfaceFacts
 from skillc_runtime.simulation.fixtures import add_fixture
 from skillc_runtime.simulation.names import base_body, box_geom, hole, obstacle, part, weld
 from skillc_runtime.simulation.variation import SurfaceVariation, Variation
+from skillc_runtime.world.sheet import SheetError
 
 CARRIES, WORKS = 1, 2
 """Contact bits of what carries tools and of what works on surfaces; handles and finger pads have 4 and 8."""
@@ -35,13 +36,19 @@ WOOD, BOARD, STEEL = (0.62, 0.52, 0.4, 1.0), (0.93, 0.94, 0.95, 1.0), (0.4, 0.43
 def build(scene: SceneFacts, variation: Variation, timestep_s: float = 0.001) -> mujoco.MjModel:
     """Build the model of a scene as it really is.
 
-    ValueError when a data sheet's model lacks a part that the simulation needs.
+    SheetError when a data sheet's model cannot be read, or lacks a part that the simulation needs.
     """
-    return described(scene, variation, timestep_s).compile()
+    try:
+        return described(scene, variation, timestep_s).compile()
+    except ValueError as error:
+        raise SheetError(f"the models of the data sheets cannot be used: {error}") from error
 
 
 def described(scene: SceneFacts, variation: Variation, timestep_s: float = 0.001) -> mujoco.MjSpec:
-    """Return the description of a scene as it really is, of which MuJoCo makes a model; ValueError as for `build`."""
+    """Return the description of a scene as it really is, of which MuJoCo makes a model.
+
+    ValueError when a model cannot be read, or lacks a part.
+    """
     spec = _empty(timestep_s)
     for piece in scene.furniture:
         _add_box(spec, scene.names[piece.individual], piece.pose, piece.size, FURNITURE_FRICTION, WOOD)

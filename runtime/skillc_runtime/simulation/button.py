@@ -11,13 +11,17 @@ from skillc_runtime.motion.pose import Array
 from skillc_runtime.simulation.fixture_facts import FixtureFacts
 from skillc_runtime.simulation.fixture_variation import FixtureVariation
 from skillc_runtime.simulation.names import part
+from skillc_runtime.world.sheet import SheetError
 
 
 class SimulatedButton:
     """A button of a simulated cell, implementing `Button`; its model has the sensors `travel` in m and `force` in N."""
 
     def __init__(self, name: str, switches_at_m: float, data: Any) -> None:
-        self._travel, self._force = (data.sensor(part(name, what)).data for what in ("travel", "force"))
+        try:
+            self._travel, self._force = (data.sensor(part(name, what)).data for what in ("travel", "force"))
+        except KeyError as error:
+            raise SheetError(f"the model of {name}, a button, needs the sensors `travel` and `force`") from error
         self._switches_at, self._pressed = switches_at_m, list[tuple[float, float, float]]()
 
     @property

@@ -49,7 +49,7 @@ class SimulatedCell:
     ) -> None:
         """Build the cell; controllers run every `steps_per_command` steps, `reality` draws how it differs from facts.
 
-        SheetError, FrameError or ValueError when facts are missing or contradict the models.
+        SheetError or FrameError when facts are missing or contradict the models.
         """
         tell_complaints()
         self._world = world

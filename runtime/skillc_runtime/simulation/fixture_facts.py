@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 from pathlib import Path
 
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.simulation.friction import friction, ranges
 from skillc_runtime.world.frames import pose
-from skillc_runtime.world.sheet import Sheet, number, sheet_of
+from skillc_runtime.world.sheet import Sheet, number, range_below, sheet_of
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.terms import (
     BUTTON,
@@ -52,6 +53,7 @@ def read_fixtures(state: WorldState) -> tuple[FixtureFacts, ...]:
 
 def _fixture(state: WorldState, fixture: str) -> FixtureFacts:
     sheet = sheet_of(state, fixture)
+    travel = number(state, sheet.individual, SWITCH_TRAVEL) if state.is_a(fixture, BUTTON) else None
 
     def within(range_of: str) -> float:
         return number(state, fixture, range_of, default=0.0)
@@ -66,6 +68,6 @@ def _fixture(state: WorldState, fixture: str) -> FixtureFacts:
         tilt_range_rad=within(TILT_RANGE),
         friction=friction(state, fixture) if ranges(state, fixture) else None,
         stiffness_range=within(STIFFNESS_RANGE),
-        switch_travel_m=number(state, sheet.individual, SWITCH_TRAVEL) if state.is_a(fixture, BUTTON) else None,
-        switch_range_m=within(SWITCH_RANGE),
+        switch_travel_m=travel,
+        switch_range_m=range_below(state, fixture, SWITCH_RANGE, inf if travel is None else travel),
     )

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.frames import pose
-from skillc_runtime.world.sheet import number
+from skillc_runtime.world.sheet import number, range_below
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.terms import LEAD_RANGE, LEADS, PERSON, STRENGTH, STRENGTH_RANGE
 
@@ -35,7 +35,7 @@ def read_people(state: WorldState) -> tuple[PersonFacts, ...]:
             place=pose(state, each).position,
             range_m=number(state, each, LEAD_RANGE, default=0.0),
             strength_n=number(state, each, STRENGTH),
-            strength_range_n=number(state, each, STRENGTH_RANGE, default=0.0),
+            strength_range_n=range_below(state, each, STRENGTH_RANGE, number(state, each, STRENGTH)),
         )
         for each in sorted(state.instances(PERSON))
         for arm in sorted(state.objects(each, LEADS))

@@ -9,22 +9,25 @@ from skillc_runtime.world.flaw import Flaw, stored
 from skillc_runtime.world.frames import WORLD_FRAME
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.terms import (
+    AREA,
     ARM_DEVICE,
     AT,
     BASE_FRAME_ID,
     CONTAIN,
+    FIXTURE,
     FRAME_ID,
     FURNITURE,
     HAS_A,
     MOBILE_ROBOT,
     ORIENTATION,
+    PERSON,
     POSITION,
     SURFACE,
     TOOL,
 )
 
-PLACED = (ARM_DEVICE, FURNITURE, MOBILE_ROBOT, SURFACE, TOOL)
-"""What takes up space in a simulation, or stands on something that does."""
+PLACED = (AREA, ARM_DEVICE, FIXTURE, FURNITURE, MOBILE_ROBOT, PERSON, SURFACE, TOOL)
+"""What takes up space in a simulation, stands on something that does, or leads to a place."""
 
 
 def misplaced(state: WorldState) -> Iterator[Flaw]:

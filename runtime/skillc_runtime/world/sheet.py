@@ -101,6 +101,15 @@ def number(state: WorldState, individual: str, property_: str, default: float | 
     raise SheetError(f"{short(individual)} has no number {short(property_)} in the world model")
 
 
+def range_below(state: WorldState, individual: str, property_: str, middle: float) -> float:
+    """Return how far a number in SI units may be from its middle, 0 where nothing is said; SheetError when beyond 0."""
+    found = number(state, individual, property_, default=0.0)
+    if found >= middle:
+        short = state.vocabulary.short
+        raise SheetError(f"{short(individual)} has a {short(property_)} of {found:g}; it must be below {middle:g}")
+    return found
+
+
 def text(state: WorldState, individual: str, property_: str) -> str:
     """Return a text about an individual; SheetError when missing."""
     found = state.value(individual, property_)
