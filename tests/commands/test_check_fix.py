@@ -10,6 +10,7 @@ from typing import NoReturn
 import pytest
 from click.testing import CliRunner, Result
 
+from skillc_ontology import catalogue
 from skillc_runtime.commands.main import skillc
 
 BROKEN = """use rparts
@@ -121,3 +122,19 @@ def test_a_file_that_was_changed_meanwhile_is_left_alone(library: Path, monkeypa
     result = check("--fix")
     assert (result.exit_code, (library / "rest.skill").read_text("utf-8")) == (1, "# new\n")
     assert "was changed by someone else" in result.stderr
+
+
+def test_scenes_are_fixed_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    scene = Path("own.ttl")
+    right = catalogue.scene("iiwa_table").read_text("utf-8")
+    scene.write_text(right.replace("skiros:Weight 0.12", 'skiros:Weight "0.12"'), encoding="utf-8")
+    task = 'use wiping\nimport "wiping/tasks.skill"\nprefix lab: <http://example.org/lab#>\n'
+    task += 'task own { scene "own.ttl" goal lab:Table-1.isClean == true }\n'
+    Path("own.skill").write_text(task, encoding="utf-8")
+    shown = CliRunner().invoke(skillc, ["check", "--diff", "--unsafe-fixes"])
+    assert shown.exit_code == 1 and "-    skiros:SizeX 0.10" in shown.stdout
+    assert scene.read_text("utf-8") != right
+    fixed = CliRunner().invoke(skillc, ["check", "--fix", "--unsafe-fixes"])
+    assert fixed.exit_code == 0 and "fixed 1 problem in 1 file" in fixed.stderr
+    assert scene.read_text("utf-8") == right

@@ -45,19 +45,22 @@ def check(job: Job) -> int:
 
 def fix(job: Job, unsafe: bool) -> int:
     """Fix what can be fixed, print what remains and return the exit code; a fixed standard input goes to stdout."""
-    from skillc_runtime.commands import _fixing
+    from skillc_runtime.commands import _fixing, _fixing_around
     from skillc_runtime.commands._writing import WriteError
 
     cured = _cured(job, unsafe)
     piped = STDIN in job.paths
+    around = () if piped else _fixing_around.mended(_remaining(cured), unsafe)
     try:
         files = [] if piped else [path for each in cured for path in _fixing.write(each)]
+        _fixing_around.write(around)
     except WriteError as error:
         click.echo(f"error: {error}", err=True)
         return 1
-    count = _telling.counted(sum(each.fixes for each in cured), "problem")
-    click.echo(f"fixed {count}" + (f" in {_telling.counted(len(files), 'file')}" if files else ""), err=True)
-    found, texts = found_in_all(job, [each.after for each in cured])
+    count = _telling.counted(sum(each.fixes for each in (*cured, *around)), "problem")
+    changed = _telling.counted(len(files) + len(around), "file")
+    click.echo(f"fixed {count}" + (f" in {changed}" if files or around else ""), err=True)
+    found, texts = found_in_all(job, libraries(job) if around else [each.after for each in cured])
     if not piped:
         return _telling.show(found, texts, job.form)
     click.echo(cured[0].after.sources[0].text, nl=False)
@@ -67,11 +70,13 @@ def fix(job: Job, unsafe: bool) -> int:
 
 def show_fixes(job: Job, unsafe: bool) -> int:
     """Print what `fix` would change and return the exit code: 1 if there is something, or errors would remain."""
-    from skillc_runtime.commands import _fixing
+    from skillc_runtime.commands import _fixing, _fixing_around
 
     cured = _cured(job, unsafe)
-    count = sum(each.fixes for each in cured)
+    around = () if STDIN in job.paths else _fixing_around.mended(_remaining(cured), unsafe)
+    count = sum(each.fixes for each in (*cured, *around))
     click.echo("".join(_fixing.diff(each) for each in cured), nl=False)
+    click.echo("".join(_fixing.unified(each.before, each.after, str(each.path)) for each in around), nl=False)
     click.echo(f"{_telling.counted(count, 'problem')} can be fixed", err=True)
     return max(1 if count else 0, *(_telling.exit_code(each.remaining) for each in cured))
 
@@ -117,6 +122,10 @@ def _cured(job: Job, unsafe: bool) -> list[Cured]:
     if STDIN in job.paths and len(read) > 1:
         raise click.UsageError("with fixes, `-` must be the only path")
     return [_fixing.cure(library, lambda files: found_in(job, files), unsafe) for library in read]
+
+
+def _remaining(cured: Iterable[Cured]) -> list[Diagnostic]:
+    return [problem for each in cured for problem in each.remaining]
 
 
 def _from_stdin(path: Path | None) -> LibraryFiles:

@@ -64,13 +64,12 @@ def write(cured: Cured) -> tuple[Path, ...]:
 
 def diff(cured: Cured) -> str:
     """Return the changes as a unified diff."""
-    return "".join(_unified(old, new, cured.after.shown(new.path)) for old, new in cured.changes())
+    return "".join(unified(old.text, new.text, cured.after.shown(new.path)) for old, new in cured.changes())
 
 
-def _unified(old: Source, new: Source, shown: str) -> str:
-    lines = difflib.unified_diff(
-        old.text.splitlines(keepends=True), new.text.splitlines(keepends=True), shown, shown, n=2
-    )
+def unified(old: str, new: str, shown: str) -> str:
+    """Return how a text, called `shown`, changes, as a unified diff."""
+    lines = difflib.unified_diff(old.splitlines(keepends=True), new.splitlines(keepends=True), shown, shown, n=2)
     return "".join(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in lines)
 
 
