@@ -11,7 +11,7 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.avoidance.outfit import Hand, Outfit
-from skillc_runtime.avoidance.scenery import Block, Place, Scenery, place_of
+from skillc_runtime.avoidance.scenery import Block, Scenery, place_of
 from skillc_runtime.motion.pose import Array, Pose
 
 MOVES, STANDS = 1, 2
@@ -58,11 +58,16 @@ def body(outfit: Outfit, scenery: Scenery) -> Body:
 
 def _bare(path: str) -> Any:
     """Return a model of what moves, without sensors and motors."""
+    model = _passive(path)
+    for geom in model.geoms:
+        geom.contype, geom.conaffinity = MOVES, MOVES | STANDS
+    return model
+
+
+def _passive(path: str) -> Any:
     model = mujoco.MjSpec.from_file(path)
     for part in (*model.actuators, *model.sensors, *model.keys):
         model.delete(part)
-    for geom in model.geoms:
-        geom.contype, geom.conaffinity = MOVES, MOVES | STANDS
     return model
 
 
@@ -88,18 +93,16 @@ def _let_pass(spec: Any) -> None:
 
 def _add_scenery(spec: Any, scenery: Scenery) -> None:
     floor = spec.worldbody.add_geom(name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[10.0, 10.0, 0.1])
-    _stand(floor, scenery.floor)
+    floor.pos, floor.quat = scenery.floor.position, scenery.floor.quaternion
+    _let_stand(floor)
     for index, block in enumerate(scenery.blocks):
-        geom = _box(spec.worldbody, f"block/{index}", block)
-        geom.contype, geom.conaffinity = STANDS, 0
+        _let_stand(_box(spec.worldbody, f"block/{index}", block))
     for index, thing in enumerate(scenery.modelled):
-        model = mujoco.MjSpec.from_file(thing.model)
-        for part in (*model.actuators, *model.sensors, *model.keys):
-            model.delete(part)
+        model = _passive(thing.model)
         for joint in model.joints:
             model.delete(joint)
         for geom in model.geoms:
-            geom.contype, geom.conaffinity = STANDS, 0
+            _let_stand(geom)
         frame = spec.worldbody.add_frame(pos=thing.place.position, quat=thing.place.quaternion)
         spec.attach(model, prefix=f"thing/{index}/", frame=frame)
 
@@ -110,8 +113,7 @@ def _box(parent: Any, name: str, block: Block) -> Any:
     return geom
 
 
-def _stand(geom: Any, place: Place) -> None:
-    geom.pos, geom.quat = place.position, place.quaternion
+def _let_stand(geom: Any) -> None:
     geom.contype, geom.conaffinity = STANDS, 0
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,6 +18,7 @@ from skillc_runtime.commands._verdicts import Case
 
 if TYPE_CHECKING:
     from skillc_runtime.commands._fixing import Cured
+    from skillc_runtime.commands._fixing_around import Mended
 
 STDIN = Path("-")
 
@@ -50,14 +51,14 @@ def fix(job: Job, unsafe: bool) -> int:
 
     cured = _cured(job, unsafe)
     piped = STDIN in job.paths
-    around = () if piped else _fixing_around.mended(_remaining(cured), unsafe)
+    around: Sequence[Mended] = () if piped else _fixing_around.mended(_remaining(cured), unsafe)
     try:
         files = [] if piped else [path for each in cured for path in _fixing.write(each)]
         _fixing_around.write(around)
     except WriteError as error:
         click.echo(f"error: {error}", err=True)
         return 1
-    count = _telling.counted(sum(each.fixes for each in (*cured, *around)), "problem")
+    count = _telling.counted(_count(cured, around), "problem")
     changed = _telling.counted(len(files) + len(around), "file")
     click.echo(f"fixed {count}" + (f" in {changed}" if files or around else ""), err=True)
     found, texts = found_in_all(job, libraries(job) if around else [each.after for each in cured])
@@ -73,8 +74,8 @@ def show_fixes(job: Job, unsafe: bool) -> int:
     from skillc_runtime.commands import _fixing, _fixing_around
 
     cured = _cured(job, unsafe)
-    around = () if STDIN in job.paths else _fixing_around.mended(_remaining(cured), unsafe)
-    count = sum(each.fixes for each in (*cured, *around))
+    around: Sequence[Mended] = () if STDIN in job.paths else _fixing_around.mended(_remaining(cured), unsafe)
+    count = _count(cured, around)
     click.echo("".join(_fixing.diff(each) for each in cured), nl=False)
     click.echo("".join(_fixing.unified(each.before, each.after, str(each.path)) for each in around), nl=False)
     click.echo(f"{_telling.counted(count, 'problem')} can be fixed", err=True)
@@ -122,6 +123,10 @@ def _cured(job: Job, unsafe: bool) -> list[Cured]:
     if STDIN in job.paths and len(read) > 1:
         raise click.UsageError("with fixes, `-` must be the only path")
     return [_fixing.cure(library, lambda files: found_in(job, files), unsafe) for library in read]
+
+
+def _count(cured: Sequence[Cured], around: Sequence[Mended]) -> int:
+    return sum(each.fixes for each in cured) + sum(each.fixes for each in around)
 
 
 def _remaining(cured: Iterable[Cured]) -> list[Diagnostic]:

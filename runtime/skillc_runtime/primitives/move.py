@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
 HOME = "home"
 
-
 SEEDS = 8
 """How many other postures are looked for where the one nearest to home is not free."""
 
