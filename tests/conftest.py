@@ -5,10 +5,11 @@ import signal
 
 
 def pytest_configure() -> None:
-    """Let output have no edge, and processes that tests start listen to Ctrl-C.
+    """Let output have no edge, caches be where tests put them, and processes that tests start listen to Ctrl-C.
 
     In the background, where tests may run, they would not.
     """
     os.environ.pop("COLUMNS", None)
+    os.environ.pop("SKILLC_CACHE", None)
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -6,7 +6,7 @@ from cells import SURFACE, cell
 
 from skillc_runtime.primitives.inspect import CLEAN_THRESHOLD, COVERAGE, IS_CLEAN, Inspect
 from skillc_runtime.primitives.primitive import SkillFailure, Status
-from skillc_runtime.world.changes import ClearProperty
+from skillc_runtime.world.changes import ClearProperty, SetProperty
 
 TABLE = SURFACE["iiwa_table"]
 
@@ -14,6 +14,7 @@ TABLE = SURFACE["iiwa_table"]
 @pytest.mark.parametrize(("unwiped_cells", "clean"), [(4800, False), (49, False), (48, True), (0, True)])
 def test_clean_is_what_reaches_the_threshold(unwiped_cells: int, clean: bool) -> None:
     there = cell("iiwa_table")
+    there.world.commit([SetProperty(TABLE, CLEAN_THRESHOLD, 0.99)])
     dose = there.coverage[TABLE].dose
     assert dose.size == 4800, "60 x 80 cells, of which 1 % may stay unwiped"
     dose.flat[unwiped_cells:] = 1.0
