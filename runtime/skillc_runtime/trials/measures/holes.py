@@ -17,10 +17,9 @@ def measure(evidence: Evidence) -> Iterator[Work]:
     """Yield each peg that the world model says is in a socket."""
     cell, state = evidence.cell, evidence.cell.world.snapshot()
     for fixture, true in zip(cell.facts.fixtures, cell.variation.fixtures, strict=True):
-        if state.is_a(fixture.individual, SOCKET):
-            for peg in sorted(state.objects(fixture.individual, CONTAIN)):
-                if state.is_a(peg, PEG):
-                    yield _inserted(evidence, fixture, true, peg)
+        held = state.objects(fixture.individual, CONTAIN) if state.is_a(fixture.individual, SOCKET) else ()
+        for peg in sorted(each for each in held if state.is_a(each, PEG)):
+            yield _inserted(evidence, fixture, true, peg)
 
 
 def _inserted(evidence: Evidence, fixture: FixtureFacts, true: FixtureVariation, peg: str) -> Inserted:
