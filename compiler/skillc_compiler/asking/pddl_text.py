@@ -44,25 +44,24 @@ class PddlGoalError(Exception):
 
 def read_group(text: str, path: str) -> Group | None:
     """Return a text as nested groups, None if it is not exactly one well-nested group."""
-    stack: list[tuple[list[Expression], Span]] = []
-    whole: Group | None = None
+    open_groups: list[list[Expression]] = [[]]
+    starts: list[Span] = []
     for word in _words(text, path):
-        if whole is not None:
-            return None
-        if word.text == "(":
-            stack.append(([], word.span))
-        elif not stack:
-            return None
-        elif word.text == ")":
-            parts, start = stack.pop()
-            group = Group(tuple(parts), start.to(word.span))
-            if stack:
-                stack[-1][0].append(group)
-            else:
-                whole = group
-        else:
-            stack[-1][0].append(word)
-    return whole
+        match word.text:
+            case "(":
+                open_groups.append([])
+                starts.append(word.span)
+            case ")" if not starts:
+                return None
+            case ")":
+                group = Group(tuple(open_groups.pop()), starts.pop().to(word.span))
+                open_groups[-1].append(group)
+            case _:
+                open_groups[-1].append(word)
+    match open_groups:
+        case [[Group() as whole]]:
+            return whole
+    return None
 
 
 def goal(group: Group, is_class: Callable[[str], bool]) -> s.Condition:

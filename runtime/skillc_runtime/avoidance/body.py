@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations, product
@@ -132,15 +133,27 @@ def _levers(model: Any, joints: int) -> Array:
     """Return how far (joints,) in m a point that a joint moves can be from it: along the links, stretched out."""
     levers = np.zeros(joints)
     for geom in np.flatnonzero(model.geom_contype == MOVES).tolist():
-        link = int(model.geom_bodyid[geom])
-        far = float(np.linalg.norm(model.geom_pos[geom]) + model.geom_rbound[geom])
-        while link > 0:
-            for joint in range(model.body_jntadr[link], model.body_jntadr[link] + model.body_jntnum[link]):
-                if joint < joints:
-                    levers[joint] = max(levers[joint], far + np.linalg.norm(model.jnt_pos[joint]))
-            far += float(np.linalg.norm(model.body_pos[link]))
-            link = int(model.body_parentid[link])
+        for joint, far in _joints_of(model, geom):
+            if joint < joints:
+                levers[joint] = max(levers[joint], far)
     return levers
+
+
+def _joints_of(model: Any, geom: int) -> Iterator[tuple[int, float]]:
+    """Yield each joint that moves a geom, and how far in m any part of the geom can be from it."""
+    far = float(np.linalg.norm(model.geom_pos[geom]) + model.geom_rbound[geom])
+    for link in _chain(model, int(model.geom_bodyid[geom])):
+        first = int(model.body_jntadr[link])
+        for joint in range(first, first + int(model.body_jntnum[link])):
+            yield joint, far + float(np.linalg.norm(model.jnt_pos[joint]))
+        far += float(np.linalg.norm(model.body_pos[link]))
+
+
+def _chain(model: Any, link: int) -> Iterator[int]:
+    """Yield a link and all that carry it, up to but without the world."""
+    while link > 0:
+        yield link
+        link = int(model.body_parentid[link])
 
 
 def _name(model: Any, geom: int, outfit: Outfit, scenery: Scenery) -> str:

@@ -40,20 +40,30 @@ def _turns(state: WorldState) -> Iterator[Flaw]:
 
 def _frictions(state: WorldState) -> Iterator[Flaw]:
     """A surface has a friction or both ends of a range, the lower one first; other things may have neither."""
-    short = state.vocabulary.short
     if not {FRICTION, FRICTION_LOW, FRICTION_HIGH} <= state.stored.keys():
         return
     ranged = {thing for end in (FRICTION_LOW, FRICTION_HIGH) for thing, _ in stored(state, end)}
     for thing in sorted({*state.instances(SURFACE), *ranged}):
-        low, high = state.value(thing, FRICTION_LOW), state.value(thing, FRICTION_HIGH)
-        if low is None and high is None:
+        yield from _friction(state, thing)
+
+
+def _friction(state: WorldState, thing: str) -> Iterator[Flaw]:
+    short = state.vocabulary.short
+    match state.value(thing, FRICTION_LOW), state.value(thing, FRICTION_HIGH):
+        case (None, None):
             if state.value(thing, FRICTION) is None:
                 message = f"{short(thing)} has no {short(FRICTION)}"
                 yield Flaw(thing, None, "missing-friction", message, f"write `{short(FRICTION)} NUMBER`")
-        elif low is None or high is None:
-            there, lost = (FRICTION_LOW, FRICTION_HIGH) if high is None else (FRICTION_HIGH, FRICTION_LOW)
-            message = f"{short(thing)} has a {short(there)} and no {short(lost)}"
-            yield Flaw(thing, there, "missing-friction", message, "the two go together")
-        elif isinstance(low, int | float) and isinstance(high, int | float) and low > high:
+        case (None, _):
+            yield _halved(state, thing, FRICTION_HIGH, FRICTION_LOW)
+        case (_, None):
+            yield _halved(state, thing, FRICTION_LOW, FRICTION_HIGH)
+        case (int() | float() as low, int() | float() as high) if low > high:
             message = f"{short(thing)}.{short(FRICTION_LOW)} = {low:g} is above its {short(FRICTION_HIGH)} = {high:g}"
             yield Flaw(thing, FRICTION_LOW, "not-a-range", message, "exchange the two")
+
+
+def _halved(state: WorldState, thing: str, there: str, lost: str) -> Flaw:
+    short = state.vocabulary.short
+    message = f"{short(thing)} has a {short(there)} and no {short(lost)}"
+    return Flaw(thing, there, "missing-friction", message, "the two go together")

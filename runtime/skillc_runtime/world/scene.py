@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import pyoxigraph as ox
 
@@ -138,13 +139,14 @@ def _misused(said: Iterable[Statement], vocabulary: Vocabulary) -> Iterator[Prob
     for each in said:
         cls = iri_of(each.object) if each.predicate == RDF_TYPE else ""
         if is_misspelt(each.predicate):
-            near = suggest(each.predicate, each.predicate_place, vocabulary, standard_terms(each.predicate))
-            message = f"there is no property {vocabulary.short(each.predicate)}"
-            yield Problem(each.predicate_place, "unknown-property", message, near.help, edit=near.edit)
+            yield _misspelt("property", each.predicate, each.predicate_place, vocabulary)
         elif is_misspelt(cls):
-            near = suggest(cls, each.object_place, vocabulary, standard_terms(cls))
-            message = f"there is no class {vocabulary.short(cls)}"
-            yield Problem(each.object_place, "unknown-class", message, near.help, edit=near.edit)
+            yield _misspelt("class", cls, each.object_place, vocabulary)
         elif isinstance(each.subject, ox.BlankNode) and cls in vocabulary.classes:
             message = f"this {vocabulary.short(cls)} has no name"
             yield Problem(each.subject_place, "unnamed-individual", message, f"write `:NAME a {vocabulary.short(cls)}`")
+
+
+def _misspelt(kind: Literal["class", "property"], term: str, place: Place, vocabulary: Vocabulary) -> Problem:
+    near = suggest(term, place, vocabulary, standard_terms(term))
+    return Problem(place, f"unknown-{kind}", f"there is no {kind} {vocabulary.short(term)}", near.help, edit=near.edit)
