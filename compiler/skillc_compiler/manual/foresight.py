@@ -43,14 +43,16 @@ Bad:
 
 Good:
 
-    use wiping
     prefix lab: <http://example.org/lab#>
     import "wiping/wipe.skill"
     import "handling.skill"
 
     task clean {
         scene "iiwa_table.ttl"
-        goal  lab:Table-1.isClean == true
+        do    seq {
+            Pick(arm: lab:Iiwa-1, object: lab:Eraser-1)
+            Wipe(surface: lab:Table-1)
+        }
     }
 
 ## several-answers: the scene has several individuals that an inferred parameter could stand for
