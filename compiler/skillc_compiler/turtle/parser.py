@@ -10,11 +10,12 @@ import pyoxigraph as ox
 from skillc_compiler.turtle import complaints
 from skillc_compiler.turtle.complaints import Complaint
 from skillc_compiler.turtle.cursor import Cursor, extent
+from skillc_compiler.turtle.declarations import Declarations
 from skillc_compiler.turtle.naming import Found, Naming
 from skillc_compiler.turtle.other_formats import other_format
-from skillc_compiler.turtle.problems import Edit, Place, Problem
+from skillc_compiler.turtle.problems import Place, Problem
 from skillc_compiler.turtle.statements import SOMETHING, Extent, Node, Parsed, Statement
-from skillc_compiler.turtle.terms import RDF, RDF_TYPE, local_of, named
+from skillc_compiler.turtle.terms import RDF, RDF_TYPE, named
 from skillc_compiler.turtle.tokens import Token
 
 NOTHING_KNOWN: Mapping[str, str] = MappingProxyType({})
@@ -38,6 +39,7 @@ class _Parser:
     def __init__(self, cursor: Cursor, base: str, known: Mapping[str, str]) -> None:
         self._cursor = cursor
         self._naming = Naming(cursor, base, known)
+        self._declarations = Declarations(cursor, self._naming)
         self._statements: list[Statement] = []
         self._depth = 0
 
@@ -46,9 +48,9 @@ class _Parser:
         subject: Found = None, Extent(0, 0)
         while not cursor.at_end:
             if cursor.at_directive:
-                self._directive()
+                self._declarations.read()
             elif cursor.at_lost_prefix:
-                self._lost_prefix()
+                self._declarations.read_lost()
             elif cursor.peek.is_mark("."):
                 cursor.complain(cursor.peek, complaints.no_subject(cursor.take()))
             else:
@@ -63,7 +65,7 @@ class _Parser:
         if cursor.peek.is_mark(";,"):
             cursor.complain(cursor.peek, complaints.no_subject(cursor.take()))
             if before[0] is None:
-                self._leave_line()
+                self._declarations.leave_line()
                 return before
             subject = before
         elif cursor.at_value_of_name and before[0] is not None:
@@ -76,58 +78,6 @@ class _Parser:
         self._pairs(*subject)
         self._end()
         return subject
-
-    def _lost_prefix(self) -> None:
-        """Read the declaration of a prefix that has lost its first word."""
-        name = self._cursor.take()
-        place = self._cursor.lines.place(name.start, name.start)
-        edit = Edit(place, "@prefix ", "insert `@prefix`")
-        self._cursor.complain(name, Complaint("before this `@prefix` is missing"), edit)
-        self._naming.declare(name, self._cursor.take())
-        self._cursor.take_mark(".")
-
-    def _directive(self) -> None:
-        keyword = self._cursor.take()
-        word = keyword.text.removeprefix("@")
-        if word.lower() not in ("prefix", "base") or (keyword.kind == "at" and word != word.lower()):
-            self._not_understood(keyword, Complaint(f"there is no `{keyword.text}`", "there is `@prefix` and `@base`"))
-            return
-        name = self._cursor.take() if word.lower() == "prefix" else None
-        if name is not None and (name.kind != "name" or local_of(name)[1]):
-            self._not_understood(name, complaints.no_declaration(word.lower()))
-        elif self._cursor.peek.kind != "iri":
-            self._naming.give_up(name)
-            self._not_understood(self._cursor.peek, complaints.no_declaration(word.lower()))
-        else:
-            self._naming.declare(name, self._cursor.take())
-            self._end_directive(keyword)
-
-    def _end_directive(self, keyword: Token) -> None:
-        if keyword.kind == "at":
-            self._end_line()
-        elif self._cursor.peek.is_mark("."):
-            complaint = Complaint(f"`{keyword.text}` is not ended by a `.`", "delete the `.`")
-            self._cursor.complain(self._cursor.take(), complaint)
-
-    def _end_line(self) -> None:
-        """Take the `.` of a declaration; if there is none, leave out what else stands on its line."""
-        if self._cursor.take_mark("."):
-            return
-        self._cursor.complain_missing(".")
-        self._leave_line()
-
-    def _leave_line(self) -> None:
-        """Leave out what else stands on the line."""
-        cursor = self._cursor
-        while not (cursor.at_new_line or cursor.at_end or cursor.at_directive or cursor.at_lost_prefix):
-            self._naming.doubt(cursor.take())
-
-    def _not_understood(self, token: Token, complaint: Complaint) -> None:
-        """Complain and go on behind the sentence."""
-        self._cursor.complain(token, complaint)
-        while not self._cursor.peek.is_mark(".") and not self._cursor.at_end:
-            self._naming.doubt(self._cursor.take())
-        self._cursor.take_mark(".")
 
     def _end(self) -> None:
         """Take the `.` of a sentence, or say that there is none; what else stands here is told as a sentence."""

@@ -1,0 +1,72 @@
+"""Declarations of prefixes and of the base in a Turtle text, and what is wrong with them."""
+
+from __future__ import annotations
+
+from skillc_compiler.turtle import complaints
+from skillc_compiler.turtle.complaints import Complaint
+from skillc_compiler.turtle.cursor import Cursor
+from skillc_compiler.turtle.naming import Naming
+from skillc_compiler.turtle.problems import Edit
+from skillc_compiler.turtle.terms import local_of
+from skillc_compiler.turtle.tokens import Token
+
+
+class Declarations:
+    """Reads declarations where the cursor is at one, and tells `naming` what they declare."""
+
+    def __init__(self, cursor: Cursor, naming: Naming) -> None:
+        self._cursor = cursor
+        self._naming = naming
+
+    def read(self) -> None:
+        """Read a declaration, whole or not."""
+        keyword = self._cursor.take()
+        word = keyword.text.removeprefix("@")
+        if word.lower() not in ("prefix", "base") or (keyword.kind == "at" and word != word.lower()):
+            self._not_understood(keyword, Complaint(f"there is no `{keyword.text}`", "there is `@prefix` and `@base`"))
+            return
+        name = self._cursor.take() if word.lower() == "prefix" else None
+        if name is not None and (name.kind != "name" or local_of(name)[1]):
+            self._not_understood(name, complaints.no_declaration(word.lower()))
+        elif self._cursor.peek.kind != "iri":
+            self._naming.give_up(name)
+            self._not_understood(self._cursor.peek, complaints.no_declaration(word.lower()))
+        else:
+            self._naming.declare(name, self._cursor.take())
+            self._end_directive(keyword)
+
+    def read_lost(self) -> None:
+        """Read the declaration of a prefix that has lost its first word."""
+        name = self._cursor.take()
+        place = self._cursor.lines.place(name.start, name.start)
+        edit = Edit(place, "@prefix ", "insert `@prefix`")
+        self._cursor.complain(name, Complaint("before this `@prefix` is missing"), edit)
+        self._naming.declare(name, self._cursor.take())
+        self._cursor.take_mark(".")
+
+    def leave_line(self) -> None:
+        """Leave out what else stands on the line."""
+        cursor = self._cursor
+        while not (cursor.at_new_line or cursor.at_end or cursor.at_directive or cursor.at_lost_prefix):
+            self._naming.doubt(cursor.take())
+
+    def _end_directive(self, keyword: Token) -> None:
+        if keyword.kind == "at":
+            self._end_line()
+        elif self._cursor.peek.is_mark("."):
+            complaint = Complaint(f"`{keyword.text}` is not ended by a `.`", "delete the `.`")
+            self._cursor.complain(self._cursor.take(), complaint)
+
+    def _end_line(self) -> None:
+        """Take the `.` of a declaration; if there is none, leave out what else stands on its line."""
+        if self._cursor.take_mark("."):
+            return
+        self._cursor.complain_missing(".")
+        self.leave_line()
+
+    def _not_understood(self, token: Token, complaint: Complaint) -> None:
+        """Complain and go on behind the sentence."""
+        self._cursor.complain(token, complaint)
+        while not self._cursor.peek.is_mark(".") and not self._cursor.at_end:
+            self._naming.doubt(self._cursor.take())
+        self._cursor.take_mark(".")
