@@ -10,7 +10,8 @@ from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.tree.locks import Locks
 from skillc_runtime.tree.run import Run
 from skillc_runtime.world.changes import SetProperty
-from tree.reference import Model, Result, Scope, run, unwind
+from tree.reference import run, unwind
+from tree.reference_model import Model, Result, Scope
 from tree.stage import FLAGS, ON, PERIOD_S, Stage, world
 from tree.strategies import Play, plays
 
