@@ -21,6 +21,8 @@ from typing import Annotated, Any, ParamSpec, TypeVar, get_args, get_origin
 import numpy as np
 from numpy.typing import NDArray
 
+from skillc_runtime.cache_folder import cache_folder
+
 Vector = Annotated[NDArray[np.float64], 1, "read"]
 Matrix = Annotated[NDArray[np.float64], 2, "read"]
 OutVector = Annotated[NDArray[np.float64], 1, "written"]
@@ -102,12 +104,14 @@ def _kept() -> Iterator[bool]:
 @cache
 def _folder() -> str:
     """Return where machine code is kept, empty where nothing can be; say so when it has to be made first."""
+    base = cache_folder()
+    if base is None:
+        return ""
+    folder = base / f"laws-{_digest()}"
+    new = not folder.is_dir()
     try:
-        base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache", "skillc")
-        folder = Path(os.environ.get("SKILLC_CACHE") or base).absolute() / f"laws-{_digest()}"
-        new = not folder.is_dir()
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-    except (OSError, RuntimeError):
+    except OSError:
         return ""
     if new:
         print("compiling the control laws, once for this version", file=sys.stderr)

@@ -11,10 +11,8 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+from skillc_runtime.cache_folder import VARIABLE, cache_folder
 from skillc_runtime.simulation.looks import Collection, LooksError
-
-VARIABLE = "SKILLC_CACHE"
-"""The environment variable with skillc's cache folder; else it is `skillc` in the user's."""
 
 SLOW_BYTES_S, SLOW_S = 1000, 30
 """A connection that is slower than this for so long is given up."""
@@ -36,12 +34,9 @@ def model_file(collection: Collection, path: str) -> Path:
 
 def _place(collection: Collection) -> Path:
     """Return where a collection's folders are kept."""
-    try:
-        base = Path(
-            os.environ.get(VARIABLE) or Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache", "skillc")
-        )
-    except RuntimeError as error:
-        raise LooksError(f"there is no home to keep {collection.name} in; name a folder in {VARIABLE}") from error
+    base = cache_folder()
+    if base is None:
+        raise LooksError(f"there is no home to keep {collection.name} in; name a folder in {VARIABLE}")
     return base / "looks" / collection.name / collection.commit
 
 
