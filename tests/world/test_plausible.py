@@ -69,6 +69,8 @@ MISTAKES = [
     ("OrientationW 1.0", "OrientationW 1e200", "no-rotation", "lab:Iiwa-1", "1.0"),
     ("SizeX 0.30", "SizeX -0.30", "wrong-data-type", "lab:Pedestal.skiros:SizeX = -0.3`: it is above 0", ""),
     ("offsetRange 0.02", "offsetRange -0.02", "wrong-data-type", "offsetRange = -0.02`: it is at least 0", ""),
+    ("offsetRange 0.02", "offsetRange 3", "wrong-data-type", "it is at least 0 and at most 0.5", ""),
+    ("tiltRange 0.087", "tiltRange 2", "wrong-data-type", "it is at least 0 and at most 0.8", ""),
     ("cleanThreshold 1.0", "cleanThreshold 99", "wrong-data-type", "it is at least 0 and at most 1", ""),
     ("stiffnessRange 0.3", "stiffnessRange 1", "wrong-data-type", "it is at least 0 and below 1", ""),
     (
