@@ -17,7 +17,8 @@ FAMILIES: tuple[tuple[str, str], ...] = (
         "scenes",
         "*-scene *turtle json-ld missing-prefix missing-property missing-friction no-fitting-* no-implementation-fits"
         " *-answer* cannot-start open-* unnamed-* frame-* unknown-frame unknown-controller no-place no-rotation"
-        " partial-pose not-a-range wrong-data-type asymmetric-* irreflexive-* functional-* disjoint-classes",
+        " partial-pose not-a-range wrong-data-type asymmetric-* irreflexive-* functional-* disjoint-classes area-*"
+        " turned-area",
     ),
     ("properties", "verify-*"),
     ("implementations", "*-python* not-narrower recursion missing-body no-implementation *-select*"),

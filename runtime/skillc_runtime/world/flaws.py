@@ -10,6 +10,7 @@ from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_runtime.world.flaw import Flaw
 from skillc_runtime.world.individuals import iri_of
 from skillc_runtime.world.mandatory import incomplete
+from skillc_runtime.world.on_surfaces import astray
 from skillc_runtime.world.placing import misplaced
 from skillc_runtime.world.plausible import implausible
 from skillc_runtime.world.state import WorldState
@@ -25,7 +26,7 @@ def flaws(
     troubled = {*doubtful, *_subjects(said, problems)}
     found = [*incomplete(state), *implausible(state)]
     if not problems and not doubtful:
-        found += misplaced(state)
+        found += list(misplaced(state)) or astray(state)
     places = {(iri_of(each.subject), each.predicate): each for each in reversed(said)}
     for flaw in found:
         if flaw.individual not in troubled:

@@ -28,6 +28,7 @@ from skillc_runtime.world.individuals import (
 )
 from skillc_runtime.world.literals import LiteralError, read
 from skillc_runtime.world.mandatory import incomplete
+from skillc_runtime.world.on_surfaces import astray
 from skillc_runtime.world.own_classes import are_placed
 from skillc_runtime.world.placing import misplaced
 from skillc_runtime.world.plausible import implausible
@@ -73,7 +74,8 @@ def quick_world(documents: Sequence[Document], vocabulary: Vocabulary) -> WorldS
             state = state_of(vocabulary, _facts(said, vocabulary))
         except (_OutOfOrder, SyntaxError, LiteralError):
             return None
-        in_order = is_sound(state) and not any(any(rule(state)) for rule in (incomplete, implausible, misplaced))
+        rules = (incomplete, implausible, misplaced, astray)
+        in_order = is_sound(state) and not any(any(rule(state)) for rule in rules)
         return state if in_order else None
 
 
