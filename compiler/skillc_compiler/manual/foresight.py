@@ -173,6 +173,32 @@ Good:
         do    Wave(arm: lab:Iiwa-1, gripper: lab:Robotiq-1)
     }
 
+## unfit-sheet: an arm's data sheet does not serve its controller or its model
+
+The sheet lacks what the controller needs, or its model is not there or has another number of joints than its postures.
+
+Bad:
+
+    @prefix lab:    <http://example.org/lab#> .
+    @prefix skillc: <https://w3id.org/skillc/core#> .
+    @prefix skiros: <http://rvmi.aau.dk/ontologies/skiros.owl#> .
+
+    lab:Iiwa-1 a skillc:Iiwa14 ; skillc:hasSheet skillc:ur5e-sheet ;
+        skiros:BaseFrameId "map" ; skiros:PositionX 0 ; skiros:PositionY 0 ; skiros:PositionZ 0.6 ;
+        skiros:OrientationW 1 ; skiros:OrientationX 0 ; skiros:OrientationY 0 ; skiros:OrientationZ 0 ;
+        skiros:CompliantController "impedance" .
+
+Good:
+
+    @prefix lab:    <http://example.org/lab#> .
+    @prefix skillc: <https://w3id.org/skillc/core#> .
+    @prefix skiros: <http://rvmi.aau.dk/ontologies/skiros.owl#> .
+
+    lab:Iiwa-1 a skillc:Iiwa14 ; skillc:hasSheet skillc:iiwa14-sheet ;
+        skiros:BaseFrameId "map" ; skiros:PositionX 0 ; skiros:PositionY 0 ; skiros:PositionZ 0.6 ;
+        skiros:OrientationW 1 ; skiros:OrientationX 0 ; skiros:OrientationY 0 ; skiros:OrientationZ 0 ;
+        skiros:CompliantController "impedance" .
+
 ## unknown-controller: an arm of a scene names a controller that there is not
 
 A controller is a file in the folder `controllers` of the runtime; the message lists them.

@@ -14,6 +14,7 @@ from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_dsl.diagnostics import Diagnostic, Label, Outcome, Severity
 from skillc_dsl.source import Span
 from skillc_runtime.commands import _diagnostics
+from skillc_runtime.commands._arm_sheets import unfit_sheets
 from skillc_runtime.commands._controllers import unknown_controllers
 from skillc_runtime.commands._scenes import Populated
 from skillc_runtime.planning.reachable import why_unreachable
@@ -30,7 +31,7 @@ LONGEST_TASK = 10
 
 
 def foreseen(compiled: Outcome[SkillLibrary], populated: Populated, shown: Callable[[str], str]) -> list[Diagnostic]:
-    """Return what keeps tasks from being done in their scenes, whom no implementation fits, and unknown controllers.
+    """Return what keeps tasks from being done in their scenes, whom no implementation fits, and arms none can control.
 
     `shown` tells how diagnostics show the paths of the library. Of libraries and scenes with mistakes nothing is
     foreseen, and nothing that was told while compiling.
@@ -46,7 +47,8 @@ def foreseen(compiled: Outcome[SkillLibrary], populated: Populated, shown: Calla
     labelled = {(label.span.path, label.span.line) for each in errors for label in each.labels}
     unfit_ = (_of_individuals(library, scene, str(path)) for path, scene in populated.sound.items())
     unknown = (unknown_controllers(scene, str(path)) for path, scene in populated.sound.items())
-    others = [each for found in (*unknown, *unfit_) for each in found]
+    sheets = (unfit_sheets(scene, str(path)) for path, scene in populated.sound.items())
+    others = [each for found in (*unknown, *sheets, *unfit_) for each in found]
     return [*errors, *(each for each in others if (each.span.path, each.span.line) not in labelled)]
 
 

@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterator, Sequence
 from skillc_compiler.turtle.problems import Place, Problem
 from skillc_compiler.turtle.statements import Statement
 from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_runtime.world.device_sheets import unsuited
 from skillc_runtime.world.flaw import Flaw
 from skillc_runtime.world.individuals import iri_of
 from skillc_runtime.world.mandatory import incomplete
@@ -24,7 +25,7 @@ def flaws(
     Where things are is looked at only when there is no other problem: a frame may be missing because of it.
     """
     troubled = {*doubtful, *_subjects(said, problems)}
-    found = [*incomplete(state), *implausible(state)]
+    found = [*incomplete(state), *implausible(state), *unsuited(state)]
     if not problems and not doubtful:
         found += list(misplaced(state)) or astray(state)
     places = {(iri_of(each.subject), each.predicate): each for each in reversed(said)}

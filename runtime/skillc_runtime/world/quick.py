@@ -15,6 +15,7 @@ from skillc_compiler.collecting import no_collection
 from skillc_compiler.library.vocabulary import PropertyTerm, Vocabulary
 from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_runtime.world.bulk import Facts, state_of
+from skillc_runtime.world.device_sheets import unsuited
 from skillc_runtime.world.documents import BASE, Document
 from skillc_runtime.world.individuals import (
     ANNOTATION,
@@ -74,7 +75,7 @@ def quick_world(documents: Sequence[Document], vocabulary: Vocabulary) -> WorldS
             state = state_of(vocabulary, _facts(said, vocabulary))
         except (_OutOfOrder, SyntaxError, LiteralError):
             return None
-        rules = (incomplete, implausible, misplaced, astray)
+        rules = (incomplete, implausible, unsuited, misplaced, astray)
         in_order = is_sound(state) and not any(any(rule(state)) for rule in rules)
         return state if in_order else None
 

@@ -1,0 +1,90 @@
+"""Data sheets that cannot be those of the devices that name them are told by `skillc check`, at their lines."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_ontology import catalogue
+from skillc_runtime.commands import _checking, _files
+
+SCENE = catalogue.scene("iiwa_table").read_text("utf-8")
+OWN = """
+lab:own-home a skillc:Posture ; skillc:postureName "home" ; skillc:jointValues "0.0 0.35 0.0 -1.75 0.0 1.04 0.0" .
+lab:own-sheet a skillc:ArmSheet ; skillc:model "robots/iiwa14.xml" ; skillc:reach 0.82 ; skillc:shoulderHeight 0.36 ;
+    skillc:jointSpeeds "1.4 1.4 1.7 1.3 2.2 2.3 2.3" ;
+    skillc:armature 0.03 ; skillc:linearStiffness 1500 ; skillc:rotationalStiffness 200 ; skillc:dampingRatio 1 ;
+    skillc:dampingFloor 60 ; skillc:rotationalDampingFloor 2 ; skillc:nullspaceStiffness 10 ; skillc:torqueRate 1000 ;
+    skillc:commandTime 0.1 ; skillc:forceLimit 50 ; skillc:speedLimit 0.5 ; skillc:accelerationLimit 0.5 ;
+    skillc:hasPosture lab:own-home .
+"""
+SIX = "0.0 0.35 0.0 -1.75 0.0 1.04"
+
+
+def told(folder: Path, sheet: str, own: str = "", device: str = "skillc:iiwa14-sheet") -> list[Diagnostic]:
+    """Return what is told of a scene in which a device has another sheet."""
+    assert device in SCENE
+    (folder / "s.ttl").write_text(SCENE.replace(device, sheet) + own, "utf-8")
+    (folder / "t.skill").write_text("use skiros\nclass Rag < Product\n", "utf-8")
+    return list(_checking.check(_files.find(folder), folder / "s.ttl"))
+
+
+@pytest.mark.parametrize(
+    ("device", "sheet", "name", "words"),
+    [
+        ("skillc:iiwa14-sheet", "skillc:wsg50-sheet", "wrong-sheet", "lab:Iiwa-1 needs a skillc:ArmSheet"),
+        ("skillc:robotiq-3f-sheet", "skillc:iiwa14-sheet", "wrong-sheet", "lab:Robotiq-1 needs a skillc:GripperSheet"),
+        ("wiping:eraser-sheet", "skillc:heron-sheet", "wrong-sheet", "lab:Eraser-1 needs a contact:RigidToolSheet or"),
+        ("skillc:iiwa14-sheet", "skillc:ur5e-sheet", "unfit-sheet", "skillc:ur5e-sheet has no number"),
+    ],
+)
+def test_the_sheet_of_another_device_is_told_at_its_line(
+    tmp_path: Path, device: str, sheet: str, name: str, words: str
+) -> None:
+    (found,) = told(tmp_path, sheet, device=device)
+    assert (found.name, found.severity) == (name, "error")
+    assert words in found.message
+    line = (tmp_path / "s.ttl").read_text("utf-8").splitlines()[found.span.line - 1]
+    assert line[found.span.column - 1 : found.span.end_column - 1] == sheet
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "name", "words"),
+    [
+        (f"{SIX} 0.0", SIX, "joint-numbers", "lab:own-home.skillc:jointValues has 6 numbers, and"),
+        (f"{SIX} 0.0", f"{SIX} nought", "joint-numbers", "is not numbers separated by spaces"),
+        ("1.4 1.4 1.7", "1.4 0 1.7", "joint-numbers", "is to be above 0 for each joint"),
+        ("1.4 1.4 1.7 1.3 2.2 2.3 2.3", "", "joint-numbers", "is to be above 0 for each joint"),
+        (
+            "skillc:armature",
+            'skillc:jointAccelerations "9 9" ; skillc:armature',
+            "joint-numbers",
+            "jointAccelerations has 2 numbers",
+        ),
+        ("robots/iiwa14.xml", "robots/ur5e.xml", "unfit-sheet", "its model has 6 joints, and its posture home 7"),
+        ("robots/iiwa14.xml", "robots/gone.xml", "unfit-sheet", "no model robots/gone.xml"),
+        ("robots/iiwa14.xml", "robots/ur5e.ttl", "unfit-sheet", "its model cannot be read"),
+        ('"home"', '"rest"', "unfit-sheet", "has no posture 'home'; it has rest"),
+    ],
+)
+def test_a_sheet_that_does_not_speak_of_each_joint_is_told(
+    tmp_path: Path, old: str, new: str, name: str, words: str
+) -> None:
+    assert OWN.count(old) == 1
+    (found,) = told(tmp_path, "lab:own-sheet", OWN.replace(old, new))
+    assert (found.name, found.severity) == (name, "error")
+    assert words in found.message
+
+
+def test_a_sheet_of_ones_own_is_as_good(tmp_path: Path) -> None:
+    assert told(tmp_path, "lab:own-sheet", OWN) == []
+
+
+def test_of_what_is_told_elsewhere_no_sheet_is_blamed(tmp_path: Path) -> None:
+    wrong = OWN.replace("lab:own-sheet a", 'lab:Iiwa-1 skiros:CompliantController "impedence" .\nlab:own-sheet a')
+    (tmp_path / "s.ttl").write_text(SCENE.replace('skiros:CompliantController "impedance" ;', "") + wrong, "utf-8")
+    (tmp_path / "t.skill").write_text("use skiros\nclass Rag < Product\n", "utf-8")
+    (found,) = _checking.check(_files.find(tmp_path), tmp_path / "s.ttl")
+    assert found.name == "unknown-controller"
