@@ -79,7 +79,8 @@ class Renderer:
         self._scene = mujoco.MjvScene(model, maxgeom=MOST_GEOMS)
         self._scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = quality == "still"
         self._scene.flags[mujoco.mjtRndFlag.mjRND_REFLECTION] = False
-        self._camera = mujoco.MjvCamera()
+        self._camera, self._option = mujoco.MjvCamera(), mujoco.MjvOption()
+        self._option.sitegroup[:] = 0  # places that only programs need
 
     def picture(self, data: Any, views: Sequence[View]) -> Picture:
         """Return the picture (height, width, 3) of a state: views side by side, equally wide."""
@@ -101,7 +102,7 @@ class Renderer:
         self._camera.distance = view.distance
         self._camera.azimuth, self._camera.elevation = view.azimuth_deg, view.elevation_deg
         everything = mujoco.mjtCatBit.mjCAT_ALL
-        mujoco.mjv_updateScene(self._model, data, mujoco.MjvOption(), None, self._camera, everything, self._scene)
+        mujoco.mjv_updateScene(self._model, data, self._option, None, self._camera, everything, self._scene)
         for light in self._scene.lights[: self._scene.nlight]:
             _shine(light)
         for prop in self._props:
