@@ -3,7 +3,7 @@
 w_C = -K sat(e) + W + W_ext;  a = A w_C / T + nu_d / T + a_d;  ddq = H^-1 (J_C^T a - c)
 dq <- g dq + (1 - g) T ddq, g = exp(-h/T);  q <- q + h dq
 Scherzinger, Roennau, Dillmann 2017; gains per second, Coriolis forces c, feed-forward along stiff axes. C: compliance
-frame.
+frame. Of what would be over the speed with which a tool may yield little is left.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 from skillc_runtime.controllers.gains import Gains, Number
 from skillc_runtime.controllers.joint_position import JointServo
 from skillc_runtime.controllers.limits import FASTEST, TOLD, JointLimit, limit_joints
-from skillc_runtime.controllers.task_error import ACCELERATION, ERROR, MEASURED, TWIST, TaskError, task_error
+from skillc_runtime.controllers.task_error import ACCELERATION, ERROR, MEASURED, TWIST, TaskError, over, task_error
 from skillc_runtime.controllers.virtual_arm import VirtualArm
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
@@ -25,6 +25,9 @@ from skillc_runtime.numerics.compiled import Matrix, OutMatrix, OutVector, Vecto
 from skillc_runtime.numerics.linear import cholesky, cholesky_solve, product, transposed_times
 from skillc_runtime.robots.arm import ArmLimits, ArmState, JointPosition, Mode
 from skillc_runtime.robots.laws import Laws
+
+BRAKED = 0.9
+"""Share of what would be over the greatest speed with which a tool may yield that is taken off."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,7 +104,7 @@ class ForwardDynamics:
         followed = virtual_motion(
             self._dq, task.rows, task.axes, limit.rows,
             tool.position, tool.rotation, arm.jacobian, arm.inertia, arm.bias, state.q,
-            reference.rows, compliance.stiffness, compliance.wrench, compliance.frame,
+            reference.rows, compliance.stiffness, compliance.wrench, compliance.frame, compliance.fastest,
             self._felt, self._rate, self._lag, period,
         )  # fmt: skip
         return JointPosition(limit.followed(followed, state))
@@ -123,6 +126,7 @@ def virtual_motion(
     stiffness: Vector,
     wrench: Vector,
     frame: Matrix,
+    fastest: Vector,
     felt: Vector,
     rate: Vector,
     lag: float,
@@ -134,6 +138,8 @@ def virtual_motion(
     """
     task_error(rows, axes, tool_position, tool_rotation, reference, stiffness, frame, felt)
     wanted = rate * (rows[MEASURED] + wrench - stiffness * rows[ERROR]) + rows[TWIST] / lag + rows[ACCELERATION]
+    for i in range(3):
+        wanted[i] -= BRAKED * over(lag * wanted[i], fastest[i]) / lag
     in_base, torque, ddq = np.empty(6), np.empty(dq.size), np.empty(dq.size)
     product(wanted.reshape(2, 3), axes.T, in_base.reshape(2, 3))
     transposed_times(J, in_base, torque)

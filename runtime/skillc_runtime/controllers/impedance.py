@@ -1,6 +1,7 @@
 """Cartesian impedance for torque-controlled arms: the tool is held by springs and dampers, and pushes open loop.
 
-F_C = -K sat(e) - D (J_C dq - nu_d) + W + Lam_C a_d;  tau = J_C^T F_C + tau_null + bias
+F_C = -K sat(e) - D (J_C dq - nu_d) - B over(J_C dq) + W + Lam_C a_d;  tau = J_C^T F_C + tau_null + bias
+B brakes what is over the speed with which a tool may yield.
 The first term of tau moves the arm with no more power than skills may ask for: force limit times speed limit.
 Albu-Schaeffer et al. 2003, Mayr and Salt-Ducaju 2022; with velocity and acceleration feed-forward. C: compliance frame.
 """
@@ -20,12 +21,14 @@ from skillc_runtime.controllers.limits import TorqueLimit, limit_torque
 from skillc_runtime.controllers.nullspace import Nullspace, posture_torque
 from skillc_runtime.controllers.task_error import (
     ACCELERATION,
+    BRAKING,
     DAMPING,
     ERROR,
     EXERTED,
     MEASURED,
     TWIST,
     TaskError,
+    over,
     shorten,
     task_error,
 )
@@ -41,6 +44,9 @@ INERTIA_PERIOD_S = 0.01
 
 FASTEST_DECAY = 1.5
 """Share of a control period's inverse that dampers may decay with: from 2 on they overshoot, the more the longer."""
+
+BRAKE_RATE = 250.0
+"""1/s, how fast a tool comes down to the greatest speed with which it may yield; stable down to 250 Hz."""
 
 LEAST_MOBILITY = 1e-3
 """Added to the tool's inverse inertia, 1/kg and 1/(kg m^2): at a singularity the tool seems heavy, not immovable."""
@@ -127,7 +133,8 @@ class Impedance:
         posture.manipulability = impedance_torque(
             told, task.rows, task.axes, self._seen, limit.rows,
             state.q, state.dq, state.bias, state.jacobian, state.tool.position, state.tool.rotation, reference.rows,
-            compliance.stiffness, compliance.wrench, compliance.frame, self._inertia, self._force_n, self._power_w,
+            compliance.stiffness, compliance.wrench, compliance.frame, compliance.fastest,
+            self._inertia, self._force_n, self._power_w,
             posture.rest, posture.stiffness, posture.damping, posture.regularisation, limit.rate * period,
         )  # fmt: skip
         return Torque(told)
@@ -139,8 +146,9 @@ class Impedance:
             return
         wanted, fastest = np.empty(6), FASTEST_DECAY / period
         design_damping(
-            wanted, self._inertia, state.jacobian, state.mass_matrix, reference.pose.rotation, compliance.frame,
-            compliance.stiffness, self._floor, compliance.damping_ratio, fastest,
+            wanted, self._task.rows[BRAKING], self._inertia,
+            state.jacobian, state.mass_matrix, reference.pose.rotation, compliance.frame, compliance.stiffness,
+            self._floor, compliance.damping_ratio, fastest,
         )  # fmt: skip
         self._task.rows[DAMPING] = self._damping.step(wanted, self._age)
         self._age = 0.0
@@ -155,17 +163,20 @@ def tool_torque(
     dq: Array,
     stiffness: Array,
     wrench: Array,
+    fastest: Array,
     inertia: Array,
     force_n: float,
     power_w: float,
 ) -> None:
-    """exerted (6,) = W - K sat(e) - D (J_C dq - nu_d), along C; tau (nv,) = J_C^T (exerted + Lam_C a_d).
+    """exerted (6,) = W - K sat(e) - D (J_C dq - nu_d) - B over, along C; tau (nv,) = J_C^T (exerted + Lam_C a_d).
 
-    The force of springs and dampers is at most `force_n`. Torques that would move the arm with more than `power_w` are
-    scaled down as a whole.
+    The force of springs, dampers and brakes is at most `force_n`. Torques that would move the arm with more than
+    `power_w` are scaled down as a whole.
     """
     exerted, force, in_base = rows[EXERTED], np.empty(6), np.empty(6)
     exerted[:] = -stiffness * rows[ERROR] - rows[DAMPING] * (rows[MEASURED] - rows[TWIST])
+    for i in range(3):
+        exerted[i] -= rows[BRAKING, i] * over(rows[MEASURED, i], fastest[i])
     shorten(exerted[:3], force_n)
     exerted += wrench
     times(inertia, rows[ACCELERATION], force)
@@ -194,6 +205,7 @@ def impedance_torque(
     stiffness: Vector,
     wrench: Vector,
     frame: Matrix,
+    fastest: Vector,
     inertia: Matrix,
     force_n: float,
     power_w: float,
@@ -211,7 +223,7 @@ def impedance_torque(
     tau, velocity, manipulability = np.empty(q.size), np.empty(6), np.inf
     times(J, dq, velocity)
     task_error(rows, axes, tool_position, tool_rotation, reference, stiffness, frame, velocity)
-    tool_torque(tau, rows, axes, J, dq, stiffness, wrench, inertia, force_n, power_w)
+    tool_torque(tau, rows, axes, J, dq, stiffness, wrench, fastest, inertia, force_n, power_w)
     if q.size > 6:
         keeping = np.empty(q.size)
         manipulability = posture_torque(keeping, q, dq, J, rest, rest_stiffness, rest_damping, lam_square)
@@ -243,6 +255,7 @@ def tool_inertia(inertia: Array, mobility: Array, J: Array, mass_matrix: Array, 
 @compiled
 def design_damping(
     damping: OutVector,
+    braking: OutVector,
     inertia: OutMatrix,
     J: Matrix,
     mass_matrix: Matrix,
@@ -253,7 +266,7 @@ def design_damping(
     damping_ratio: float,
     fastest: float,
 ) -> None:
-    """Lam_C = (J_C M^-1 J_C^T)^-1; D_i = 2 zeta sqrt(K_i Lam_C,ii), at least the floor.
+    """Lam_C = (J_C M^-1 J_C^T)^-1; D_i = 2 zeta sqrt(K_i Lam_C,ii), at least the floor; B_i = rate / (Lam_C^-1)_ii.
 
     Where Lam_C^-1 D would decay faster than `fastest` in 1/s, by its greatest possible eigenvalue, D is less.
     """
@@ -262,6 +275,7 @@ def design_damping(
     added = np.maximum(2 * damping_ratio * np.sqrt(stiffness * np.diag(inertia)) - floor, 0.0)
     whole = floor + added
     times(mobility * mobility, whole, decays)
+    braking[:] = BRAKE_RATE / np.diag(mobility)
     damping[:] = floor + min(1.0, fastest / sqrt((whole * decays).sum())) * added
 
 

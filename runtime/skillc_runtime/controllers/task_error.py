@@ -13,8 +13,8 @@ from skillc_runtime.numerics.linear import product, rotation_between
 CLAMP_M, CLAMP_RAD = 0.05, 0.3
 """Greatest error that a spring sees, so that a wrong goal cannot produce an unbounded force."""
 
-ERROR, TWIST, ACCELERATION, MEASURED, HELD, SOFTNESS, EXERTED, DAMPING = range(8)
-"""Rows of `TaskError.rows`; the last two are for laws to use."""
+ERROR, TWIST, ACCELERATION, MEASURED, HELD, SOFTNESS, EXERTED, DAMPING, BRAKING = range(9)
+"""Rows of `TaskError.rows`; the last three are for laws to use."""
 
 
 class TaskError:
@@ -24,7 +24,7 @@ class TaskError:
     """
 
     def __init__(self, stiffness: Array) -> None:
-        self.axes, self.rows = np.eye(3), np.zeros((8, 6))
+        self.axes, self.rows = np.eye(3), np.zeros((9, 6))
         self.rows[SOFTNESS] = 10 / stiffness
 
 
@@ -64,3 +64,10 @@ def shorten(vector: Array, longest: float) -> None:
     square = vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]
     if square > longest * longest:
         vector *= longest / sqrt(square)
+
+
+@part
+def over(velocity: float, fastest: float) -> float:
+    """Return by how much a velocity is over the greatest one, whose sign says which way that holds."""
+    excess = velocity - fastest
+    return excess if excess * fastest > 0 else 0.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
@@ -59,18 +59,24 @@ def at_rest(pose: Pose) -> Reference:
     return Reference.of(pose, np.zeros(6), np.zeros(6))
 
 
+ANY_SPEED: Array = np.full(3, np.inf)
+ANY_SPEED.flags.writeable = False
+
+
 @dataclass(frozen=True, slots=True)
 class Compliance:
     """How the tool yields and pushes, in the compliance frame C.
 
     C is the reference tool frame turned by `frame` (3, 3), so it follows the reference. stiffness (6,): N/m, N m/rad;
     wrench (6,): N, N m that the robot exerts on the environment; damping_ratio: 1 is critical. All at the tool centre.
+    fastest (3,): m/s along C's axes; its sign says which way the tool yields no faster, infinite lets it go.
     """
 
     stiffness: Array
     wrench: Array
     frame: Array
     damping_ratio: float = 1.0
+    fastest: Array = field(default_factory=lambda: ANY_SPEED)
 
 
 class Trajectory(Protocol):

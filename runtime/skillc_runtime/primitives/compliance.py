@@ -12,7 +12,7 @@ from skillc_runtime.motion.pose import Array, log
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.localise import localise
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.robots.contact import Approach, Pressed, advance, go_on
+from skillc_runtime.robots.contact import FALL_SHARE, Approach, Pressed, advance, go_on
 
 if TYPE_CHECKING:
     from skillc_runtime.robots.arm import ArmState
@@ -123,7 +123,7 @@ class Push(Primitive):
     def _approach(self) -> None:
         """Push no harder than takes the tool along at the speed of the approach."""
         self._going = Approach(self._speed, self._travel)
-        self.arm.push(self._along, self._speed * self.arm.gains.release_damping)
+        self._press(self._speed * self.arm.gains.release_damping)
 
     def _go_nearer(self, approach: Approach, speed: float, height: float) -> None:
         force = float(self._axis @ self.arm.wrench_in_base[:3])
@@ -132,13 +132,17 @@ class Push(Primitive):
             case "touching":
                 self._going = Pressed(self._speed)
                 self._surface = height if self._surface is None else self._surface
-                self.arm.push(self._along, self._force)
+                self._press(self._force)
             case "missing":
                 self._give_up(f"nothing to push against within {self._travel * 100:.0f} cm")
             case "approaching":
                 pass
             case _:
                 assert_never(self._going.outcome)
+
+    def _press(self, force_n: float) -> None:
+        """Push, and let nobody push the tool much faster than it approaches: it would hit what it meets."""
+        self.arm.push(self._along, force_n, FALL_SHARE * self._speed)
 
     def _give_up(self, reason: str) -> None:
         self.arm.unwatch(self._observe)

@@ -6,7 +6,7 @@ Skills speak of the world; inside, all is in the arm's base frame, so that an ar
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from math import dist
+from math import dist, inf
 
 import mujoco
 import numpy as np
@@ -194,10 +194,13 @@ class ArmTask(Measured):
         """Tell whether the tool was released along a direction (3,)."""
         return self._joints is None and self._tool.yielding.yields(self._in_tool(axis))
 
-    def push(self, axis: Array, force_n: float) -> None:
-        """Press against what lies opposite to `axis` (3,), along which the tool must yield; else ValueError."""
+    def push(self, axis: Array, force_n: float, fastest_m_s: float = inf) -> None:
+        """Press against what lies opposite to `axis` (3,), along which the tool must yield; else ValueError.
+
+        The tool is braked where it goes faster that way, whoever pushes it.
+        """
         self._move_tool()
-        self._tool.push(-self.in_base(axis), force_n, self._now)
+        self._tool.push(-self.in_base(axis), force_n, fastest_m_s, self._now)
 
     def push_off(self) -> None:
         """Let the push fade."""

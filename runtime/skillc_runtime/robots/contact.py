@@ -23,7 +23,8 @@ STUCK_S = 0.5
 """A tool that stands for so long before it has approached was touching from the start, or is by now."""
 
 FALL_SHARE, FALL_S = 2.0, 0.01
-"""A pressed tool that goes faster than this share of its approach speed, for this long, meets nothing any more."""
+"""A pressed tool that goes faster than this share of its approach speed, for this long, meets nothing any more; the arm
+brakes it."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -75,11 +75,11 @@ class ToolTask:
         place = Pose(resting.position + regained @ (regained.T @ away), resting.rotation)
         self.guide.place(place, np.eye(3) - regained @ regained.T, now)
 
-    def push(self, direction: Array, force_n: float, now: float) -> None:
-        """Press along a direction (3,); ValueError where the arm may not, or does not yield along it."""
+    def push(self, direction: Array, force_n: float, fastest_m_s: float, now: float) -> None:
+        """Press along a direction (3,), no faster; ValueError where the arm may not, or does not yield along it."""
         if not 0 <= force_n <= self._force_limit:
             raise ValueError(f"{force_n:g} N is beyond the {self._force_limit:g} N that the arm may push with")
-        self.yielding.push(self.in_tool(direction, now), force_n)
+        self.yielding.push(self.in_tool(direction, now), force_n, fastest_m_s)
 
     def restore_rotation(self, now: float) -> None:
         """Hold the tool in the rotation that it has. Gives up a motion."""

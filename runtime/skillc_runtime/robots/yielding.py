@@ -7,13 +7,14 @@ released; so it turns with the tool when the tool is aligned.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import inf
 
 import numpy as np
 
 from skillc_runtime.controllers.filters import Lag
 from skillc_runtime.controllers.gains import Gains
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.motion.reference import Compliance
+from skillc_runtime.motion.reference import ANY_SPEED, Compliance
 
 PARALLEL = 0.99
 """Cosine above which two directions count as one: about 8 degrees."""
@@ -27,11 +28,15 @@ RELEASED_FIRST = 2
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """What skills want: stiffness (6,) and pushing force (3,) along C's axes, C in the tool frame (3, 3)."""
+    """What skills want: stiffness (6,) and pushing force (3,) along C's axes, C in the tool frame (3, 3).
+
+    fastest (3,): how fast the tool may go that way, as in `Compliance`.
+    """
 
     stiffness: Array
     force: Array
     frame: Array
+    fastest: Array
 
 
 class Yielding:
@@ -40,7 +45,7 @@ class Yielding:
     def __init__(self, gains: Gains) -> None:
         stiffness = np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3)
         self._unasked = stiffness.copy()
-        self._settings = [Setting(stiffness, np.zeros(3), np.eye(3))]
+        self._settings = [Setting(stiffness, np.zeros(3), np.eye(3), ANY_SPEED)]
         self._stiffness = Lag(stiffness, gains.command_time, grain=1e-2)
         self._wrench = Lag(np.zeros(6), gains.command_time, grain=1e-3)
         self._target, self._arrived_at = np.zeros(6), self.wanted
@@ -85,7 +90,7 @@ class Yielding:
         wanted = self.wanted.stiffness.copy()
         wanted[axis] = stiffness
         self._wrench.value[:3] = frame.T @ self.wanted.frame @ self._wrench.value[:3]
-        self._settings.append(Setting(wanted, self.wanted.force if self.released else np.zeros(3), frame))
+        self._settings.append(replace(self.wanted, stiffness=wanted, frame=frame))
         self.compliance = self._compliance()
 
     def restore(self, error: Array) -> None:
@@ -97,26 +102,29 @@ class Yielding:
         before = self._settings.pop()
         back = self.wanted.stiffness[:3] != before.stiffness[:3]
         self._wrench.value[:3] -= back * self._stiffness.value[:3] * error
-        force = before.force if self.released else np.zeros(3)
-        self._settings[-1] = replace(self.wanted, force=force, frame=before.frame)
+        kept = before if self.released else replace(self.wanted, frame=before.frame)
+        self._push_as(replace(kept, stiffness=self.wanted.stiffness))
 
     def regained(self) -> Array:
         """Return, of C's axes in the tool frame, those that `restore` would make stiff again (3, n)."""
         before, after = self._settings[-1], self._settings[-2]
         return before.frame[:, before.stiffness[:3] != after.stiffness[:3]]
 
-    def push(self, direction: Array, force_n: float) -> None:
-        """Press along a unit direction (3,) of the tool frame. ValueError where the tool does not yield along it."""
+    def push(self, direction: Array, force_n: float, fastest_m_s: float = inf) -> None:
+        """Press along a unit direction (3,) of the tool frame, and go no faster that way, whoever pushes besides.
+
+        ValueError where the tool does not yield along it.
+        """
         axis = _axis(self.wanted.frame, direction)
         if not self.yields(direction):
             raise ValueError("the arm does not yield along the direction in which it shall push")
-        force = np.zeros(3)
-        force[axis] = force_n * np.sign(self.wanted.frame[:, axis] @ direction)
-        self._settings[-1] = replace(self.wanted, force=force)
+        force, fastest, sign = np.zeros(3), ANY_SPEED.copy(), np.sign(self.wanted.frame[:, axis] @ direction)
+        force[axis], fastest[axis] = sign * force_n, sign * fastest_m_s
+        self._push_as(replace(self.wanted, force=force, fastest=fastest))
 
     def push_off(self) -> None:
         """Stop pushing."""
-        self._settings[-1] = replace(self.wanted, force=np.zeros(3))
+        self._push_as(replace(self.wanted, force=np.zeros(3), fastest=ANY_SPEED))
 
     def yields(self, direction: Array) -> bool:
         """Tell whether the tool yields along a direction (3,) of the tool frame."""
@@ -130,6 +138,11 @@ class Yielding:
         stiffness[3:5] = 0.0 if free else self._settings[0].stiffness[3:5]
         self._settings[-1] = replace(self.wanted, stiffness=stiffness)
 
+    def _push_as(self, setting: Setting) -> None:
+        """Take another push for the innermost setting."""
+        self._settings[-1] = setting
+        self.compliance = self._compliance()
+
     def _frame_for(self, direction: Array) -> Array:
         """Return axes (3, 3) of which one is the direction, if there may be any.
 
@@ -142,7 +155,8 @@ class Yielding:
         return _turned(frame, direction) if alone else frame
 
     def _compliance(self) -> Compliance:
-        return Compliance(self._stiffness.value, self._wrench.value, self.wanted.frame, self._ratio)
+        frame, fastest = self.wanted.frame, self.wanted.fastest
+        return Compliance(self._stiffness.value, self._wrench.value, frame, self._ratio, fastest)
 
 
 def _frame_along(direction: Array) -> Array:
