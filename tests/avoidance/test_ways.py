@@ -49,7 +49,8 @@ def is_free(of: Contacts, start: Array, found: tuple[Array, ...]) -> None:
     assert all(of.touch(q) is None or of.touch(q).distance_m > 0.0 for q in finely(postures))
     speed = np.full(len(start), 0.5)
     motion = joint_path(postures, speed, speed / 0.5, [0.0] * (len(postures) - 2))
-    assert touch_on(of, motion) is None
+    touch = touch_on(of, motion)
+    assert touch is None or touch.distance_m > 0.0
     samples = [motion.at(time) for time in np.linspace(0.0, motion.duration, 200).tolist()]
     assert all(
         (np.abs(now.dq) <= speed + 1e-9).all() and (np.abs(now.ddq) <= 2 * speed + 1e-9).all() for now in samples

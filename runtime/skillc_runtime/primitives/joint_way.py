@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from skillc_runtime.robots.driver import ArmDriver
     from skillc_runtime.world.state import WorldState
 
-BLENDS = (1.0, 0.5, 0.25, 0.0)
-"""How much of each corner is cut, tried in this order: with 0 the arm stops at each posture, right on the way."""
+BLENDS = (1.0, 0.5, 0.25)
+"""How much of each corner is cut, tried in this order."""
 
 
 def move_clear(cell: Cell, arm: str, goals: Iterable[Array], pace: float) -> None:
@@ -56,13 +56,14 @@ def _seen(cell: Cell, state: WorldState, arm: str) -> tuple[Contacts, Known]:
 def _motion(
     driver: ArmDriver, contacts: Contacts, known: Known, goals: Iterable[Array], pace: float
 ) -> JointTrajectory:
-    """Return a motion that touches nothing, its corners cut as far as there is room; NoWay where there is none."""
+    """Return a motion that touches nothing, its corners cut as far as there is room; NoWay where there is none.
+
+    Where there is no room the arm stops at each posture: right on the way, which was looked at when it was found.
+    """
     postures = way(contacts, driver.joint_anchor, goals, known)
-    if len(postures) == 1:
-        return driver.joint_motion(postures, pace)
-    for blend in BLENDS:
-        motion = driver.joint_motion(postures, pace, blend)
-        touch = touch_on(contacts, motion)
-        if touch is None:
-            return motion
-    raise NoWay(f"on the way around {touch}")
+    if len(postures) > 1:
+        for blend in BLENDS:
+            motion = driver.joint_motion(postures, pace, blend)
+            if touch_on(contacts, motion) is None:
+                return motion
+    return driver.joint_motion(postures, pace)
