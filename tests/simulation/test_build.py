@@ -153,7 +153,7 @@ def test_facts_that_contradict_a_model_are_refused() -> None:
 def test_reality_differs_within_the_ranges_of_the_facts(scene: str) -> None:
     facts = read_scene(world(scene))
     (surface,) = facts.surfaces
-    drawn = [draw(facts, seed).of(SURFACE[scene]) for seed in range(200)]
+    drawn = [draw(facts, seed).of(SURFACE[scene]) for seed in range(100)]
     offsets = np.array([one.offset_m for one in drawn])
     tilts = np.array([one.tilt_rad for one in drawn])
     frictions = np.array([one.friction for one in drawn])
@@ -167,7 +167,7 @@ def test_reality_differs_within_the_ranges_of_the_facts(scene: str) -> None:
 def test_arms_start_and_pads_yield_within_the_ranges_of_the_facts(scene: str) -> None:
     facts = read_scene(world(scene))
     (arm,), (tool,) = facts.arms, facts.tools
-    drawn = [draw(facts, seed) for seed in range(200)]
+    drawn = [draw(facts, seed) for seed in range(100)]
     off = np.abs([one.start(arm) - arm.home for one in drawn])
     stiffer = np.array([one.pad_stiffness(tool) / tool.sheet.number("padStiffness") - 1 for one in drawn])
     assert (off.max(axis=0) > 0.9 * arm.posture_range_rad).all() and off.max() <= arm.posture_range_rad

@@ -44,7 +44,7 @@ class Contacts:
         self._data.qpos[body.joints :] = body.fingers
         self._arm, self._contact = self._data.qpos[: body.joints], self._data.contact
         self._moves: list[bool] = (body.model.geom_contype == MOVES).tolist()
-        self._passed = frozenset(pair for pair, far in self.near(home).items() if self._within(pair) and far <= 0)
+        self._passed = frozenset(filter(self._within, self.overlaps(home)))
         self._allowed, self._unsaid = dict[Pair, float](), frozenset[str]()
 
     def near(self, q: Array) -> dict[Pair, float]:
@@ -59,6 +59,10 @@ class Contacts:
         for (one, other), distance in zip(self._contact.geom.tolist(), self._contact.dist.tolist(), strict=True):
             found[one, other] = min(distance, found.get((one, other), distance))
         return found
+
+    def overlaps(self, q: Array) -> frozenset[Pair]:
+        """Return which geoms overlap at joints q (nv,), however near the others are."""
+        return frozenset(pair for pair, far in self.near(q).items() if far <= 0)
 
     def allow(self, start: Array, goal: Array) -> None:
         """From now on let things be as near as they are where a motion starts and, short of touching, where it ends.

@@ -50,6 +50,11 @@ class GripperFacts:
     max_force_n: float
     finger_speed_m_s: float
 
+    @property
+    def first_opening_m(self) -> float:
+        """How far the fingers stand apart at the start."""
+        return self.max_opening_m / 2
+
 
 @dataclass(frozen=True, slots=True)
 class ArmFacts:

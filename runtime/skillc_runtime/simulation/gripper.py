@@ -44,7 +44,7 @@ class SimulatedGripper:
         self._length = data.actuator_length[self._actuator : self._actuator + 1]
         self._speed = data.actuator_velocity[self._actuator : self._actuator + 1]
         self.pads = frozenset(_pads(model, self._name))
-        self._set_opening(facts.max_opening_m / 2)
+        self._set_opening(facts.first_opening_m)
         self._still_since, self._holding, self._idle = 0.0, "", True
         self._grip: Grip | None = None
 

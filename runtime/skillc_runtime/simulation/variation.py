@@ -12,6 +12,7 @@ from skillc_runtime.simulation.chance import chance_of
 from skillc_runtime.simulation.facts import ArmFacts, SceneFacts, SurfaceFacts, ToolFacts
 from skillc_runtime.simulation.fixture_variation import FixtureVariation, draw_fixture
 from skillc_runtime.simulation.person_variation import PersonVariation, draw_person
+from skillc_runtime.simulation.starts import draw_start
 
 OBSTACLE_M = (0.03, 0.03, 0.012)
 """A magnet that somebody left on a surface."""
@@ -84,7 +85,7 @@ def draw(scene: SceneFacts, seed: int) -> Variation:
     return Variation(
         seed,
         tuple(_draw(surface, seed) for surface in scene.surfaces),
-        {arm.individual: _posture(arm, seed) for arm in scene.arms},
+        {arm.individual: draw_start(arm, seed) for arm in scene.arms},
         {tool.individual: _pad(tool, seed) for tool in scene.tools},
         tuple(draw_fixture(fixture, seed) for fixture in scene.fixtures),
         tuple(draw_person(person, seed) for person in scene.people),
@@ -117,11 +118,6 @@ def _draw(surface: SurfaceFacts, seed: int) -> SurfaceVariation:
         tilt_rad=(float(tilt_x) * surface.tilt_range_rad, float(tilt_y) * surface.tilt_range_rad),
         friction=float(chance.uniform(*surface.friction)),
     )
-
-
-def _posture(arm: ArmFacts, seed: int) -> tuple[float, ...]:
-    off = chance_of(arm.individual, seed).uniform(-1.0, 1.0, arm.home.size) * arm.posture_range_rad
-    return tuple(off.tolist())
 
 
 def _pad(tool: ToolFacts, seed: int) -> float:

@@ -1,0 +1,80 @@
+"""Arms start where they touch nothing that is believed to be there; a first draw that is free is kept."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from cells import vocabulary, world
+
+from skillc_ontology import catalogue
+from skillc_runtime.avoidance.body import body
+from skillc_runtime.avoidance.contacts import Contacts
+from skillc_runtime.avoidance.outfit import outfit
+from skillc_runtime.avoidance.scenery import scenery
+from skillc_runtime.simulation import starts
+from skillc_runtime.simulation.chance import chance_of
+from skillc_runtime.simulation.facts import ArmFacts, read_scene
+from skillc_runtime.simulation.starts import draw_start
+from skillc_runtime.world.documents import Document
+from skillc_runtime.world.scene import sheets, world_of
+
+SEEDS = range(40)
+
+
+def looking(arm: ArmFacts) -> Contacts:
+    assert arm.gripper is not None
+    state, openings = arm.sheet.state, {arm.gripper.individual: arm.gripper.max_opening_m / 2}
+    return Contacts(body(outfit(state, arm.individual, openings), scenery(state, arm.base)), arm.home)
+
+
+def first_draw(arm: ArmFacts, seed: int) -> tuple[float, ...]:
+    off = chance_of(arm.individual, seed).uniform(-1.0, 1.0, arm.home.size) * arm.posture_range_rad
+    return tuple(off.tolist())
+
+
+def arm_in(old: str, new: str) -> ArmFacts:
+    text = catalogue.scene("iiwa_table").read_text("utf-8")
+    assert text.count(old) == 1
+    return read_scene(world_of([Document("scene.ttl", text.replace(old, new)), *sheets()], vocabulary())).arms[0]
+
+
+def test_a_start_that_touches_something_is_drawn_again_and_no_other() -> None:
+    (arm,) = read_scene(world("iiwa_table")).arms
+    contacts, again = looking(arm), 0
+    for seed in SEEDS:
+        first, start = first_draw(arm, seed), draw_start(arm, seed)
+        free = not contacts.overlaps(arm.home + first)
+        assert (start == first) == free
+        assert not contacts.overlaps(arm.home + start)
+        assert np.abs(start).max() <= arm.posture_range_rad
+        assert start == draw_start(arm, seed)
+        again += not free
+    assert 0 < again < len(SEEDS) / 2
+
+
+def test_an_arm_that_touches_something_wherever_it_is_drawn_starts_at_home(monkeypatch: pytest.MonkeyPatch) -> None:
+    (arm,) = read_scene(world("iiwa_table")).arms
+    contacts = looking(arm)
+    touching = next(seed for seed in SEEDS if contacts.overlaps(arm.home + first_draw(arm, seed)))
+    monkeypatch.setattr(starts, "MOST_DRAWS", 1)
+    assert draw_start(arm, touching) == (0.0,) * 7
+
+
+def test_what_an_arm_touches_at_home_says_nothing_of_its_starts() -> None:
+    arm = arm_in(
+        '"cell" ; skiros:BaseFrameId',
+        '"cell" ; skiros:SizeX 6.0 ; skiros:SizeY 6.0 ; skiros:SizeZ 6.0 ; skiros:BaseFrameId',
+    )
+    contacts = looking(arm)
+    assert contacts.overlaps(arm.home)
+    assert draw_start(arm, SEEDS[0]) == first_draw(arm, SEEDS[0])
+
+
+def test_an_arm_without_a_range_starts_at_home() -> None:
+    assert draw_start(arm_in("skillc:postureRange 0.2 ;", ""), 1) == (0.0,) * 7
+
+
+@pytest.mark.parametrize("scene", ["ur5e_whiteboard", "panda_desk"])
+def test_where_there_is_room_nothing_is_drawn_again(scene: str) -> None:
+    (arm,) = read_scene(world(scene)).arms
+    assert [draw_start(arm, seed) for seed in SEEDS[:10]] == [first_draw(arm, seed) for seed in SEEDS[:10]]
