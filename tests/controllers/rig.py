@@ -13,6 +13,7 @@ from skillc_runtime.controllers.virtual_arm import virtual_model
 from skillc_runtime.motion.pose import Pose, exp, quaternion_of, skew
 from skillc_runtime.robots.arm import ArmLimits, ArmState, JointPosition, Torque
 from skillc_runtime.robots.driver import ArmDriver
+from skillc_runtime.robots.setup import Setup
 
 ROBOTS = Path(skillc_ontology.__file__).parent / "robots"
 COMMON = {"dampingRatio": 1.0, "commandTime": 0.1, "forceLimit": 50.0, "speedLimit": 0.5, "accelerationLimit": 0.5}
@@ -72,9 +73,8 @@ class Bench:
         ranges = self.model.jnt_range.copy()
         control = self.model.actuator_ctrlrange if self.interface == "torque" else self.model.actuator_forcerange
         self.limits = ArmLimits(ranges, np.full(self.nv, 2.0), control[:, 1].copy(), np.full(self.nv, np.inf))
-        self.driver = ArmDriver(
-            self, virtual_model(ROBOTS / f"{robot}.xml"), GAINS[robot], self.limits, lambda: self.base, period
-        )
+        virtual = virtual_model(ROBOTS / f"{robot}.xml")
+        self.driver = ArmDriver(Setup(self, virtual, GAINS[robot], self.limits, lambda: self.base, period))
         self.log: dict[str, list] = {"time": [], "force": [], "tool": [], "torque": []}
 
     def state(self) -> ArmState:

@@ -5,20 +5,19 @@ Skills speak of the world; inside, all is in the arm's base frame, so that an ar
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from math import dist, inf
 
-import mujoco
 import numpy as np
 
-from skillc_runtime.controllers.gains import Gains
 from skillc_runtime.motion.joint import JointTrajectory
 from skillc_runtime.motion.joint_guide import JointGuide
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
-from skillc_runtime.robots.arm import Arm, ArmLimits, ArmState
+from skillc_runtime.robots.arm import ArmState
 from skillc_runtime.robots.measured import Measured
 from skillc_runtime.robots.reach import JOINT_RAMP_S, Reach
+from skillc_runtime.robots.setup import Setup
 from skillc_runtime.robots.tool_task import ToolTask
 
 TOOL_JUMP_M_S = 3.0
@@ -31,24 +30,15 @@ class ArmTask(Measured):
     A new motion starts where the one before it comes to rest (`anchor`), never at the measured pose.
     """
 
-    def __init__(
-        self,
-        arm: Arm,
-        virtual: mujoco.MjModel,
-        gains: Gains,
-        limits: ArmLimits,
-        base: Callable[[], Pose],
-        period: float,
-        tool_speed_m_s: float,
-    ) -> None:
-        """Hold the joints where they are; joint motions keep the tool below a speed."""
-        self.gains, self.limits = gains, limits
-        state = arm.state()
-        super().__init__(base, state)
-        self._arm, self.period, self._place = arm, period, state.tool.position.tolist()
-        self._laws = gains.law.laws(gains, limits, virtual, state, period)
-        self._reach, self._tool = Reach(virtual), ToolTask(gains, self._laws.tool, state.tool)
-        self._tool_speed_m_s, self._now = tool_speed_m_s, 0.0
+    def __init__(self, setup: Setup) -> None:
+        """Hold the joints where they are; joint motions keep the tool below the speed that is safe."""
+        self.gains, self.limits, self.period = setup.gains, setup.limits, setup.period
+        state = setup.arm.state()
+        super().__init__(setup.base, state)
+        self._arm, self._place = setup.arm, state.tool.position.tolist()
+        self._laws = setup.gains.law.laws(setup.gains, setup.limits, setup.virtual, state, setup.period)
+        self._reach, self._tool = Reach(setup.virtual), ToolTask(setup.gains, self._laws.tool, state.tool)
+        self._tool_speed_m_s, self._now = setup.safety.tool_speed_m_s, 0.0
         self._joints: JointGuide | None = self._joint_guide(state.q, np.zeros_like(state.q))
 
     @property

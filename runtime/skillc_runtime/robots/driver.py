@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from math import inf
-
-import mujoco
 import numpy as np
 
 from skillc_runtime.controllers.controller import ControlError
-from skillc_runtime.controllers.gains import Gains
-from skillc_runtime.motion.pose import Pose
-from skillc_runtime.robots.arm import Arm, ArmLimits, ArmState, Command
+from skillc_runtime.robots.arm import ArmState, Command
 from skillc_runtime.robots.arm_task import ArmTask
 from skillc_runtime.robots.guard import Guard
 from skillc_runtime.robots.measured import Observer
-from skillc_runtime.robots.safety import SafetyLimits
+from skillc_runtime.robots.setup import Setup
 
 LONGEST_GAP_S = 0.02
 """When a control period comes later than this after the one before, or earlier, motions wait for the time lost."""
@@ -28,24 +22,12 @@ class ArmDriver(ArmTask):
     not be controlled.
     """
 
-    def __init__(
-        self,
-        arm: Arm,
-        virtual: mujoco.MjModel,
-        gains: Gains,
-        limits: ArmLimits,
-        base: Callable[[], Pose],
-        period: float,
-        safety: SafetyLimits | None = None,
-    ) -> None:
-        """Hold the arm where it is. `virtual` is the arm's `virtual_model`; `base` tells where the arm stands.
-
-        An arm that breaks a limit of `safety` holds still at once, whoever moves it; see `fault`.
-        """
-        super().__init__(arm, virtual, gains, limits, base, period, inf if safety is None else safety.tool_speed_m_s)
+    def __init__(self, setup: Setup) -> None:
+        """Hold the arm where it is; what breaks its safety limits is told in `fault`."""
+        super().__init__(setup)
         self.fault: str | None = None
         self.broken: str | None = None
-        self._guard = Guard(arm, self._state, safety)
+        self._guard = Guard(setup.arm, self._state, setup.safety)
         self._observers: tuple[Observer, ...] = ()
         self._seen = self._lost = 0.0
 

@@ -10,6 +10,7 @@ from skillc_runtime.controllers.virtual_arm import virtual_model
 from skillc_runtime.robots.arm import ModeRefused
 from skillc_runtime.robots.driver import ArmDriver
 from skillc_runtime.robots.safety import Box, SafetyLimits
+from skillc_runtime.robots.setup import Setup
 from skillc_runtime.simulation.arm import SimulatedArm
 from skillc_runtime.simulation.facts import ArmFacts
 from skillc_runtime.world.frames import seen_from, size
@@ -26,7 +27,7 @@ def driver(facts: ArmFacts, arm: SimulatedArm, period_s: float) -> ArmDriver:
         raise SheetError(f"{facts.sheet.state.vocabulary.short(facts.individual)}: {error}") from error
     _engage(facts, arm, chosen.law)
     virtual, limits = virtual_model(facts.model), safety(facts)
-    return ArmDriver(arm, virtual, chosen, arm.limits, lambda: arm.base, period_s, limits)
+    return ArmDriver(Setup(arm, virtual, chosen, arm.limits, lambda: arm.base, period_s, limits))
 
 
 def _engage(facts: ArmFacts, arm: SimulatedArm, law: LawGains) -> None:
