@@ -22,7 +22,7 @@ from skillc_runtime.controllers.virtual_arm import VirtualArm
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
 from skillc_runtime.numerics.compiled import Matrix, OutMatrix, OutVector, Vector, compiled
-from skillc_runtime.numerics.linear import cholesky, cholesky_solve, product, transposed_times
+from skillc_runtime.numerics.linear import cholesky, cholesky_solve, times, transposed_times
 from skillc_runtime.robots.arm import ArmLimits, ArmState, JointPosition, Mode
 from skillc_runtime.robots.laws import Laws
 
@@ -137,16 +137,24 @@ def virtual_motion(
     Return False when the arm, whose joints are `measured`, does not follow.
     """
     task_error(rows, axes, tool_position, tool_rotation, reference, stiffness, frame, felt)
-    wanted = rate * (rows[MEASURED] + wrench - stiffness * rows[ERROR]) + rows[TWIST] / lag + rows[ACCELERATION]
+    push, in_base, torque, ddq = np.empty(6), np.empty(6), np.empty(dq.size), np.empty(dq.size)
+    for i in range(6):
+        pushed = rate[i] * (rows[MEASURED, i] + wrench[i] - stiffness[i] * rows[ERROR, i])
+        push[i] = pushed + rows[TWIST, i] / lag + rows[ACCELERATION, i]
     for i in range(3):
-        wanted[i] -= BRAKED * over(lag * wanted[i], fastest[i]) / lag
-    in_base, torque, ddq = np.empty(6), np.empty(dq.size), np.empty(dq.size)
-    product(wanted.reshape(2, 3), axes.T, in_base.reshape(2, 3))
+        push[i] -= BRAKED * over(lag * push[i], fastest[i]) / lag
+    times(axes, push[:3], in_base[:3])
+    times(axes, push[3:], in_base[3:])
     transposed_times(J, in_base, torque)
-    torque -= bias
+    for j in range(dq.size):
+        torque[j] -= bias[j]
     cholesky(inertia)
     cholesky_solve(inertia, torque, ddq)
-    keep = exp(-period / lag)
-    dq[:] = keep * dq + (1 - keep) * lag * ddq
-    dq /= max(1.0, np.abs(dq / limits[FASTEST]).max())
-    return limit_joints(limits, limits[TOLD] + period * dq, measured, period)
+    keep, excess, wanted = exp(-period / lag), 1.0, torque
+    for j in range(dq.size):
+        dq[j] = keep * dq[j] + (1 - keep) * lag * ddq[j]
+        excess = max(excess, abs(dq[j] / limits[FASTEST, j]))
+    for j in range(dq.size):
+        dq[j] /= excess
+        wanted[j] = limits[TOLD, j] + period * dq[j]
+    return limit_joints(limits, wanted, measured, period)

@@ -174,16 +174,21 @@ def tool_torque(
     `power_w` are scaled down as a whole.
     """
     exerted, force, in_base = rows[EXERTED], np.empty(6), np.empty(6)
-    exerted[:] = -stiffness * rows[ERROR] - rows[DAMPING] * (rows[MEASURED] - rows[TWIST])
+    for i in range(6):
+        exerted[i] = -stiffness[i] * rows[ERROR, i] - rows[DAMPING, i] * (rows[MEASURED, i] - rows[TWIST, i])
     for i in range(3):
         exerted[i] -= rows[BRAKING, i] * over(rows[MEASURED, i], fastest[i])
     shorten(exerted[:3], force_n)
-    exerted += wrench
     times(inertia, rows[ACCELERATION], force)
-    force += exerted
-    product(force.reshape(2, 3), axes.T, in_base.reshape(2, 3))
+    for i in range(6):
+        exerted[i] += wrench[i]
+        force[i] += exerted[i]
+    times(axes, force[:3], in_base[:3])
+    times(axes, force[3:], in_base[3:])
     transposed_times(J, in_base, tau)
-    power = (tau * dq).sum()
+    power = 0.0
+    for j in range(tau.size):
+        power += tau[j] * dq[j]
     if power > power_w:
         tau *= power_w / power
 
@@ -219,7 +224,10 @@ def impedance_torque(
 
     Return the manipulability, which only an arm with more than six joints has use for: they have a posture to keep.
     """
-    seen[0], seen[1:] = tool_position, tool_rotation
+    for i in range(3):
+        seen[0, i] = tool_position[i]
+        for j in range(3):
+            seen[1 + i, j] = tool_rotation[i, j]
     tau, velocity, manipulability = np.empty(q.size), np.empty(6), np.inf
     times(J, dq, velocity)
     task_error(rows, axes, tool_position, tool_rotation, reference, stiffness, frame, velocity)
@@ -237,7 +245,7 @@ def tool_inertia(inertia: Array, mobility: Array, J: Array, mass_matrix: Array, 
     """mobility (6, 6) = J_C M^-1 J_C^T, inertia its inverse but for the least mobility; C: rotation @ frame."""
     joints = J.shape[1]
     axes, J_C, factor, column = np.empty((3, 3)), np.empty((6, joints)), mass_matrix.copy(), np.empty(joints)
-    unit = np.eye(6)
+    whole, unit = np.empty((6, 6)), np.zeros(6)
     product(rotation, frame, axes)
     product(axes.T, J[:3], J_C[:3])
     product(axes.T, J[3:], J_C[3:])
@@ -246,10 +254,13 @@ def tool_inertia(inertia: Array, mobility: Array, J: Array, mass_matrix: Array, 
         cholesky_solve(factor, J_C[i], column)
         times(J_C, column, mobility[i])
         mobility[i, i] += LEAST_MOBILITY
-    whole = mobility.copy()
+        for j in range(6):
+            whole[i, j] = mobility[i, j]
     cholesky(whole)
     for i in range(6):
-        cholesky_solve(whole, unit[i], inertia[i])
+        unit[i] = 1.0
+        cholesky_solve(whole, unit, inertia[i])
+        unit[i] = 0.0
 
 
 @compiled
@@ -270,13 +281,19 @@ def design_damping(
 
     Where Lam_C^-1 D would decay faster than `fastest` in 1/s, by its greatest possible eigenvalue, D is less.
     """
-    mobility, decays = np.empty((6, 6)), np.empty(6)
+    mobility, added, square = np.empty((6, 6)), np.empty(6), 0.0
     tool_inertia(inertia, mobility, J, mass_matrix, rotation, frame)
-    added = np.maximum(2 * damping_ratio * np.sqrt(stiffness * np.diag(inertia)) - floor, 0.0)
-    whole = floor + added
-    times(mobility * mobility, whole, decays)
-    braking[:] = BRAKE_RATE / np.diag(mobility)
-    damping[:] = floor + min(1.0, fastest / sqrt((whole * decays).sum())) * added
+    for i in range(6):
+        added[i] = max(2 * damping_ratio * sqrt(stiffness[i] * inertia[i, i]) - floor[i], 0.0)
+    for i in range(6):
+        decay = 0.0
+        for j in range(6):
+            decay += mobility[i, j] * mobility[i, j] * (floor[j] + added[j])
+        square += (floor[i] + added[i]) * decay
+    share = min(1.0, fastest / sqrt(square))
+    for i in range(6):
+        damping[i] = floor[i] + share * added[i]
+        braking[i] = BRAKE_RATE / mobility[i, i]
 
 
 def damping_rate(state: ArmState, damping: float, rotational_damping: float) -> float:

@@ -6,7 +6,7 @@ import numpy as np
 
 from skillc_runtime.controllers.controller import ControlError
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.numerics.compiled import OutMatrix, OutVector, Vector, compiled
+from skillc_runtime.numerics.compiled import OutMatrix, OutVector, Vector, compiled, part
 from skillc_runtime.robots.arm import ArmLimits, ArmState
 
 RANGE_MARGIN_RAD = 0.05
@@ -65,24 +65,35 @@ class JointLimit:
         raise ControlError(f"a joint is {lag:.2f} rad away from where it was commanded to be; is the arm blocked?")
 
 
+@part
+def _within(x: float, least: float, most: float) -> float:
+    """Return what is nearest to x between two limits; what is no number stays none."""
+    if x < least:
+        return least
+    return most if x > most else x
+
+
 @compiled
 def limit_torque(told: OutVector, rows: OutMatrix, tau: Vector, q: Vector, bias: Vector, longest: float) -> None:
     """Let the ramp follow tau by steps of at most `longest`; add the bias and what pushes joints back into range."""
-    rows[RAMP] += np.minimum(np.maximum(tau - rows[RAMP], -longest), longest)
-    back = rows[SPRING] * (np.minimum(np.maximum(q, rows[LOW]), rows[HIGH]) - q)
-    told[:] = np.minimum(np.maximum(rows[RAMP] + back + bias, -rows[EFFORT]), rows[EFFORT])
+    for j in range(told.size):
+        rows[RAMP, j] += _within(tau[j] - rows[RAMP, j], -longest, longest)
+        back = rows[SPRING, j] * (_within(q[j], rows[LOW, j], rows[HIGH, j]) - q[j])
+        told[j] = _within(rows[RAMP, j] + back + bias[j], -rows[EFFORT, j], rows[EFFORT, j])
 
 
 @compiled
 def limit_joints(rows: OutMatrix, q: Vector, measured: Vector, period: float) -> bool:
     """Let what is told follow q within limits; return False, and do nothing, when the arm is too far."""
-    told = rows[TOLD]
-    lag = told - measured
-    if (lag * lag).sum() > GREATEST_LAG_RAD * GREATEST_LAG_RAD:
+    square = 0.0
+    for j in range(q.size):
+        lag = rows[TOLD, j] - measured[j]
+        square += lag * lag
+    if square > GREATEST_LAG_RAD * GREATEST_LAG_RAD:
         return False
-    longest = rows[FASTEST] * period
-    wanted = told + np.minimum(np.maximum(q - told, -longest), longest)
-    inside = np.minimum(np.maximum(wanted, rows[LEAST]), rows[MOST])
-    rows[SPEED] = (inside - told) / period
-    rows[TOLD] = inside
+    for j in range(q.size):
+        told, longest = rows[TOLD, j], rows[FASTEST, j] * period
+        wanted = told + _within(q[j] - told, -longest, longest)
+        rows[TOLD, j] = _within(wanted, rows[LEAST, j], rows[MOST, j])
+        rows[SPEED, j] = (rows[TOLD, j] - told) / period
     return True

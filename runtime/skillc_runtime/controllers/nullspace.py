@@ -51,7 +51,8 @@ def posture_torque(
     tau: OutVector, q: Vector, dq: Vector, J: Matrix, rest: Vector, stiffness: float, damping: float, lam_square: float
 ) -> float:
     """Compute tau_null (nv,) in N m; return the manipulability, the product of the Cholesky factor's diagonal."""
-    tau[:] = stiffness * (rest - q) - damping * dq
+    for j in range(tau.size):
+        tau[j] = stiffness * (rest[j] - q[j]) - damping * dq[j]
     gram, wrench, y, part = np.empty((6, 6)), np.empty(6), np.empty(6), np.empty(tau.size)
     product(J, J.T, gram)
     for i in range(6):

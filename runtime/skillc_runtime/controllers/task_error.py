@@ -45,15 +45,19 @@ def task_error(
     the reference; `measured`, given in base; what is held: 1 for a stiff axis, 0 for a released one, between below a
     tenth of the full stiffness. That scales the first three rows, since a released axis follows no reference.
     """
-    rows[HELD] = np.minimum(stiffness * rows[SOFTNESS], 1.0)
     rotation, in_base = reference[1:4], np.empty((8, 3))
     product(rotation, frame, axes)
-    in_base[0] = tool_position - reference[0]
     rotation_between(rotation, tool_rotation, in_base[1])
-    in_base[2:6] = reference[4:]
-    in_base[6], in_base[7] = measured[:3], measured[3:]
+    for i in range(3):
+        in_base[0, i] = tool_position[i] - reference[0, i]
+        for row in range(4):
+            in_base[2 + row, i] = reference[4 + row, i]
+        in_base[6, i], in_base[7, i] = measured[i], measured[3 + i]
     product(in_base, axes, rows[:4].reshape(8, 3))
-    rows[:3] *= rows[HELD]
+    for i in range(6):
+        rows[HELD, i] = min(stiffness[i] * rows[SOFTNESS, i], 1.0)
+        for row in range(3):
+            rows[row, i] *= rows[HELD, i]
     shorten(rows[ERROR, :3], CLAMP_M)
     shorten(rows[ERROR, 3:], CLAMP_RAD)
 

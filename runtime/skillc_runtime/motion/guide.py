@@ -163,6 +163,7 @@ def add_overlay(rows: OutMatrix, motion: Matrix, axes: Matrix, rate: float, slop
     """
     added = np.empty((3, 3))
     product(motion, axes.T, added)
-    rows[0] += added[0]
-    rows[4] += rate * added[1]
-    rows[6] += slope * added[1] + rate * rate * added[2]
+    for i in range(3):
+        rows[0, i] += added[0, i]
+        rows[4, i] += rate * added[1, i]
+        rows[6, i] += slope * added[1, i] + rate * rate * added[2, i]

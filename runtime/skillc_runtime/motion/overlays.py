@@ -27,11 +27,12 @@ def circle_at(motion: OutMatrix, radius: float, rate: float, time: float) -> Non
 @compiled
 def sines_at(motion: OutMatrix, amplitude: Vector, frequency: Vector, phase: Vector, time: float) -> None:
     """Compute offset, velocity and acceleration (3, 3) of a sine along each axis."""
-    w = 2 * pi * frequency
-    angle = w * time + phase
-    motion[0] = amplitude * np.sin(angle)
-    motion[1] = amplitude * w * np.cos(angle)
-    motion[2] = -w * w * motion[0]
+    for i in range(3):
+        w = 2 * pi * frequency[i]
+        angle = w * time + phase[i]
+        motion[0, i] = amplitude[i] * sin(angle)
+        motion[1, i] = amplitude[i] * w * cos(angle)
+        motion[2, i] = -w * w * motion[0, i]
 
 
 @dataclass(frozen=True, slots=True)

@@ -68,15 +68,17 @@ class Path:
 @part
 def _start_from(position: Array, rotation: Array, row: Array) -> None:
     """Start from the corner of a row."""
-    position[:] = row[PLACE : PLACE + 3]
     for i in range(3):
-        rotation[i] = row[AXES + 3 * i : AXES + 3 * i + 3]
+        position[i] = row[PLACE + i]
+        for j in range(3):
+            rotation[i, j] = row[AXES + 3 * i + j]
 
 
 @part
 def _move(position: Array, rotation: Array, way: Array) -> None:
     """Go on from a pose by a way (6,): rotation <- exp(way[3:]) rotation."""
-    position += way[:3]
+    for i in range(3):
+        position[i] += way[i]
     if way[3] != 0.0 or way[4] != 0.0 or way[5] != 0.0:
         turned, before = np.empty((3, 3)), rotation.copy()
         rotation_by(way[3:], turned)
@@ -91,18 +93,31 @@ def _add(motion: Array, before: Array) -> None:
     times(turned, before[1, 3:], velocity)
     times(turned, before[2, 3:], change)
     cross(motion[1, 3:], velocity, spun)
-    motion[1, :3] += before[1, :3]
-    motion[2, :3] += before[2, :3]
-    motion[2, 3:] += change + spun
-    motion[1, 3:] += velocity
+    for i in range(3):
+        motion[1, i] += before[1, i]
+        motion[2, i] += before[2, i]
+        motion[1, 3 + i] += velocity[i]
+        motion[2, 3 + i] += change[i] + spun[i]
+
+
+@part
+def _started_last(table: Array, time: float) -> int:
+    """Return the row that starts last of those that have started by `time` s, the first before any has."""
+    last, later = 0, table.shape[0]
+    while later - last > 1:
+        between = (last + later) // 2
+        if table[between, START] <= time:
+            last = between
+        else:
+            later = between
+    return last
 
 
 @compiled
 def path_at(rows: OutMatrix, table: Matrix, time: float) -> None:
     """Compute the rows of the reference at `time` s from the `table` of a path."""
     position, rotation = rows[0], rows[1:4]
-    last = max(int(np.searchsorted(table[:, START], time, side="right")) - 1, 0)
-    motion = np.empty((3, 6))
+    last, motion = _started_last(table, time), np.empty((3, 6))
     motion_at(motion, table[last, :COLUMNS], time - table[last, START])
     if last > 0 and time < table[last - 1, END]:
         before = np.empty((3, 6))
@@ -113,7 +128,9 @@ def path_at(rows: OutMatrix, table: Matrix, time: float) -> None:
     else:
         _start_from(position, rotation, table[last])
     _move(position, rotation, motion[0])
-    rows[4:] = motion[1:].reshape(4, 3)
+    for i in range(3):
+        rows[4, i], rows[5, i] = motion[1, i], motion[1, 3 + i]
+        rows[6, i], rows[7, i] = motion[2, i], motion[2, 3 + i]
 
 
 def path(poses: Sequence[Pose], limits: MotionLimits, blend_m: float = 0.0) -> Path:

@@ -32,10 +32,11 @@ def _arc_at(motion: Array, way: tuple[float, float, float], spoke: Array, across
     """Compute the linear part of the motion: phi = s / r, along = across cos phi - spoke sin phi, and so on."""
     angle, rate, change = way[0] / radius, way[1] / radius, way[2] / radius
     c, s = cos(angle), sin(angle)
-    along = c * across - s * spoke
-    motion[0, :3] = s * across + (c - 1) * spoke
-    motion[1, :3] = rate * along
-    motion[2, :3] = change * along - rate * rate * (c * spoke + s * across)
+    for i in range(3):
+        along, inward = c * across[i] - s * spoke[i], c * spoke[i] + s * across[i]
+        motion[0, i] = s * across[i] + (c - 1) * spoke[i]
+        motion[1, i] = rate * along
+        motion[2, i] = change * along - rate * rate * inward
 
 
 @compiled
@@ -44,13 +45,12 @@ def motion_at(motion: OutMatrix, row: Vector, time: float) -> None:
     way, turn = _profile_at(row, WAY, time), _profile_at(row, TURN, time)
     spoke, across = row[SPOKE : SPOKE + 3], row[ACROSS : ACROSS + 3]
     radius = sqrt(spoke[0] * spoke[0] + spoke[1] * spoke[1] + spoke[2] * spoke[2])
+    for i in range(3):
+        for j in range(3):
+            motion[i, j] = way[i] * across[j]
+            motion[i, 3 + j] = turn[i] * row[AXIS + j]
     if radius > 0.0:
         _arc_at(motion, way, spoke, across, radius)
-    else:
-        for i in range(3):
-            motion[i, :3] = way[i] * across
-    for i in range(3):
-        motion[i, 3:] = turn[i] * row[AXIS : AXIS + 3]
 
 
 def place(row: Array, time: float) -> Array:

@@ -1,7 +1,8 @@
 """Compiles functions over arrays where numba is installed (the extra `fast`); elsewhere they run as they are.
 
-Each is compiled when it is first called, or when another that calls it is compiled. The machine code is kept in the
-user's cache folder, named after the sources it was made of.
+Each is compiled when it is first called, or when another that calls it is compiled. Loops over numbers compile fast;
+an expression over arrays costs ten times as much, a slice that is assigned to half a second. The machine code is kept
+in the user's cache folder, named after the sources it was made of.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ def compiled(function: Callable[Parameters, Result]) -> Callable[Parameters, Res
     """
     if not COMPILES:
         return function
-    made: Any = import_module("numba").njit(error_model="numpy")(function)
+    made: Any = import_module("numba").njit(error_model="numpy", no_cfunc_wrapper=True)(function)
     compile_for = made.compile
 
     def compile_once(_first_call: object) -> object:
@@ -65,10 +66,13 @@ def compiled(function: Callable[Parameters, Result]) -> Callable[Parameters, Res
 
 
 def part(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
-    """Let compiled functions call this one, compiled with them for whatever they pass."""
+    """Let compiled functions call this one, compiled with them for whatever they pass; elsewhere it stays as it is."""
     if not COMPILES:
         return function
-    made: Callable[Parameters, Result] = import_module("numba").njit(error_model="numpy")(function)
+    callable_inside = import_module("numba.extending").register_jitable(
+        error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True
+    )
+    made: Callable[Parameters, Result] = callable_inside(function)
     return made
 
 

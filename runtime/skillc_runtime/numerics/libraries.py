@@ -48,3 +48,14 @@ def rotation_between(start: Array, end: Array, out: Array) -> None:
     quaternion = np.empty(4)
     mujoco.mju_mat2Quat(quaternion, np.dot(end, start.T).ravel())
     mujoco.mju_quat2Vel(out, quaternion, 1.0)
+
+
+def add_under(grid: Array, x: Array, y: Array, middle: Array, axes: Array, size: Array, amount: float) -> None:
+    """Add to the points of a grid, columns x and rows y, under a rectangle; its edges are the first columns of axes."""
+    reach = np.hypot(size[0], size[1]) / 2
+    left, right = np.searchsorted(x, (middle[0] - reach, middle[0] + reach))
+    low, high = np.searchsorted(y, (middle[1] - reach, middle[1] + reach))
+    dx, dy = x[left:right] - middle[0], y[low:high, None] - middle[1]
+    along = np.abs(axes[0, 0] * dx + axes[1, 0] * dy) <= size[0] / 2
+    across = np.abs(axes[0, 1] * dx + axes[1, 1] * dy) <= size[1] / 2
+    grid[low:high, left:right] += amount * (along & across)

@@ -1,4 +1,4 @@
-"""The linear algebra of small matrices: loops where they are compiled, calls of libraries in plain Python.
+"""The linear algebra of small matrices, and cells under a tool: loops if compiled, else calls of libraries.
 
 The two agree but for rounding. Results are written to the last argument.
 """
@@ -9,6 +9,7 @@ from skillc_runtime.numerics.compiled import COMPILES
 
 if COMPILES:
     from skillc_runtime.numerics.loops import (
+        add_under,
         cholesky,
         cholesky_solve,
         cross,
@@ -20,6 +21,7 @@ if COMPILES:
     )
 else:
     from skillc_runtime.numerics.libraries import (
+        add_under,
         cholesky,
         cholesky_solve,
         cross,
@@ -31,6 +33,7 @@ else:
     )
 
 __all__ = [
+    "add_under",
     "cholesky",
     "cholesky_solve",
     "cross",

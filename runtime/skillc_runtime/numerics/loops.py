@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import atan2, sin, sqrt
+from math import atan2, hypot, sin, sqrt
 
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.numerics.compiled import part
@@ -122,3 +122,18 @@ def _row(end: Array, start: Array, i: int) -> tuple[float, float, float]:
         end[i, 0] * start[1, 0] + end[i, 1] * start[1, 1] + end[i, 2] * start[1, 2],
         end[i, 0] * start[2, 0] + end[i, 1] * start[2, 1] + end[i, 2] * start[2, 2],
     )
+
+
+@part
+def add_under(grid: Array, x: Array, y: Array, middle: Array, axes: Array, size: Array, amount: float) -> None:
+    """Add to the points of a grid, columns x and rows y, under a rectangle; its edges are the first columns of axes."""
+    reach = hypot(size[0], size[1]) / 2
+    for row in range(y.size):
+        dy = y[row] - middle[1]
+        if abs(dy) > reach:
+            continue
+        for column in range(x.size):
+            dx = x[column] - middle[0]
+            along, across = axes[0, 0] * dx + axes[1, 0] * dy, axes[0, 1] * dx + axes[1, 1] * dy
+            if abs(dx) <= reach and abs(along) <= size[0] / 2 and abs(across) <= size[1] / 2:
+                grid[row, column] += amount

@@ -71,5 +71,6 @@ def take_over(holding: OutVector, rest: Vector, q: Vector, dq: Vector, wrench: V
     """
     finite = sum_of_squares(q) + sum_of_squares(dq) + sum_of_squares(wrench) + sum_of_squares(position) < np.inf
     if finite:
-        holding[:] = rest
+        for j in range(holding.size):
+            holding[j] = rest[j]
     return bool(finite)

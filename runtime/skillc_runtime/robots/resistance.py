@@ -55,7 +55,8 @@ class Resistance:
 @compiled
 def gather(impulse: OutVector, tau: Vector, bias: Vector, period: float) -> None:
     """Add to the impulse (nv,) what tau gives beside the bias of the period's start."""
-    impulse += (tau - bias) * period
+    for j in range(impulse.size):
+        impulse[j] += (tau[j] - bias[j]) * period
 
 
 @compiled
@@ -63,11 +64,13 @@ def compare(
     torque: OutVector, impulse: OutVector, dq: OutVector, dq_now: Vector, mass: Matrix, elapsed: float, share: float
 ) -> None:
     """Let the torque (nv,) of the surroundings follow M (dq_now - dq) - impulse per s; begin a new window."""
-    gained = np.empty(torque.size)
-    times(mass, dq_now - dq, gained)
-    torque += share * ((gained - impulse) / elapsed - torque)
-    dq[:] = dq_now
-    impulse[:] = 0.0
+    faster, gained = np.empty(torque.size), np.empty(torque.size)
+    for j in range(torque.size):
+        faster[j] = dq_now[j] - dq[j]
+    times(mass, faster, gained)
+    for j in range(torque.size):
+        torque[j] += share * ((gained[j] - impulse[j]) / elapsed - torque[j])
+        dq[j], impulse[j] = dq_now[j], 0.0
 
 
 @compiled

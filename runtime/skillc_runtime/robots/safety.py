@@ -9,7 +9,7 @@ import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.numerics.compiled import Matrix, Vector, compiled
-from skillc_runtime.numerics.linear import times
+from skillc_runtime.numerics.linear import times, transposed_times
 from skillc_runtime.robots.arm import ArmState, Command, Torque
 from skillc_runtime.robots.resistance import Resistance
 
@@ -91,7 +91,11 @@ def tool_speed(J: Matrix, dq: Vector) -> float:
 @compiled
 def beyond(point: Vector, middle: Vector, axes: Matrix, size: Vector) -> float:
     """Return how far in m a point is outside a box with axes (3, 3) and size (3,); 0 within."""
-    from_middle = np.empty(3)
-    times(axes.T, point - middle, from_middle)
-    outside = np.maximum(np.abs(from_middle) - size / 2, 0.0)
-    return sqrt((outside * outside).sum())
+    away, along, square = np.empty(3), np.empty(3), 0.0
+    for i in range(3):
+        away[i] = point[i] - middle[i]
+    transposed_times(axes, away, along)
+    for i in range(3):
+        outside = max(abs(along[i]) - size[i] / 2, 0.0)
+        square += outside * outside
+    return sqrt(square)

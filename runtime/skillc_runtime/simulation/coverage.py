@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.numerics.compiled import Matrix, OutMatrix, Vector, compiled
-from skillc_runtime.numerics.linear import product, times
+from skillc_runtime.numerics.linear import add_under, product, times
 
 CELL_M = 0.005
 """Edge of a cell."""
@@ -77,14 +77,9 @@ def add_dose(
     seconds: float,
 ) -> None:
     """Add to the dose of cells in columns x and rows y; origin and turn are the world's pose in the surface."""
-    middle, axes, half = np.empty(3), np.empty((3, 3)), tool / 2
+    middle, axes = np.empty(3), np.empty((3, 3))
     times(turn, position, middle)
-    middle += origin
+    for i in range(3):
+        middle[i] += origin[i]
     product(turn, rotation, axes)
-    reach = np.hypot(half[0], half[1])
-    left, right = np.searchsorted(x, middle[0] - reach), np.searchsorted(x, middle[0] + reach)
-    low, high = np.searchsorted(y, middle[1] - reach), np.searchsorted(y, middle[1] + reach)
-    dx, dy = (x[left:right] - middle[0]).reshape(1, -1), (y[low:high] - middle[1]).reshape(-1, 1)
-    along = np.abs(axes[0, 0] * dx + axes[1, 0] * dy) <= half[0]
-    across = np.abs(axes[0, 1] * dx + axes[1, 1] * dy) <= half[1]
-    dose[low:high, left:right] += seconds * (along & across)
+    add_under(dose, x, y, middle, axes, tool, seconds)

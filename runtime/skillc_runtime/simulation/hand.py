@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.numerics.compiled import Matrix, OutMatrix, OutVector, Vector, compiled
+from skillc_runtime.numerics.compiled import Matrix, OutMatrix, OutVector, Vector, compiled, part
 from skillc_runtime.numerics.linear import cross, product, times, transposed_times
 
 TOOL = 6
@@ -36,7 +36,7 @@ class Hand:
         self.on_link[TOOL], self.on_link[LEVER] = tool.position, payload - tool.position
 
 
-@compiled
+@part
 def see_hand(
     in_base: OutMatrix,
     J: OutMatrix,
@@ -55,18 +55,19 @@ def see_hand(
     """
     in_world, away, at_tool = np.empty((8, 3)), np.empty(3), np.zeros((6, 6))
     product(on_link, link_rotation.T, in_world)
-    in_world[TOOL] += link_position
-    away[:] = in_world[TOOL] - centre
-    in_world[TOOL] -= base_position
+    for i in range(3):
+        in_world[TOOL, i] += link_position[i]
+        away[i] = in_world[TOOL, i] - centre[i]
+        in_world[TOOL, i] -= base_position[i]
+        for j in range(3):
+            at_tool[i, 3 + j] = at_tool[3 + i, j] = base_rotation[j, i]
     product(in_world, base_rotation, in_base)
-    at_tool[:3, 3:] = base_rotation.T
-    at_tool[3:, :3] = base_rotation.T
     for i in range(3):
         cross(away, at_tool[i, 3:], at_tool[i, :3])
     product(at_tool, motion_axes.T, J)
 
 
-@compiled
+@part
 def carry(
     bias: OutVector, carrying: OutVector, weight: Vector, base_rotation: Matrix, lever: Vector, J: Matrix
 ) -> None:
@@ -75,15 +76,17 @@ def carry(
     transposed_times(base_rotation, weight, load[:3])
     cross(lever, load[:3], load[3:])
     transposed_times(J, load, carrying)
-    bias += carrying
+    for j in range(bias.size):
+        bias[j] += carrying[j]
 
 
-@compiled
+@part
 def external_wrench(wrench: OutVector, gain: Matrix, readings: Vector, axes: Matrix) -> None:
     """wrench (6,) = gain (6, 9) readings (9,), its halves along `axes` (3, 3), one a row."""
     at_wrist = np.empty(6)
     times(gain, readings, at_wrist)
-    product(at_wrist.reshape(2, 3), axes, wrench.reshape(2, 3))
+    transposed_times(axes, at_wrist[:3], wrench[:3])
+    transposed_times(axes, at_wrist[3:], wrench[3:])
 
 
 @compiled
@@ -114,7 +117,8 @@ def measure(
     see_hand(
         in_base, J, on_link, motion_axes, centre, link_position, link_rotation, base_position, base_rotation
     )  # fmt: skip
-    joints[Q], joints[SPEED], joints[BIAS] = true_q, true_dq + noise, own_bias
+    for j in range(true_q.size):
+        joints[Q, j], joints[SPEED, j], joints[BIAS, j] = true_q[j], true_dq[j] + noise[j], own_bias[j]
     carry(joints[BIAS], joints[CARRYING], weight, base_rotation, in_base[LEVER], J)
     external_wrench(wrench, gain, readings, in_base[3:6])
 
@@ -126,6 +130,9 @@ def load_mass(mass: OutMatrix, lever: Vector, J: Matrix, payload_kg: float) -> N
     at_centre, moved, spun = np.empty((3, joints)), np.empty(3), np.empty((joints, joints))
     for j in range(joints):
         cross(J[3:, j], lever, moved)
-        at_centre[:, j] = J[:3, j] + moved
+        for i in range(3):
+            at_centre[i, j] = J[i, j] + moved[i]
     product(at_centre.T, at_centre, spun)
-    mass += payload_kg * spun
+    for i in range(joints):
+        for j in range(joints):
+            mass[i, j] += payload_kg * spun[i, j]
