@@ -104,7 +104,7 @@ def _run(
         live.say("writing the report")
         drawings = tuple(drawing(wiping, cell) for wiping in wipings)
         with writing(options.out):
-            filmed = _filmed(film, options.out, moments(wipings, cell))
+            filmed = _filmed(film, options.out, moments(wipings, trees, choices, cell))
             write_report(options.out, result, execution, drawings, filmed)
     return Ran(result, drawings)
 

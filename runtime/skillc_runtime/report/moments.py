@@ -1,8 +1,11 @@
-"""Moments of a run that are worth a still: the grasp, the contact, a corner, the end of the lanes."""
+"""Moments of a run that are worth a still: of wiping, the grasp, the contact, a corner, the end of the lanes; of other
+work in contact, when what it waited for came."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -10,14 +13,50 @@ from skillc_runtime.report.wiping import Wiping
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.film import Moment
 from skillc_runtime.simulation.recorder import Recording
+from skillc_runtime.trace.events import ImplementationChosen
+from skillc_runtime.trace.outcome import Outcome
 
 GRASPED_S = 0.3
 """How long after the first moment at which a tool is held its grasp is looked at."""
 
 
-def moments(wipings: Sequence[Wiping], cell: SimulatedCell) -> tuple[Moment, ...]:
-    """Return the moments of every wiping by an arm that is known."""
-    return tuple(each for wiping in wipings if wiping.arm for each in _moments(wiping, cell))
+@dataclass(frozen=True, slots=True)
+class Sight:
+    """What is to be seen when a call of a skill begins, or ends well, and the parameter that says of what."""
+
+    skill: str
+    when: Literal["begins", "ends"]
+    parameter: str
+    word: str
+
+
+SIGHTS = (
+    Sight("AwaitSwitch", "ends", "button", "pressed"),
+    Sight("Seat", "begins", "socket", "found"),
+    Sight("Seat", "ends", "socket", "filled"),
+    Sight("AwaitGuidance", "ends", "pose", "shown"),
+)
+
+
+def moments(
+    wipings: Sequence[Wiping],
+    trees: Iterable[Outcome],
+    choices: Mapping[int, ImplementationChosen],
+    cell: SimulatedCell,
+) -> tuple[Moment, ...]:
+    """Return the moments of every wiping by an arm that is known, and of what else was to be seen in some trees."""
+    wiped = (each for wiping in wipings if wiping.arm for each in _moments(wiping, cell))
+    calls = ((node, choices[node.id]) for tree in trees for node in tree.nodes() if node.id in choices)
+    return (*wiped, *(each for node, choice in calls for each in _seen(node, choice, cell)))
+
+
+def _seen(node: Outcome, choice: ImplementationChosen, cell: SimulatedCell) -> Iterator[Moment]:
+    arms = {cell.facts.names[arm.individual]: arm.individual for arm in cell.facts.arms}
+    for sight in SIGHTS:
+        time = node.started if sight.when == "begins" else node.ended
+        came = sight.when == "begins" or node.status == "success"
+        if sight.skill == choice.skill and came and time is not None:
+            yield Moment(f"{choice.bindings[sight.parameter]} {sight.word}", time, arms[choice.bindings["arm"]])
 
 
 def _moments(wiping: Wiping, cell: SimulatedCell) -> Iterator[Moment]:

@@ -48,7 +48,7 @@ class Wiping:
 def find_wipings(trees: Iterable[Outcome], choices: Choices, cell: SimulatedCell) -> tuple[Wiping, ...]:
     """Return for each surface the last call about it and a tool in which, pushing, paths were followed to the end."""
     state, found = cell.world.snapshot(), dict[str, Wiping]()
-    for node in (node for tree in trees for node in _nodes(tree)):
+    for node in (node for tree in trees for node in tree.nodes()):
         individuals = _individuals(choices.get(node.id), state)
         surfaces = [each for each in individuals if state.is_a(each, SURFACE)]
         tools = [each for each in individuals if state.is_a(each, TOOL)]
@@ -108,13 +108,7 @@ def _done(
     node: Outcome, choices: Mapping[int, ImplementationChosen], skill: str
 ) -> Iterator[tuple[ImplementationChosen, Outcome]]:
     """Yield the calls of a skill below a node that succeeded."""
-    for each in _nodes(node):
+    for each in node.nodes():
         choice = choices.get(each.id)
         if choice is not None and choice.skill == skill and each.status == "success":
             yield choice, each
-
-
-def _nodes(node: Outcome) -> Iterator[Outcome]:
-    yield node
-    for child in node.children:
-        yield from _nodes(child)

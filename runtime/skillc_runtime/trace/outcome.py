@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import msgspec
 
 from skillc_compiler.library.vocabulary import Position
@@ -25,3 +27,9 @@ class Outcome(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     failure: Failure | None = None
     rejected: tuple[Rejected, ...] = ()
     children: tuple[Outcome, ...] = ()
+
+    def nodes(self) -> Iterator[Outcome]:
+        """Yield this and everything below."""
+        yield self
+        for child in self.children:
+            yield from child.nodes()

@@ -1,0 +1,55 @@
+"""Stills are taken of what a run was about."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.report.moments import moments
+from skillc_runtime.simulation.film import Moment
+from skillc_runtime.trace.events import ImplementationChosen
+from skillc_runtime.trace.outcome import Outcome
+
+HERE = Position(path="press.skill", line=1, column=1)
+CELL: Any = SimpleNamespace(
+    facts=SimpleNamespace(arms=(SimpleNamespace(individual="http://lab#Arm"),), names={"http://lab#Arm": "lab:Arm"})
+)
+
+
+def call(number: int, status: str, started: float | None, ended: float | None, *below: Outcome) -> Outcome:
+    return Outcome(
+        id=number, name="", kind="call", status=status, source=HERE, started=started, ended=ended, children=below
+    )
+
+
+def chosen(node: int, skill: str, **bindings: str) -> ImplementationChosen:
+    return ImplementationChosen(
+        time=0.0,
+        node=node,
+        skill=skill,
+        implementation="x",
+        bindings={"arm": "lab:Arm", **bindings},
+        rejected=(),
+        source=HERE,
+    )
+
+
+CHOICES = {
+    2: chosen(2, "AwaitSwitch", button="lab:Button"),
+    3: chosen(3, "Seat", object="lab:Peg", socket="lab:Hole"),
+}
+
+
+def test_what_was_waited_for_is_seen_when_it_came() -> None:
+    tree = call(1, "success", 0.0, 9.0, call(2, "success", 3.0, 4.0), call(3, "success", 5.0, 6.0))
+    assert moments((), [tree], CHOICES, CELL) == (
+        Moment("lab:Button pressed", 4.0, "http://lab#Arm"),
+        Moment("lab:Hole found", 5.0, "http://lab#Arm"),
+        Moment("lab:Hole filled", 6.0, "http://lab#Arm"),
+    )
+
+
+def test_what_did_not_come_is_not_to_be_seen() -> None:
+    tree = call(1, "failure", 0.0, 9.0, call(2, "failure", 3.0, 4.0), call(3, "idle", None, None))
+    assert moments((), [tree], CHOICES, CELL) == ()
