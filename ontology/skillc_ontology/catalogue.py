@@ -72,6 +72,12 @@ def model(path: str) -> Path:
     return found
 
 
+def own_models() -> tuple[Path, ...]:
+    """Return the files in the user's folders that data sheets there may name as models."""
+    places = (folder / name for folder in folders() for name in SHEET_FOLDERS)
+    return tuple(path for place in places for path in sorted(place.glob("*.xml")))
+
+
 def _vocabulary_paths() -> Iterator[Path]:
     for folder in VOCABULARY_FOLDERS:
         yield from (ROOT / folder).glob("*.ttl")

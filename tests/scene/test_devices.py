@@ -9,6 +9,7 @@ import pytest
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _checking, _files
+from skillc_runtime.commands._digests import digest_of
 
 SCENE = catalogue.scene("iiwa_table").read_text("utf-8")
 OWN = """
@@ -88,3 +89,17 @@ def test_of_what_is_told_elsewhere_no_sheet_is_blamed(tmp_path: Path) -> None:
     (tmp_path / "t.skill").write_text("use skiros\nclass Rag < Product\n", "utf-8")
     (found,) = _checking.check(_files.find(tmp_path), tmp_path / "s.ttl")
     assert found.name == "unknown-controller"
+
+
+def test_what_was_found_does_not_hold_once_a_model_has_changed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    own, library = tmp_path / "own", tmp_path / "library"
+    (own / "robots").mkdir(parents=True)
+    library.mkdir()
+    monkeypatch.setenv(catalogue.VARIABLE, str(own))
+    sheet = OWN.replace("robots/iiwa14.xml", "robots/mine.xml")
+    (missing,) = told(library, "lab:own-sheet", sheet)
+    before = digest_of(_files.find(library), library / "s.ttl")
+    (own / "robots" / "mine.xml").write_text(catalogue.model("robots/iiwa14.xml").read_text("utf-8"), "utf-8")
+    assert "no model robots/mine.xml" in missing.message
+    assert digest_of(_files.find(library), library / "s.ttl") != before
+    assert told(library, "lab:own-sheet", sheet) == []

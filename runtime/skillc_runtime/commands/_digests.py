@@ -11,6 +11,7 @@ from importlib import import_module
 from pathlib import Path
 
 from skillc_dsl.source import Source
+from skillc_ontology.catalogue import own_models
 from skillc_runtime.commands._files import LibraryFiles
 
 PACKAGES = ("skillc_dsl", "skillc_ontology", "skillc_compiler", "skillc_runtime", "skillc_skills")
@@ -21,8 +22,8 @@ _PYTHON = re.compile(r'\bpython\s+"([\w.]+):(\w+)"')
 def digest_of(library: LibraryFiles, scene: Path | None) -> str:
     """Return the digest of a library as it was read, of a scene to be checked with it, and of all else that counts.
 
-    That is the scenes the library names, what the Python it names takes, the folder from which paths are shown, and
-    skillc itself with what is installed beside it.
+    That is the scenes the library names, models of the user's, what the Python it names takes, the folder from which
+    paths are shown, and skillc itself with what is installed beside it.
     """
     digest = hashlib.sha256()
     for part in (*installation(), *_inputs(library, scene)):
@@ -54,7 +55,7 @@ def _inputs(library: LibraryFiles, scene: Path | None) -> Iterator[str | bytes]:
         yield from (source.path, str(library.places[source.path]), source.text)
     for source in library.vocabularies:
         yield from (source.path, source.text)
-    for path in (*scenes_of(library), *([scene] if scene else [])):
+    for path in (*scenes_of(library), *([scene] if scene else []), *own_models()):
         yield from _file(path)
     yield from _python((*library.sources, *library.shelf.values()))
 
