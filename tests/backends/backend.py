@@ -11,13 +11,15 @@ from typing import Protocol
 
 import numpy as np
 
-from simulation.cells import world
+from simulation.cells import ARM, world
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.robots.arm import Arm
 from skillc_runtime.robots.driver import ArmDriver
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.names import part
+from skillc_runtime.world.changes import SetProperty
 from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.terms import COMPLIANT_CONTROLLER
 
 WALL_N_M, WALL_N_S_M = 4000.0, 40.0
 """Stiffness and damping of the wall."""
@@ -48,10 +50,14 @@ class Backend(Protocol):
 
 
 class MujocoBackend:
-    """The arm of a shipped scene. The wall is a force that a spring and a damper exert on the hand."""
+    """The arm of a shipped scene, with another controller if one is named.
 
-    def __init__(self, scene: str, steps_per_command: int = 1) -> None:
-        self._cell = SimulatedCell(WorldModel(world(scene)), steps_per_command=steps_per_command)
+    The wall is a force that a spring and a damper exert on the hand.
+    """
+
+    def __init__(self, scene: str, controller: str | None = None, steps_per_command: int = 1) -> None:
+        changes = [] if controller is None else [SetProperty(ARM[scene], COMPLIANT_CONTROLLER, controller)]
+        self._cell = SimulatedCell(WorldModel(world(scene).changed(changes)), steps_per_command=steps_per_command)
         facts = self._cell.facts.arms[0]
         assert facts.gripper is not None
         self.arm = self._cell.arms[facts.individual]
@@ -93,5 +99,6 @@ class MujocoBackend:
 BACKENDS: dict[str, Callable[[], Backend]] = {
     "mujoco iiwa14": partial(MujocoBackend, "iiwa_table"),
     "mujoco ur5e": partial(MujocoBackend, "ur5e_whiteboard"),
+    "mujoco ur5e velocity": partial(MujocoBackend, "ur5e_whiteboard", "forward_dynamics_velocity"),
     "mujoco panda": partial(MujocoBackend, "panda_desk"),
 }

@@ -11,14 +11,15 @@ from backends.backend import BACKENDS, Backend
 from skillc_runtime.motion.path import path
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.segments import MotionLimits
-from skillc_runtime.robots.arm import JointPosition, Mode, ModeRefused, Torque
+from skillc_runtime.robots.arm import JointPosition, JointVelocity, Mode, ModeRefused, Torque
 
 LIMITS = MotionLimits(speed=0.2, acceleration=0.5)
+COMMANDS = {"torque": Torque, "position": JointPosition, "velocity": JointVelocity}
 
 
 def _backends() -> list[object]:
     """Return all of them; one of each mode is fast, the others belong to the simulations."""
-    fast = ("mujoco iiwa14", "mujoco ur5e")
+    fast = ("mujoco iiwa14", "mujoco ur5e", "mujoco ur5e velocity")
     return [pytest.param(name, marks=() if name in fast else pytest.mark.sim) for name in sorted(BACKENDS)]
 
 
@@ -112,15 +113,53 @@ def test_what_it_cannot_do_is_refused_and_it_goes_on_as_before(backend: Backend)
         with pytest.raises(ModeRefused, match="the arm takes"):
             arm.switch(mode)
     arm.switch(before)
-    wrong = JointPosition(np.zeros(joints)) if before == "torque" else Torque(np.zeros(joints))
-    with pytest.raises(TypeError, match="takes no"):
-        arm.command(wrong)
+    for mode, wrong in COMMANDS.items():
+        if mode != before:
+            with pytest.raises(TypeError, match="takes no"):
+                arm.command(wrong(np.zeros(joints)))
     with pytest.raises(ValueError, match="beyond"):
         driver.push(-driver.pose.rotation[:, 2], 1000.0)
     assert arm.interface == before
     target = beside(backend, 0.0, 0.0, 0.02)
     go(backend, target, 0.8)
     assert np.abs(driver.pose.position - target.position).max() < 1e-3
+
+
+def test_it_changes_its_mode_on_the_way_without_a_jump_and_rests_until_the_first_command(backend: Backend) -> None:
+    arm, driver, before = backend.arm, backend.driver, backend.arm.interface
+    driver.move_along(path([driver.anchor, beside(backend, 0.0, 0.08, 0.0)], LIMITS))
+    for mode in (*arm.capabilities.modes, before):
+        backend.advance(0.25)
+        moving, speeds = arm.state().dq.copy(), []
+        arm.switch(mode)
+        for _ in range(200 if mode != before else 0):
+            backend.neglect(0.001)
+            speeds.append(arm.state().dq.copy())
+        assert arm.interface == mode
+        if speeds:
+            assert np.abs(moving).max() > 0.01
+            assert np.abs(np.diff([moving, *speeds], axis=0)).max() < 0.04, "rad/s from one period to the next"
+            assert np.abs(speeds[-1]).max() < 0.02
+            arm.switch(before)
+    backend.advance(1.0)
+    assert driver.done
+    assert driver.behind is None
+
+
+def test_a_motion_of_the_joints_that_runs_into_something_does_not_press_ever_harder(backend: Backend) -> None:
+    driver = backend.driver
+    deeper = beside(backend, *(-0.04 * backend.put_wall(0.002)))
+    goal = driver.inverse_kinematics(deeper, driver.q)
+    assert goal is not None
+    driver.move_joints(goal, 0.2)
+    forces = [0.0]
+    while driver.fault is None and len(forces) < 200:
+        backend.advance(0.005)
+        forces.append(backend.force_n)
+    driver.hold_still("enough")
+    backend.advance(0.5)
+    assert max(forces) > 40.0
+    assert mean_force(backend) < 1.05 * max(forces)
 
 
 def test_an_arm_that_nobody_commands_holds_still_and_goes_on_without_a_jump(backend: Backend) -> None:

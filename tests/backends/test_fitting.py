@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import pytest
 
 from simulation.cells import ARM, LAB, world
+from skillc_runtime.simulation.arm import SimulatedArm
 from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.simulation.drivers import driver
 from skillc_runtime.world.changes import Change, RemoveRelation, SetProperty
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.sheet import SheetError
@@ -25,6 +28,7 @@ def controlled_by(scene: str, name: str) -> Change:
     [
         (UR5E, controlled_by(UR5E, "impedance"), "has no number skillc:dampingFloor"),
         (IIWA, controlled_by(IIWA, "forward_dynamics"), "has no number skillc:admittance"),
+        (IIWA, controlled_by(IIWA, "forward_dynamics_velocity"), "has no number skillc:admittance"),
         (UR5E, RemoveRelation(ARM[UR5E], HAS_SENSOR, LAB + "ForceTorque-1"), "needs a force/torque sensor"),
     ],
 )
@@ -36,5 +40,15 @@ def test_what_is_missing_is_told(scene: str, change: Change, says: str) -> None:
 def test_a_law_whose_commands_the_arm_does_not_take_is_told() -> None:
     sheet = {"dampingFloor": 60.0, "rotationalDampingFloor": 3.0, "nullspaceStiffness": 10.0, "torqueRate": 1000.0}
     facts = [SetProperty(SKILLC + "ur5e-sheet", SKILLC + name, value) for name, value in sheet.items()]
-    with pytest.raises(SheetError, match="lab:Ur5e-1 has the controller 'impedance': the arm takes position commands"):
+    with pytest.raises(
+        SheetError, match="lab:Ur5e-1 has the controller 'impedance': the arm takes position and velocity"
+    ):
         SimulatedCell(WorldModel(world(UR5E).changed([controlled_by(UR5E, "impedance"), *facts])))
+
+
+def test_an_arm_that_takes_positions_only_refuses_speeds() -> None:
+    there = SimulatedCell(WorldModel(world(UR5E)))
+    facts = replace(there.facts.arms[0], modes=("position",), controller="forward_dynamics_velocity")
+    arm = SimulatedArm(facts, there.facts.names[facts.individual], None, there.model, there.data, there.variation)
+    with pytest.raises(SheetError, match="the arm takes position commands, not velocity commands"):
+        driver(facts, arm, there.period_s)

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 from rig import GAINS, LAWS, ROBOTS, Bench, moved_by
 
+from skillc_runtime.controllers.limits import EXPECTED, SpeedLimit
 from skillc_runtime.controllers.virtual_arm import virtual_model
 from skillc_runtime.motion.arc import arc_through
 from skillc_runtime.motion.guide import Guide
@@ -17,11 +18,13 @@ from skillc_runtime.motion.path import joined, path
 from skillc_runtime.motion.pose import exp
 from skillc_runtime.motion.reference import Compliance, Reference
 from skillc_runtime.motion.segments import MotionLimits, segment
+from skillc_runtime.robots.arm import numbers
 from skillc_runtime.robots.guard import take_over
 from skillc_runtime.robots.resistance import Resistance
 from skillc_runtime.robots.safety import beyond, tool_speed
 from skillc_runtime.simulation.coverage import add_dose
 from skillc_runtime.simulation.hand import Hand, load_mass, measure
+from skillc_runtime.simulation.motors import drive
 from skillc_runtime.simulation.wrist import low_pass
 
 
@@ -45,6 +48,28 @@ def laws(robot: str, count: int) -> list[list[float]]:
         compliance = Compliance(stiffness, chance.uniform(-20, 20, 6), exp(chance.uniform(-3, 3, 3)))
         command = law.tool.command(state, Reference.of(pose, twist, acceleration), compliance, 0.001)
         told.append([*(command.tau if LAWS[robot] == "impedance" else command.q), *law.tool.contact_wrench])
+    return told
+
+
+def speeds(count: int) -> list[list[float]]:
+    """What joints are told that take speeds, and where they are expected to be."""
+    chance, bench = np.random.default_rng(11), Bench("ur5e")
+    state, told = bench.state(), []
+    limit = SpeedLimit(bench.limits, state.q, 5.0, 0.015)
+    for _ in range(count):
+        measured = replace(state, q=limit.q + chance.uniform(-0.05, 0.05, bench.nv))
+        command = limit.step(limit.q + chance.uniform(-0.01, 0.01, bench.nv), measured, 0.002)
+        told.append([*numbers(command), *limit.rows[EXPECTED]])
+    return told
+
+
+def servos(count: int) -> list[list[float]]:
+    """Where the targets of servos go that are told speeds; in between all stand still."""
+    chance, targets, told = np.random.default_rng(12), np.zeros(6), []
+    for step in range(count):
+        speed, q, dq, lead, farthest = chance.uniform(-1.0, 1.0, (5, 6)) * [[step % 3 > 0], [0.02], [1], [0.01], [0.01]]
+        drive(targets, speed, q, dq, np.abs(lead), np.abs(farthest), 0.001)
+        told.append(targets.tolist())
     return told
 
 
@@ -119,7 +144,7 @@ def measurements(count: int) -> list[list[float]]:
 def everything(count: int) -> dict[str, list[list[float]]]:
     """All of it, a row for each input."""
     results = {robot: laws(robot, count) for robot in LAWS}
-    others = {part.__name__: part(count) for part in (references, curves, watched, measurements)}
+    others = {part.__name__: part(count) for part in (references, curves, watched, measurements, speeds, servos)}
     return {**results, **others}
 
 

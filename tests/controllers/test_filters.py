@@ -67,7 +67,7 @@ def test_joint_positions_stay_within_speed_and_range(wanted):
     state = bench.state()
     limit, before = JointLimit(bench.limits, state.q), state.q
     for q in wanted:
-        now = limit.step(q, state, 0.001)
+        now = limit.step(q, state, 0.001).q
         assert (np.abs(now - before) <= bench.limits.velocity * 0.001 + 1e-12).all()
         assert (now >= bench.limits.range[:, 0]).all()
         assert (now <= bench.limits.range[:, 1]).all()
@@ -80,4 +80,4 @@ def test_an_arm_that_does_not_follow_is_noticed():
     limit = JointLimit(bench.limits, state.q + 0.3)
     with pytest.raises(ControlError, match=r"0\.30 rad"):
         limit.step(state.q, state, 0.001)
-    assert (limit.step(state.q, state, 0.001) == state.q).all()
+    assert (limit.step(state.q, state, 0.001).q == state.q).all()

@@ -149,7 +149,8 @@ def test_the_log_error_is_the_shortest_turn(robot):
 
 
 def test_unknown_controllers_and_missing_numbers_are_named():
-    with pytest.raises(UnknownController, match=r"no controller 'admittance'; there are: forward_dynamics, impedance"):
+    known = "forward_dynamics, forward_dynamics_velocity, impedance"
+    with pytest.raises(UnknownController, match=f"no controller 'admittance'; there are: {known}$"):
         gains("admittance", {}.__getitem__)
     with pytest.raises(KeyError, match="dampingFloor"):
         gains("impedance", {}.__getitem__)
@@ -162,7 +163,7 @@ def test_a_file_in_the_folder_is_a_controller(tmp_path, monkeypatch):
     (tmp_path / "helper.py").write_text('"""Offers no `from_sheet`, so it is no controller."""\n')
     monkeypatch.setattr(controllers, "__path__", [*controllers.__path__, str(tmp_path)])
     assert gains("brand_new", SHEETS["iiwa14"].__getitem__) == GAINS["iiwa14"]
-    with pytest.raises(UnknownController, match=r"brand_new, forward_dynamics, impedance$"):
+    with pytest.raises(UnknownController, match=r"brand_new, forward_dynamics, forward_dynamics_velocity, impedance$"):
         gains("helper", SHEETS["iiwa14"].__getitem__)
 
 

@@ -21,7 +21,11 @@ EXACT = [
     ("do seq {", "        timeout 3 |", "s ms min"),
     ("do seq {", "        Move(arm, speed: 3 |", "m/s cm/s mm/s"),
     ("do seq {", "        Move(arm, speed: 3 m|", "m/s cm/s mm/s"),
-    ("impl slowly", "    refine arm: |", "CompliantArm Iiwa14 PositionControlledArm TorqueControlledArm Ur5e Panda"),
+    (
+        "impl slowly",
+        "    refine arm: |",
+        "CompliantArm Iiwa14 PositionControlledArm TorqueControlledArm VelocityControlledArm Ur5e Panda",
+    ),
     ("impl slowly", "    refine push: |", "Force"),
     ("impl slowly", "    refine |", "arm: at: panel: push:"),
     ("infer at", "    pre arm.deviceState == |", "Busy Fault Idle"),

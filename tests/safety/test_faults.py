@@ -7,12 +7,17 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from safety.faults import CLASSES, reasons, run, scene_for, things
-from simulation.cells import cell
+from safety.faults import CLASSES, KINDS, reasons, run, scene_for, things, wanted
+from simulation.cells import ARM, cell, world
 from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.world.changes import SetProperty
+from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.terms import COMPLIANT_CONTROLLER
 
 SCOPED = ("OverlayCircle", "Push", "ReleaseAxis")
 PHASES = ("start", "tick", "halt")
+BY_SPEED = "ur5e_whiteboard"
+"""The scene whose arm takes speeds, too."""
 
 
 def _breaks() -> Iterator[object]:
@@ -49,6 +54,27 @@ def test_a_primitive_that_breaks_leaves_a_stiff_hold(name: str, phase: str) -> N
     assert f"broke at {phase}" in reasons(told)
     assert status == ("failure" if phase in ("start", "tick") else "halted")
     is_safe(there, scene)
+
+
+def _of_arms() -> Iterator[object]:
+    """Yield the primitives that move an arm or change how it yields, with a phase each; two are fast."""
+    known = set(things(BY_SPEED))
+    needs = {name: wanted(cls) for name, cls in sorted(CLASSES.items())}
+    arms = [name for name, needed in needs.items() if "arm" in needed and needed & set(KINDS) <= known]
+    for number, name in enumerate(arms):
+        fast = name in ("MoveLinear", "Push")
+        yield pytest.param(name, PHASES[number % 3], marks=() if fast else pytest.mark.sim)
+
+
+@pytest.mark.parametrize(("name", "phase"), list(_of_arms()))
+def test_an_arm_that_takes_speeds_is_left_with_a_stiff_hold_as_well(name: str, phase: str) -> None:
+    by_speed = SetProperty(ARM[BY_SPEED], COMPLIANT_CONTROLLER, "forward_dynamics_velocity")
+    there = SimulatedCell(WorldModel(world(BY_SPEED).changed([by_speed])))
+    told, status = run(there, BY_SPEED, name, phase)
+    assert there.arms[ARM[BY_SPEED]].interface == "velocity"
+    assert f"broke at {phase}" in reasons(told)
+    assert status == ("halted" if phase == "halt" else "failure")
+    is_safe(there, BY_SPEED)
 
 
 def test_all_primitives_of_the_package_are_here() -> None:

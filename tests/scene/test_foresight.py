@@ -101,7 +101,10 @@ def test_what_begins_with_a_call_that_cannot_start_yet_is_a_warning(tmp_path: Pa
 
 @pytest.mark.parametrize(
     ("controller", "help_", "fix"),
-    [("impedence", "did you mean `impedance`?", '"impedance"'), ("Zed", "`forward_dynamics`, `impedance`", None)],
+    [
+        ("impedence", "did you mean `impedance`?", '"impedance"'),
+        ("Zed", "`forward_dynamics`, `forward_dynamics_velocity`, `impedance`", None),
+    ],
 )
 def test_a_controller_that_there_is_not_is_told_in_its_line(
     tmp_path: Path, controller: str, help_: str, fix: str | None
@@ -112,7 +115,7 @@ def test_a_controller_that_there_is_not_is_told_in_its_line(
     assert (told.name, told.severity) == ("unknown-controller", "error")
     assert told.span.path.endswith("s.ttl")
     assert line[told.span.column - 1 : told.span.end_column - 1] == f'"{controller}"'
-    assert "there are: forward_dynamics, impedance" in told.message and help_ in told.help
+    assert "there are: forward_dynamics, forward_dynamics_velocity, impedance" in told.message and help_ in told.help
     assert (told.fix.text if told.fix else None) == fix
 
 

@@ -109,7 +109,10 @@ def test_a_posture_that_cannot_be_taken_is_named(change: Change, message: str) -
 
 def test_an_unknown_controller_is_named_with_those_there_are() -> None:
     state = world("iiwa_table").changed([SetProperty(ARM["iiwa_table"], COMPLIANT_CONTROLLER, "impedence")])
-    with pytest.raises(SheetError, match=r"Iiwa-1: there is no controller 'impedence'; .*forward_dynamics, impedance"):
+    with pytest.raises(
+        SheetError,
+        match=r"Iiwa-1: there is no controller 'impedence'; .*forward_dynamics, forward_dynamics_velocity, impedance",
+    ):
         SimulatedCell(WorldModel(state))
 
 

@@ -1,4 +1,4 @@
-"""Forward-dynamics compliance for position-controlled arms that feel forces: a virtual arm moves, the real one follows.
+"""Forward-dynamics compliance for arms that take positions and feel forces: a virtual arm moves, the real one follows.
 
 w_C = -K sat(e) + W + W_ext;  a = A w_C / T + nu_d / T + a_d;  ddq = H^-1 (J_C^T a - c)
 dq <- g dq + (1 - g) T ddq, g = exp(-h/T);  q <- q + h dq
@@ -23,7 +23,7 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
 from skillc_runtime.numerics.compiled import Matrix, OutMatrix, OutVector, Vector, compiled
 from skillc_runtime.numerics.linear import cholesky, cholesky_solve, times, transposed_times
-from skillc_runtime.robots.arm import ArmLimits, ArmState, JointPosition, Mode
+from skillc_runtime.robots.arm import ArmLimits, ArmState, Command, Mode
 from skillc_runtime.robots.laws import Laws
 
 BRAKED = 0.9
@@ -32,7 +32,7 @@ BRAKED = 0.9
 
 @dataclass(frozen=True, slots=True)
 class ForwardDynamicsGains:
-    """For a position-controlled arm with a force/torque sensor.
+    """For an arm with servos of its own and a force/torque sensor.
 
     admittance m/(s N), rotational_admittance rad/(s N m): steady tool velocity per wrench; admittance_time s: its lag.
     """
@@ -58,7 +58,10 @@ class ForwardDynamicsGains:
 
     def laws(self, gains: Gains, limits: ArmLimits, virtual: mujoco.MjModel, state: ArmState, period: float) -> Laws:
         """Make the laws of one arm."""
-        limit = JointLimit(limits, state.q)
+        return self.laws_within(JointLimit(limits, state.q), gains, virtual)
+
+    def laws_within(self, limit: JointLimit, gains: Gains, virtual: mujoco.MjModel) -> Laws:
+        """Make the laws of one arm, which is told what `limit` makes of its motion."""
         return Laws(ForwardDynamics(gains, self, limit, VirtualArm(virtual)), JointServo(limit), limit)
 
 
@@ -94,8 +97,8 @@ class ForwardDynamics:
         self._arm.move(q)
         self._dq[:] = dq
 
-    def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> JointPosition:
-        """Return the joint positions."""
+    def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Command:
+        """Return where the joints shall be, or how fast, as the limit tells it."""
         self._felt[:] = state.wrench
         arm, task, limit = self._arm, self._task, self._limit
         tool = arm.live_tool
@@ -107,7 +110,7 @@ class ForwardDynamics:
             reference.rows, compliance.stiffness, compliance.wrench, compliance.frame, compliance.fastest,
             self._felt, self._rate, self._lag, period,
         )  # fmt: skip
-        return JointPosition(limit.followed(followed, state))
+        return limit.followed(followed, state)
 
 
 @compiled

@@ -1,4 +1,4 @@
-"""Moving joints: computed torque for arms that take torques, their own servos for arms that take positions."""
+"""Moving joints: computed torque for arms that take torques; positions or speeds for those that have servos."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 
 from skillc_runtime.controllers.limits import JointLimit, TorqueLimit
 from skillc_runtime.motion.joint import JointReference
-from skillc_runtime.robots.arm import ArmState, JointPosition, Torque
+from skillc_runtime.robots.arm import ArmState, JointPosition, JointVelocity, Torque
 
 BANDWIDTH = 20.0
 """Natural frequency of the computed-torque servo in rad/s; critically damped."""
@@ -32,11 +32,11 @@ class ComputedTorque:
 
 
 class JointServo:
-    """Passes joint positions on, within the arm's limits."""
+    """Passes joint motions on, within the arm's limits, as what `limit` makes of them."""
 
     def __init__(self, limit: JointLimit) -> None:
         self._limit = limit
 
-    def command(self, state: ArmState, reference: JointReference, period: float) -> JointPosition:
-        """Return the joint positions."""
-        return JointPosition(self._limit.step(reference.q, state, period))
+    def command(self, state: ArmState, reference: JointReference, period: float) -> JointPosition | JointVelocity:
+        """Return the joint positions or speeds."""
+        return self._limit.step(reference.q, state, period)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, Protocol, TypeAlias
+from typing import Literal, Protocol, TypeAlias, assert_never
 
 from skillc_runtime.motion.pose import Array, Pose
 
@@ -40,9 +40,29 @@ class JointPosition:
     q: Array
 
 
-Command: TypeAlias = Torque | JointPosition
-Mode: TypeAlias = Literal["torque", "position"]
+@dataclass(frozen=True, slots=True)
+class JointVelocity:
+    """Joint speeds (nv,) in rad/s for the arm's own servos."""
+
+    dq: Array
+
+
+Command: TypeAlias = Torque | JointPosition | JointVelocity
+Mode: TypeAlias = Literal["torque", "position", "velocity"]
 """Which of the commands an arm takes."""
+
+
+def numbers(command: Command) -> Array:
+    """Return what a command consists of, (nv,)."""
+    match command:
+        case Torque(tau=tau):
+            return tau
+        case JointPosition(q=q):
+            return q
+        case JointVelocity(dq=dq):
+            return dq
+        case _:
+            assert_never(command)
 
 
 class ModeRefused(Exception):

@@ -57,7 +57,7 @@ class ArmDriver(ArmTask):
                 return self._laws.joints.command(state, self._joints.sample(self._now), self.period)
             return self._tool.command(state, self._now, self.period)
         except ControlError as fault:
-            self._joints = self._joint_guide(state.q, np.zeros_like(state.q))
+            self._joints = self._joint_guide(self._laws.joints_now(state), np.zeros_like(state.q))
             self.broken = str(fault)
             self.abort(self.broken)
             return self._guard.holding()
@@ -78,7 +78,7 @@ class ArmDriver(ArmTask):
 
     def hold_still(self, reason: str) -> None:
         """Hold the arm where it is, at once, and push no more; whoever moves it finds the reason in `fault`."""
-        self.fault, q = reason, self._laws.joints_now(self._state)
+        self.fault, q = reason, self._laws.joints_held(self._state)
         if self._joints is None:
             self._tool.hold(self._state, q, self._now)
         else:

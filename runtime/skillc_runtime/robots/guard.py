@@ -5,14 +5,14 @@ Nothing is computed from, nor commanded with, something that is not a number.
 
 from __future__ import annotations
 
-from typing import NoReturn
+from typing import NoReturn, assert_never
 
 import numpy as np
 
 from skillc_runtime.controllers.controller import ControlError
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.numerics.compiled import OutVector, Vector, compiled
-from skillc_runtime.robots.arm import Arm, ArmState, Command, JointPosition, Torque
+from skillc_runtime.robots.arm import Arm, ArmState, Command, JointPosition, JointVelocity, Torque, numbers
 from skillc_runtime.robots.safety import Safety, SafetyLimits
 
 
@@ -29,8 +29,8 @@ class Guard:
     """Checks one arm, and keeps it where it was last known to be when a check fails."""
 
     def __init__(self, arm: Arm, state: ArmState, limits: SafetyLimits | None = None) -> None:
-        self._arm, self._torque = arm, arm.interface == "torque"
-        self._safety = Safety(limits or SafetyLimits(), state, self._torque)
+        self._arm = arm
+        self._safety = Safety(limits or SafetyLimits(), state, arm.interface == "torque")
         self._holding = self._rest(state).copy()
 
     def check(self, state: ArmState) -> None:
@@ -40,8 +40,7 @@ class Guard:
 
     def command(self, command: Command, period: float) -> None:
         """Tell the arm for the next `period` s. ControlError when not all is numbers; it is told to hold instead."""
-        told = command.tau if isinstance(command, Torque) else command.q
-        if not sum_of_squares(told) < np.inf:
+        if not sum_of_squares(numbers(command)) < np.inf:
             self._give_up("the control law does not yield a number")
         self._safety.told(command, self._holding, period)
         self._arm.command(command)
@@ -52,11 +51,19 @@ class Guard:
 
     def holding(self) -> Command:
         """Return what keeps the arm where it was last known to be."""
-        return Torque(self._holding.copy()) if self._torque else JointPosition(self._holding.copy())
+        match self._arm.interface:
+            case "torque":
+                return Torque(self._holding.copy())
+            case "position":
+                return JointPosition(self._holding.copy())
+            case "velocity":
+                return JointVelocity(np.zeros_like(self._holding))
+            case never:
+                assert_never(never)
 
     def _rest(self, state: ArmState) -> Array:
-        """Return what a command to stay in a state consists of: the torques of the bias, or the joints."""
-        return state.bias if self._torque else state.q
+        """Return what keeps the arm in a state: the torques of the bias; the joints, of an arm with servos."""
+        return state.bias if self._arm.interface == "torque" else state.q
 
     def _give_up(self, reason: str) -> NoReturn:
         self._arm.command(self.holding())

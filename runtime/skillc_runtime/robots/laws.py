@@ -22,6 +22,10 @@ class Laws:
         """Return the joints (nv,) from which a motion goes on: those commanded last, else the measured ones."""
         return (self.limit.q if isinstance(self.limit, JointLimit) else state.q).copy()
 
+    def joints_held(self, state: ArmState) -> Array:
+        """Return the joints (nv,) at which the arm holds still when it is to do so at once."""
+        return (self.limit.held(state) if isinstance(self.limit, JointLimit) else state.q).copy()
+
     def speeds_now(self, state: ArmState) -> Array:
         """Return the joint speeds (nv,) with which a motion goes on: those commanded last, else the measured ones."""
         return (self.limit.dq if isinstance(self.limit, JointLimit) else state.dq).copy()

@@ -1,4 +1,4 @@
-"""An arm in the simulation: what it measures, how it takes commands, what it carries."""
+"""An arm in the simulation: what it measures and carries; `motors` says how it moves."""
 
 from __future__ import annotations
 
@@ -9,32 +9,17 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.robots.arm import (
-    ArmLimits,
-    ArmState,
-    Capabilities,
-    Command,
-    JointPosition,
-    Mode,
-    ModeRefused,
-    Torque,
-)
+from skillc_runtime.robots.arm import ArmLimits, ArmState, Capabilities, Command, Mode
 from skillc_runtime.simulation import noise
 from skillc_runtime.simulation.facts import ArmFacts
 from skillc_runtime.simulation.hand import BIAS, CARRYING, SPEED, Hand, Q, load_mass, measure
+from skillc_runtime.simulation.motors import Joints, Motors, ServoGains, Servos, TorqueMotors
 from skillc_runtime.simulation.names import part
 from skillc_runtime.simulation.variation import Variation
 from skillc_runtime.simulation.wrist import Wrist
 
 MASS_MATRIX_PERIOD_S = 0.01
 """The mass matrix changes slowly; it is computed anew at 100 Hz."""
-
-
-SILENCE_S = 0.05
-"""An arm that is not commanded for so long holds still by itself."""
-
-HOLD_RATE = 20.0
-"""1/s: natural frequency, critically damped, with which an arm that takes torques holds its joints by itself."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,15 +50,14 @@ class SimulatedArm:
         reality: Variation,
         steps_per_command: int = 1,
     ) -> None:
-        self._model, self._data, self._interface = model, data, facts.interface
+        self._model, self._data = model, data
         joints = [j for j in range(model.njnt) if model.joint(j).name.startswith(part(name, ""))]
         first, count = int(model.jnt_dofadr[joints[0]]), len(joints)
         q_first = int(model.jnt_qposadr[joints[0]])
         actuator = _actuator_of(joints[0], model)
         self._dofs = slice(first, first + count)
         self._q, self._dq = data.qpos[q_first : q_first + count], data.qvel[self._dofs]
-        self._bias, self._feedforward = data.qfrc_bias[self._dofs], data.qfrc_applied[self._dofs]
-        self._control = data.ctrl[actuator : actuator + count]
+        self._bias = data.qfrc_bias[self._dofs]
         self._base = _root_body(model, model.jnt_bodyid[joints[0]], part(name, ""))
         self._link = int(model.site_bodyid[model.site(part(name, "flange")).id])
         self._base_position, self._base_rotation = data.xpos[self._base], data.xmat[self._base].reshape(3, 3)
@@ -94,27 +78,22 @@ class SimulatedArm:
         self._readings = np.zeros(9) if self._wrist is None else self._wrist.readings
         self._speed_noise = noise.of_joints(facts, reality.seed)
         self._configure(NO_PAYLOAD, self.fixed_tool)
-        self._target, self._steps_left, self._steps_per_command = np.zeros(count), 0, steps_per_command
-        self._held = np.zeros(count)
-        self._unheard, self._patience = 0, round(SILENCE_S / model.opt.timestep)
-        self._q[:] = start = reality.start(facts)
-        if self._interface == "position":
-            self._control[:] = start
+        self._q[:] = reality.start(facts)
+        self._motors = self._make_motors(facts, slice(actuator, actuator + count), steps_per_command)
 
     @property
     def capabilities(self) -> Capabilities:
-        """What the arm offers: the one mode that its motors are simulated for."""
-        return Capabilities((self._interface,), self._wrist is not None, self.limits)
+        """What the arm offers."""
+        return Capabilities(self._motors.modes, self._wrist is not None, self.limits)
 
     @property
     def interface(self) -> Mode:
         """Which command the arm takes."""
-        return self._interface
+        return self._motors.mode
 
     def switch(self, mode: Mode) -> None:
-        """Take commands of this kind; ModeRefused for any but the one there is."""
-        if mode != self._interface:
-            raise ModeRefused(f"the arm takes {self._interface} commands, not {mode} commands")
+        """Take commands of this kind, at rest until the first; ModeRefused for any that the arm does not offer."""
+        self._motors.switch(mode)
 
     @property
     def base(self) -> Pose:
@@ -136,45 +115,11 @@ class SimulatedArm:
 
     def command(self, command: Command) -> None:
         """Take a command for the next step; TypeError for a kind the interface does not take."""
-        self._unheard = 0
-        match command:
-            case Torque(tau=tau) if self._interface == "torque":
-                self._control[:] = tau
-            case JointPosition(q=q) if self._interface == "position":
-                self._target[:], self._steps_left = q, self._steps_per_command
-            case _:
-                raise TypeError(f"a {self._interface} controlled arm takes no {type(command).__name__}")
+        self._motors.command(command)
 
     def before_step(self) -> None:
-        """Do what a position-controlled arm does itself: move its servos' targets evenly over the control period, and
-        compensate its weight, Coriolis forces and configured payload; one that is not commanded any more is braked.
-        """
-        self._unheard += 1
-        if self._unheard > self._patience:
-            self._brake()
-        elif self._interface == "position":
-            self._feedforward[:] = self._here.bias
-            if self._steps_left > 0:
-                self._approach()
-
-    def _approach(self) -> None:
-        """Move the servos' targets so that they arrive with the last step of the control period."""
-        if self._steps_left == 1:
-            self._control[:] = self._target
-        else:
-            self._control += (self._target - self._control) / self._steps_left
-        self._steps_left -= 1
-
-    def _brake(self) -> None:
-        """Hold still without commands: carried by torques and braked at each joint, or with servos that stay."""
-        if self._interface == "position":
-            self._feedforward[:] = self._bias
-            return
-        if self._unheard == self._patience + 1:
-            self._held[:] = self._q
-        slowing = HOLD_RATE * (self._q - self._held) + 2 * self._dq
-        self._control[:] = self._bias + self._carrying - HOLD_RATE * self._here.mass_matrix.diagonal() * slowing
-        np.clip(self._control, -self.limits.effort, self.limits.effort, out=self._control)
+        """Move as commanded; one that is not commanded any more is braked."""
+        self._motors.before_step()
 
     def after_step(self) -> None:
         """Filter the wrist sensor; to be called once a step."""
@@ -189,6 +134,18 @@ class SimulatedArm:
         """Configure the empty gripper."""
         self._carrying[:] = 0.0
         self._configure(NO_PAYLOAD, self.fixed_tool)
+
+    def _make_motors(self, facts: ArmFacts, actuators: slice, steps_per_command: int) -> Motors:
+        data, here, timestep = self._data, self._here, self._model.opt.timestep
+        joints = Joints(
+            data.ctrl[actuators], data.qfrc_applied[self._dofs], self._q, self._dq, self._bias,
+            here.bias, self._carrying, here.mass_matrix, self.limits.effort,
+        )  # fmt: skip
+        if not facts.has_servos:
+            return TorqueMotors(joints, timestep)
+        model = self._model
+        gains = ServoGains(model.actuator_gainprm[actuators, 0], -model.actuator_biasprm[actuators, 2])
+        return Servos(joints, facts.modes, timestep, gains, steps_per_command)
 
     def _configure(self, payload: Payload, tool: Pose) -> None:
         self.payload, self._next_mass_time = payload, 0.0
@@ -260,7 +217,7 @@ def _in_body(site: Any) -> Pose:
 def _limits(model: Any, joints: list[int], actuator: int, facts: ArmFacts) -> ArmLimits:
     span = slice(actuator, actuator + len(joints))
     force, control = model.actuator_forcerange[span, 1], model.actuator_ctrlrange[span, 1]
-    effort = force if facts.interface == "position" else control
+    effort = force if facts.has_servos else control
     sheet, count = facts.sheet, len(joints)
     stated = sheet.states("jointAccelerations")
     fastest = sheet.limits("jointAccelerations", count) if stated else np.full(count, np.inf)

@@ -34,7 +34,7 @@ def add_arm(spec: Any, names: Mapping[str, str], arm: ArmFacts, mount: Any, base
     _check_posture(model, names[arm.individual], arm)
     for joint in model.joints:
         joint.armature = arm.sheet.number("armature")
-    if arm.interface == "position":
+    if arm.has_servos:
         _set_servos(model, arm)
     frame = mount.add_frame(pos=base.position, quat=quaternion_of(base.rotation))
     spec.attach(model, prefix=part(names[arm.individual], ""), frame=frame)

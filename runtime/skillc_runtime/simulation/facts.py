@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Final
 
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.robots.arm import Mode
 from skillc_runtime.simulation.fixture_facts import FixtureFacts, read_fixtures
 from skillc_runtime.simulation.friction import friction
 from skillc_runtime.simulation.person_facts import PersonFacts, read_people
@@ -36,8 +37,16 @@ from skillc_runtime.world.terms import (
     TOOL,
     TORQUE_CONTROLLED_ARM,
     TORQUE_NOISE,
+    VELOCITY_CONTROLLED_ARM,
     WEIGHT,
 )
+
+MODES: Final[dict[str, Mode]] = {
+    TORQUE_CONTROLLED_ARM: "torque",
+    POSITION_CONTROLLED_ARM: "position",
+    VELOCITY_CONTROLLED_ARM: "velocity",
+}
+"""What arms of these classes take."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +67,7 @@ class GripperFacts:
 
 @dataclass(frozen=True, slots=True)
 class ArmFacts:
-    """An arm: its base in the world, home posture (nv,) rad, name of its compliant controller, and its sheet.
+    """An arm: its base in the world, what it takes, home posture (nv,) rad, its compliant controller, and its sheet.
 
     Each joint may start `posture_range_rad` off home. Standard deviations of what is measured: joint speed rad/s, force
     N and torque N m at the wrist.
@@ -68,7 +77,7 @@ class ArmFacts:
     robot: str | None
     base: Pose
     model: Path
-    interface: Literal["torque", "position"]
+    modes: tuple[Mode, ...]
     home: Array
     force_torque: bool
     controller: str
@@ -78,6 +87,11 @@ class ArmFacts:
     joint_speed_noise: float = 0.0
     force_noise_n: float = 0.0
     torque_noise_n_m: float = 0.0
+
+    @property
+    def has_servos(self) -> bool:
+        """Whether the arm has servos of its own, which take positions or speeds, and no bare motors."""
+        return "torque" not in self.modes
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,7 +191,7 @@ def _arm(state: WorldState, arm: str) -> ArmFacts:
         robot=robots[0] if robots else None,
         base=pose(state, arm),
         model=sheet.model,
-        interface=_interface(state, arm),
+        modes=_modes(state, arm),
         home=sheet.posture("home"),
         force_torque=bool(sensors),
         controller=text(state, arm, COMPLIANT_CONTROLLER),
@@ -190,12 +204,12 @@ def _arm(state: WorldState, arm: str) -> ArmFacts:
     )
 
 
-def _interface(state: WorldState, arm: str) -> Literal["torque", "position"]:
-    if state.is_a(arm, TORQUE_CONTROLLED_ARM):
-        return "torque"
-    if state.is_a(arm, POSITION_CONTROLLED_ARM):
-        return "position"
-    raise SheetError(f"{state.vocabulary.short(arm)} is neither a torque-controlled nor a position-controlled arm")
+def _modes(state: WorldState, arm: str) -> tuple[Mode, ...]:
+    modes = tuple(mode for cls, mode in MODES.items() if state.is_a(arm, cls))
+    if modes:
+        return modes
+    kinds = " nor a ".join(map(state.vocabulary.short, MODES))
+    raise SheetError(f"nothing tells what {state.vocabulary.short(arm)} takes: it is neither a {kinds}")
 
 
 def _gripper(state: WorldState, gripper: str) -> GripperFacts:
