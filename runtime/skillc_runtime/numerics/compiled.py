@@ -51,7 +51,7 @@ def compiled(function: Callable[Parameters, Result]) -> Callable[Parameters, Res
         """Compile for the annotated types, whatever those of the first call, and for no others."""
         types = get_annotations(function, eval_str=True)
         returns = _type(types.pop("return"))
-        with _lock(), _kept() as kept:
+        with _lock(), _our_settings() as kept:
             if made.overloads:
                 return made.overloads[tuple(map(_type, types.values()))].entry_point
             if kept:
@@ -94,15 +94,19 @@ def _lock() -> AbstractContextManager[object]:
 
 
 @contextmanager
-def _kept() -> Iterator[bool]:
-    """Let numba keep what it compiles in our folder, if there is one; its own setting is put back afterwards."""
+def _our_settings() -> Iterator[bool]:
+    """Let numba keep what it compiles in our folder, and tell if there is one; its settings are put back afterwards.
+
+    Loops over three to seven numbers gain nothing from what numba does for long ones but take longer to compile.
+    """
     config: Any = import_module("numba").config
-    before = config.CACHE_DIR
-    config.CACHE_DIR = _folder()
+    ours = {"CACHE_DIR": _folder(), "OPT": 1, "LOOP_VECTORIZE": 0}
+    before = {name: getattr(config, name) for name in ours}
     try:
+        vars(config).update(ours)
         yield config.CACHE_DIR != ""
     finally:
-        config.CACHE_DIR = before
+        vars(config).update(before)
 
 
 @cache
