@@ -141,6 +141,12 @@ def test_it_changes_its_mode_on_the_way_without_a_jump_and_rests_until_the_first
             assert np.abs(np.diff([moving, *speeds], axis=0)).max() < 0.04, "rad/s from one period to the next"
             assert np.abs(speeds[-1]).max() < 0.02
             arm.switch(before)
+            backend.advance(0.1)
+            moving = arm.state().dq.copy()
+            arm.switch(mode)
+            arm.switch(before)
+            backend.neglect(0.04)
+            assert np.abs(arm.state().dq).max() < 0.3 * np.abs(moving).max(), "what was told before is forgotten"
     backend.advance(1.0)
     assert driver.done
     assert driver.behind is None
