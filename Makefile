@@ -2,6 +2,9 @@
 UV_VERSION := 0.13.8
 UV := .tools/bin/uv
 BIN := .venv/bin
+# What Python makes of the sources is kept, whatever the environment says, and apart from them: tests start many processes.
+export PYTHONDONTWRITEBYTECODE :=
+export PYTHONPYCACHEPREFIX := $(CURDIR)/.tools/bytecode
 INSTALL := $(UV) pip install -q --python .venv --constraint constraints.txt
 
 .PHONY: help demo test check reasoners sim wheel bench editors accept lock clean
@@ -13,7 +16,7 @@ demo: .venv/.runtime  ## two robots wipe two surfaces with one skill
 	$(BIN)/skillc demo --out out/demo
 
 test: .venv/.dev ## the fast tests
-	$(BIN)/pytest -n 2
+	$(BIN)/pytest -n 2 --dist worksteal
 
 check: .venv/.dev ## style, types, import rules
 	$(BIN)/ruff check .
@@ -22,7 +25,7 @@ check: .venv/.dev ## style, types, import rules
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 
-reasoners: .venv/.dev ## what reasoners of OWL find in the ontology and the descriptions (some need Java)
+reasoners: .venv/.dev ## what tools of others find in ontology, scenes, descriptions and domains (some need Java)
 	$(BIN)/pytest -m reasoner -n 2
 
 sim: .venv/.dev  ## whole tasks on both arms, in simulation

@@ -2,12 +2,14 @@
 
 import re
 from collections import Counter
+from functools import cache
 from pathlib import Path
 
 import pytest
-from shipped import shelf
+from shipped import shelf, vocabulary
 
 from skillc_compiler.checks import checks
+from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.pipeline import compile
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.diagnostics import Diagnostic
@@ -21,10 +23,16 @@ EXPECTED = re.compile(r'#! ([a-z-]+) "([^"]*)"')
 
 def diagnostics_of(path: Path, text: str) -> list[Diagnostic]:
     """Compile a text in place of a case; return the diagnostics in it."""
-    shipped = [Source(name, turtle) for name, turtle in vocabulary_files()]
-    own = [Source(file.name, file.read_text()) for file in sorted(path.parent.glob(f"{path.stem}*.ttl"))]
-    outcome = compile([Source(path.name, text)], load([*shipped, *own]).value, shelf(), "cases")
+    outcome = compile([Source(path.name, text)], vocabulary_of(path), shelf(), "cases")
     return [d for d in outcome.diagnostics if d.span.path == path.name]
+
+
+@cache
+def vocabulary_of(path: Path) -> Vocabulary:
+    """Return what a case may speak of: the shipped terms, and those of the vocabularies beside it."""
+    own = [Source(file.name, file.read_text()) for file in sorted(path.parent.glob(f"{path.stem}*.ttl"))]
+    shipped = [Source(name, turtle) for name, turtle in vocabulary_files()]
+    return load([*shipped, *own]).value if own else vocabulary()
 
 
 def found(path: Path) -> list[tuple[int, str, str]]:
@@ -56,16 +64,15 @@ def test_every_check_has_a_case() -> None:
 @pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
 def test_a_fix_cures_its_problem(path: Path) -> None:
     text = path.read_text()
-    for diagnostic in diagnostics_of(path, text):
+    told = diagnostics_of(path, text)
+    for diagnostic in told:
         if diagnostic.fix is None:
             continue
         cured = applied(text, [diagnostic.fix])
         same = [
             d for d in diagnostics_of(path, cured) if (d.name, d.span.line) == (diagnostic.name, diagnostic.span.line)
         ]
-        before = [
-            d for d in diagnostics_of(path, text) if (d.name, d.span.line) == (diagnostic.name, diagnostic.span.line)
-        ]
+        before = [d for d in told if (d.name, d.span.line) == (diagnostic.name, diagnostic.span.line)]
         assert len(same) < len(before), diagnostic
 
 

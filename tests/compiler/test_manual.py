@@ -3,6 +3,7 @@
 import ast
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -10,6 +11,7 @@ import pytest
 from shipped import shelf, vocabulary
 
 from skillc_compiler.goals import parse_goal
+from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.manual import Page, foresight, of_module, pages, vocabularies
 from skillc_compiler.pipeline import compile
 from skillc_compiler.vocabulary.load import load
@@ -59,12 +61,16 @@ def problems(page: Page, text: str) -> list[str]:
     if page.name == "missing-prefix":
         boards = {iri: classes for iri, classes in SCENE.items() if "board" in iri}
         return [d.name for d in parse_goal(text.strip(), vocabulary(), boards, {"lab": LAB}).diagnostics]
-    terms = vocabulary()
-    if "shop" in text:
-        shipped = [Source(path, turtle) for path, turtle in vocabulary_files()]
-        terms = load([*shipped, Source("shop.ttl", SHOP)]).value
+    terms = with_shop() if "shop" in text else vocabulary()
     outcome = compile([Source("example.skill", text)], terms, shelf(), "example", {"rest": SCENE})
     return [d.name for d in outcome.diagnostics]
+
+
+@cache
+def with_shop() -> Vocabulary:
+    """Return the shipped terms and those of the shop."""
+    shipped = [Source(path, turtle) for path, turtle in vocabulary_files()]
+    return load([*shipped, Source("shop.ttl", SHOP)]).value
 
 
 def in_turtle(name: str, text: str) -> list[str]:

@@ -13,7 +13,7 @@ from skillc_dsl.source import Source
 
 ROOT = Path(__file__).parents[2]
 TEXTS = [path.read_text(encoding="utf-8") for path in sorted((ROOT / "skills_src").rglob("*.skill"))]
-COUNT = int(os.environ.get("SKILLC_MUTATIONS", "120"))
+COUNT = int(os.environ.get("SKILLC_MUTATIONS", "80"))
 FIVE_FAULTS = """\
 use skiros, rparts skillc
 import "motion.skill"

@@ -25,7 +25,7 @@ from tree.strategies import Play, plays
 from tree.test_against_reference import TICKS, by_reference
 
 SLOW = [HealthCheck.too_slow, HealthCheck.data_too_large]
-EXAMPLES = int(os.environ.get("SKILLC_EXAMPLES", "40"))
+EXAMPLES = int(os.environ.get("SKILLC_EXAMPLES", "20"))
 
 
 class Scripted(Leaves):

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from functools import cache
+from importlib import import_module
+from types import ModuleType
 
 import pytest
 
-from emit.unified import classical, disagreements, takes, takes_in_time, temporal
 from skillc_runtime.assignment import Reach
 from skillc_runtime.commands._mission import Mission, of_task
 from skillc_runtime.planning.astar import AStar
@@ -14,7 +15,15 @@ from skillc_runtime.planning.plan import Plan, Solved
 from skillc_runtime.planning.problem import Posed, pose_problem
 from skillc_runtime.planning.solve import solve
 
+pytestmark = pytest.mark.reasoner
+
 TASKS = ("clean_whiteboard", "clean_table")
+
+
+@pytest.fixture(scope="module")
+def unified() -> ModuleType:
+    """What asks unified-planning, which takes seconds to import: only these tests do."""
+    return import_module("emit.unified")
 
 
 @cache
@@ -39,33 +48,33 @@ def plan(task: str) -> Plan:
 
 
 @pytest.mark.parametrize("task", TASKS)
-def test_both_domains_are_read_whole(task: str) -> None:
+def test_both_domains_are_read_whole(unified: ModuleType, task: str) -> None:
     problem = posed(task).problem
     actions = {each.name for each in problem.domain.actions}
-    for read in (classical(problem), temporal(problem)):
+    for read in (unified.classical(problem), unified.temporal(problem)):
         assert {each.name for each in read.actions} == actions
         assert {each.name for each in read.all_objects} == {each.name for each in problem.objects}
         assert len(read.goals) == 1
 
 
 @pytest.mark.parametrize("task", TASKS)
-def test_the_plan_is_one_for_both_domains(task: str) -> None:
-    assert takes(posed(task), plan(task))
-    assert takes_in_time(posed(task), plan(task))
+def test_the_plan_is_one_for_both_domains(unified: ModuleType, task: str) -> None:
+    assert unified.takes(posed(task), plan(task))
+    assert unified.takes_in_time(posed(task), plan(task))
 
 
 @pytest.mark.parametrize("task", TASKS)
-def test_a_plan_without_one_of_its_steps_is_none(task: str) -> None:
+def test_a_plan_without_one_of_its_steps_is_none(unified: ModuleType, task: str) -> None:
     steps = plan(task).steps
     assert steps
     for number in range(len(steps)):
         shorter = Plan((*steps[:number], *steps[number + 1 :]), 0.0)
-        assert not takes(posed(task), shorter)
-        assert not takes_in_time(posed(task), shorter)
+        assert not unified.takes(posed(task), shorter)
+        assert not unified.takes_in_time(posed(task), shorter)
 
 
 @pytest.mark.parametrize("task", TASKS)
-def test_every_step_has_the_effects_that_it_has_in_the_world(task: str) -> None:
-    wrong, tried = disagreements(posed(task), mission(task).assignment.state)
+def test_every_step_has_the_effects_that_it_has_in_the_world(unified: ModuleType, task: str) -> None:
+    wrong, tried = unified.disagreements(posed(task), mission(task).assignment.state)
     assert wrong == []
     assert tried

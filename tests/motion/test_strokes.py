@@ -16,7 +16,7 @@ from skillc_runtime.motion.layout import Hole, Layout, Patch
 from skillc_runtime.motion.pose import Pose, exp
 from skillc_runtime.motion.strokes import over, strokes
 
-EXAMPLES = int(os.environ.get("SKILLC_MOTIONS", "15"))
+EXAMPLES = int(os.environ.get("SKILLC_MOTIONS", "10"))
 """Of each property; more, once, by the environment."""
 
 TOOL = np.array([0.1, 0.05])

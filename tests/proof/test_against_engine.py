@@ -39,7 +39,7 @@ from skillc_runtime.tree.run import Run
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.state import WorldState
 
-EXAMPLES = int(os.environ.get("PROOF_EXAMPLES", "25"))
+EXAMPLES = int(os.environ.get("PROOF_EXAMPLES", "16"))
 RUNS, TICKS = 6, 60
 
 

@@ -18,6 +18,8 @@ from skillc_runtime.world.documents import Document
 from skillc_runtime.world.scene import scene_of
 from skillc_runtime.world.shapes import shapes
 
+pytestmark = pytest.mark.reasoner
+
 SEEDS = int(os.environ.get("SHAPE_SEEDS", "6"))
 COVERED = {
     "missing-property",

@@ -18,7 +18,7 @@ from skillc_runtime.world.store.wire import KINDS, as_text, changes_of
 from store.worlds import commits, facts_of, filling, random_write
 from world.lab import SCENE, VOCABULARY, assign, individual, iri
 
-SEEDS = range(int(os.environ.get("SKILLC_STORE_SEEDS", "40")))
+SEEDS = range(int(os.environ.get("SKILLC_STORE_SEEDS", "20")))
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -16,7 +16,7 @@ from tree.stage import FLAGS, ON, PERIOD_S, Stage, world
 from tree.strategies import Play, plays
 
 TICKS = 40
-EXAMPLES = int(os.environ.get("SKILLC_TREES", "100"))
+EXAMPLES = int(os.environ.get("SKILLC_TREES", "50"))
 """How many random trees run; thousands on occasion."""
 
 

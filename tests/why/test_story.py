@@ -32,7 +32,7 @@ from tree.stage import FLAGS, ON, PERIOD_S, Library, Script, Stage, act, check, 
 from tree.strategies import Play, plays
 from why.stories import BEGIN, events_of, known, steps_of
 
-EXAMPLES = int(os.environ.get("SKILLC_STORIES", "60"))
+EXAMPLES = int(os.environ.get("SKILLC_STORIES", "30"))
 """How many random runs are told; thousands on occasion."""
 
 

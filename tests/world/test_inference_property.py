@@ -35,7 +35,7 @@ from skillc_runtime.world.nearest import FEW, NearMiss
 from skillc_runtime.world.state import WorldState
 from world.lab import SCENE, assign, fact, individual, iri, parameter, requirement
 
-EXAMPLES = int(os.environ.get("SKILLC_INFERENCES", "80"))
+EXAMPLES = int(os.environ.get("SKILLC_INFERENCES", "40"))
 """How many random inferences are checked; thousands on occasion."""
 
 PLACES, PRODUCTS, GRIPPERS = ("table", "shelf", "place-1"), ("box", "eraser", "part-1"), ("gripper", "gripper-1")

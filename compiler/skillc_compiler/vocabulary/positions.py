@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from functools import lru_cache
+from types import MappingProxyType
 from typing import NamedTuple
 
 from skillc_compiler.library.vocabulary import Position
 from skillc_dsl.source import Source
+
+MOST_FILES = 64
+"""Of so many files it is kept where they speak of what: more than ship."""
 
 TYPE = "http://www.w3.org/1999/02/22-rdf-syntax-ns#type"
 _TOKEN = re.compile(
@@ -31,18 +36,35 @@ class _Subject(NamedTuple):
     declared: bool
 
 
+class _Found(NamedTuple):
+    """Where a subject stands, and whether it is declared there."""
+
+    declared: bool
+    position: Position
+
+
 def positions(sources: Iterable[Source]) -> dict[str, Position]:
     """Return for each subject where it is declared (`a ..` comes first), else where it first is a subject."""
-    found: dict[str, tuple[bool, Position]] = {}
+    found: dict[str, _Found] = {}
     for source in sources:
-        line, seen = 1, 0
-        for subject in _subjects(source.text):
-            line += source.text.count("\n", seen, subject.offset)
-            seen = subject.offset
-            if subject.iri not in found or (subject.declared and not found[subject.iri][0]):
-                column = seen - source.text.rfind("\n", 0, seen)
-                found[subject.iri] = (subject.declared, Position(source.path, line, column))
-    return {iri: position for iri, (_, position) in found.items()}
+        for iri, here in _in_file(source).items():
+            if iri not in found or (here.declared and not found[iri].declared):
+                found[iri] = here
+    return {iri: each.position for iri, each in found.items()}
+
+
+@lru_cache(maxsize=MOST_FILES)
+def _in_file(source: Source) -> Mapping[str, _Found]:
+    """Return the same for one file; those that ship are read again and again while a vocabulary is edited."""
+    found: dict[str, _Found] = {}
+    line, seen = 1, 0
+    for subject in _subjects(source.text):
+        line += source.text.count("\n", seen, subject.offset)
+        seen = subject.offset
+        if subject.iri not in found or (subject.declared and not found[subject.iri].declared):
+            column = seen - source.text.rfind("\n", 0, seen)
+            found[subject.iri] = _Found(subject.declared, Position(source.path, line, column))
+    return MappingProxyType(found)
 
 
 def _subjects(text: str) -> Iterator[_Subject]:
