@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from functools import cache
 
 import numpy as np
+import pytest
 
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.vocabulary.load import load
@@ -27,8 +28,8 @@ from skillc_runtime.world.terms import AT
 LAB = "http://example.org/lab#"
 ERASER = LAB + "Eraser-1"
 SCENES = ("iiwa_table", "ur5e_whiteboard")
-HANDS = (*SCENES, "panda_desk")
-"""Scenes with every gripper there is."""
+HANDS = ("iiwa_table", *(pytest.param(scene, marks=pytest.mark.sim) for scene in ("ur5e_whiteboard", "panda_desk")))
+"""Scenes with every gripper there is; the fast tests take one of them."""
 ARM = {"iiwa_table": LAB + "Iiwa-1", "ur5e_whiteboard": LAB + "Ur5e-1", "panda_desk": LAB + "Panda-1"}
 GRIPPER = {"iiwa_table": LAB + "Robotiq-1", "ur5e_whiteboard": LAB + "Wsg-1", "panda_desk": LAB + "Hand-1"}
 PLACE = {"iiwa_table": LAB + "Cell", "ur5e_whiteboard": LAB + "Store", "panda_desk": LAB + "Cell"}
