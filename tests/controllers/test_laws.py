@@ -8,8 +8,8 @@ from rig import GAINS, ROBOTS, SHEETS, Bench, moved_by
 
 from skillc_runtime import controllers
 from skillc_runtime.controllers.controller import ControlError
+from skillc_runtime.controllers.damping import damping_rate
 from skillc_runtime.controllers.gains import UnknownController, gains
-from skillc_runtime.controllers.impedance import damping_rate
 from skillc_runtime.controllers.nullspace import REGULARISATION, Nullspace
 from skillc_runtime.controllers.virtual_arm import virtual_model
 from skillc_runtime.motion.pose import Pose, exp, log
