@@ -62,6 +62,8 @@ clean:           ## remove the environment and all output
 	$(INSTALL) -e '.[planner,motion,video,editor]'
 	@touch $@
 
+# What the tests import is compiled once, on all cores; else each of their processes does it. Some files are for other Pythons.
 .venv/.dev: .venv/.runtime
 	$(INSTALL) -e '.[planner,temporal,motion,fast,video,editor,dev]'
+	$(BIN)/python -m compileall -qq -j 0 .venv/lib || true
 	@touch $@
