@@ -15,7 +15,7 @@ from avoidance.around import aside, box, contacts, home, pillar, posture
 from avoidance.test_contacts import least_distance
 from simulation.cells import SCENES
 from skillc_runtime.avoidance import ways
-from skillc_runtime.avoidance.contacts import Contacts
+from skillc_runtime.avoidance.contacts import SLACK_M, Contacts
 from skillc_runtime.avoidance.ways import NoWay, touch_on, way
 from skillc_runtime.motion.joint_path import joint_path
 from skillc_runtime.motion.pose import Array
@@ -50,7 +50,8 @@ def is_free(of: Contacts, start: Array, found: tuple[Array, ...]) -> None:
     speed = np.full(len(start), 0.5)
     motion = joint_path(postures, speed, speed / 0.5, [0.0] * (len(postures) - 2))
     touch = touch_on(of, motion)
-    assert touch is None or touch.distance_m > 0.0
+    nearest = min(of.body.margin, least_distance(of, start), least_distance(of, found[-1]))
+    assert touch is None or touch.distance_m > nearest - of.body.margin / 2 - SLACK_M
     samples = [motion.at(time) for time in np.linspace(0.0, motion.duration, 200).tolist()]
     assert all(
         (np.abs(now.dq) <= speed + 1e-9).all() and (np.abs(now.ddq) <= 2 * speed + 1e-9).all() for now in samples

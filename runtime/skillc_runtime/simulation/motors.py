@@ -158,9 +158,7 @@ class Servos(Motors):
         joints = self._joints
         joints.applied[:] = joints.bias
         if self.mode == "velocity":
-            drive(
-                joints.control, self._speed, joints.q, joints.dq, self._lead, self._farthest, self._timestep
-            )  # fmt: skip
+            drive(joints.control, self._speed, joints.q, joints.dq, self._lead, self._farthest, self._timestep)
         elif self._steps_left > 0:
             self._approach()
 

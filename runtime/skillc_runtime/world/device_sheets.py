@@ -62,22 +62,27 @@ def _names(state: WorldState, classes: set[str]) -> str:
 
 def _joints(state: WorldState, sheet: str) -> Iterator[Flaw]:
     """Each list of a sheet is numbers, one for each joint; the speeds say how many joints there are."""
-    short = state.vocabulary.short
-    speeds = _numbers(state.value(sheet, JOINT_SPEEDS))
     postures = ((posture, JOINT_VALUES) for posture in sorted(state.objects(sheet, HAS_POSTURE)))
     for owner, term in ((sheet, JOINT_SPEEDS), (sheet, JOINT_ACCELERATIONS), *postures):
-        text = state.value(owner, term)
-        if text is None:
-            continue
-        numbers, what = _numbers(text), f"{short(owner)}.{short(term)}"
-        if numbers is None:
-            message = f'{what} = "{text}" is not numbers separated by spaces'
-            yield Flaw(owner, term, "joint-numbers", message, "write a number for each joint")
-        elif owner == sheet and min(numbers, default=0.0) <= 0:
-            yield Flaw(owner, term, "joint-numbers", f'{what} = "{text}" is to be above 0 for each joint')
-        elif speeds and len(numbers) != len(speeds):
-            message = f"{what} has {len(numbers)} numbers, and {short(sheet)}.{short(JOINT_SPEEDS)} {len(speeds)}"
-            yield Flaw(owner, term, "joint-numbers", message, "write a number for each joint in both")
+        told = _miscounted(state, sheet, owner, term)
+        if told is not None:
+            yield Flaw(owner, term, "joint-numbers", *told)
+
+
+def _miscounted(state: WorldState, sheet: str, owner: str, term: str) -> tuple[str, str] | None:
+    """Return what is wrong with a list of numbers that is stated, and its cure."""
+    text, short = state.value(owner, term), state.vocabulary.short
+    if text is None:
+        return None
+    numbers, speeds, what = _numbers(text), _numbers(state.value(sheet, JOINT_SPEEDS)), f"{short(owner)}.{short(term)}"
+    if numbers is None:
+        return f'{what} = "{text}" is not numbers separated by spaces', "write a number for each joint"
+    if owner == sheet and min(numbers, default=0.0) <= 0:
+        return f'{what} = "{text}" is to be above 0 for each joint', ""
+    if speeds and len(numbers) != len(speeds):
+        message = f"{what} has {len(numbers)} numbers, and {short(sheet)}.{short(JOINT_SPEEDS)} {len(speeds)}"
+        return message, "write a number for each joint in both"
+    return None
 
 
 def _numbers(text: object) -> list[float] | None:
