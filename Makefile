@@ -7,7 +7,12 @@ export PYTHONDONTWRITEBYTECODE :=
 export PYTHONPYCACHEPREFIX := $(CURDIR)/.tools/bytecode
 INSTALL := $(UV) pip install -q --python .venv --constraint constraints.txt
 
-.PHONY: help demo test check reasoners sim wheel bench editors accept lock clean
+# What `make fuzz` tries: another seed makes other cases; MINUTES for each kind; KINDS names some of them.
+SEED := 0
+MINUTES := 1
+KINDS :=
+
+.PHONY: help demo test check reasoners sim wheel fuzz bench editors accept lock clean
 
 help:            ## say what there is
 	@grep -hE '^[a-z]+: .*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/'
@@ -33,6 +38,9 @@ sim: .venv/.dev  ## whole tasks on both arms, in simulation
 
 wheel: .venv/.dev ## build the wheel and use it in a clean environment
 	$(BIN)/pytest -m wheel
+
+fuzz: .venv/.dev ## random input of each kind for MINUTES=1 with SEED=0; inputs that break a promise are kept in out/fuzz
+	PYTHONPATH=tests $(BIN)/python -m fuzz $(KINDS) --seed $(SEED) --minutes $(MINUTES)
 
 bench: .venv/.dev ## benchmarks; each prints ratios
 	for file in benchmarks/[a-z]*.py; do echo "== $$file"; $(BIN)/python $$file || exit 1; done
