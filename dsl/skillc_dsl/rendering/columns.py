@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import unicodedata
+from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
+from functools import lru_cache
 
 from skillc_dsl.rendering.printable import printable
 
 TAB = 4
 CUT = "…"
+_REMEMBERED_LINES = 16
+"""One long line may hold thousands of problems."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +40,7 @@ class Window:
     end: int
 
 
+@lru_cache(_REMEMBERED_LINES)
 def lay_out(text: str) -> Line:
     """Return a line with its tabs as spaces up to the next stop and nothing in it that steers a terminal."""
     pieces: list[str] = []
@@ -61,8 +66,9 @@ def window(line: Line, start: int, end: int, width: int) -> Window:
     left = max(0, min(start - spare // 2, last - width)) if end > width - 1 else 0
     head, tail = (1 if left else 0), (1 if left + width < last else 0)
     low, high = left + head, left + width - tail
-    cells_shown = zip(line.pieces, line.edges, line.edges[1:], strict=False)
-    kept = "".join(_part(piece, at, to, low, high) for piece, at, to in cells_shown)
+    first, after = max(bisect_left(line.edges, low) - 1, 0), bisect_right(line.edges, high)
+    shown = zip(line.pieces[first:after], line.edges[first:], line.edges[first + 1 :], strict=False)
+    kept = "".join(_part(piece, at, to, low, high) for piece, at, to in shown)
     return Window(CUT * head + kept + CUT * tail, left, high)
 
 

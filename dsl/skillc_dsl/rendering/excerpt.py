@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import groupby
 
 from skillc_dsl.rendering.columns import Line, Window, lay_out, window
@@ -49,7 +50,7 @@ def excerpt(source: Source | None, marks: Sequence[Mark], arrow: str, page: Page
     """Yield the marked lines of one file below the place of the first mark, which alone is given without a source."""
     first = marks[0].span
     place = f"{' ' * page.digits}{page.paint('place', arrow)} {printable(first.path)}:{first.line}:{first.column}"
-    text = source.text.split("\n") if source else []
+    text = _split(source.text) if source else ()
     known = [mark for mark in marks if mark.span.line <= len(text)]
     if not known:
         yield place + (f": {printable(marks[0].message)}" if marks[0].message else "")
@@ -57,6 +58,12 @@ def excerpt(source: Source | None, marks: Sequence[Mark], arrow: str, page: Page
     yield place
     yield page.gutter()
     yield from _lines(text, known, page)
+
+
+@lru_cache(4)
+def _split(text: str) -> tuple[str, ...]:
+    """Return the lines of a text, of which many excerpts may be taken."""
+    return tuple(text.split("\n"))
 
 
 def _lines(text: Sequence[str], marks: Iterable[Mark], page: Page) -> Iterator[str]:
