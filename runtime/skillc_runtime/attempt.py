@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.assignment import Assignment, Planned, Prepared, Reach
+from skillc_runtime.plans.failures import Failures
 from skillc_runtime.plans.progress import doubt, progress
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.simulation.cell import SimulatedCell
@@ -28,7 +29,8 @@ SETTLE_S = 5.0
 class Setting:
     """Where bodies run and who looks on.
 
-    `watch` is called after every tick; when `interrupted` becomes true everything is halted.
+    `watch` is called after every tick; when `interrupted` becomes true everything is halted. `failures` collects the
+    steps of plans that fail.
     """
 
     library: SkillLibrary
@@ -36,6 +38,7 @@ class Setting:
     listeners: Sequence[Listener]
     watch: Callable[[], None]
     interrupted: Callable[[], bool]
+    failures: Failures
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +67,8 @@ def attempt(prepared: Prepared, setting: Setting, nodes_before: int) -> Attempt:
     """Run a body to its end, or until the world makes its plan pointless; then let everything come to rest."""
     cell = setting.cell
     _tell_plan(prepared, setting)
-    run = Run(prepared.body, setting.library, cell, setting.listeners, nodes_before=nodes_before)
+    failures = None if prepared.planned is None else setting.failures
+    run = Run(prepared.body, setting.library, cell, setting.listeners, None, nodes_before, failures)
     try:
         why = _until_over(run, prepared, setting)
     finally:

@@ -7,8 +7,10 @@ from dataclasses import dataclass, replace
 from time import perf_counter
 
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.assignment import Prepared, Reach, Refused, prepare
+from skillc_runtime.assignment import Assignment, Prepared, Reach, Refused, prepare
 from skillc_runtime.attempt import Attempt, Setting, attempt
+from skillc_runtime.planning.plan import Step
+from skillc_runtime.plans.failures import Failures
 from skillc_runtime.plans.progress import progress
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.simulation.cell import SimulatedCell
@@ -48,12 +50,12 @@ def execute(
     """Run a prepared task to its end; `watch` is called after every tick.
 
     A plan that fails, or that no longer leads to the goal since the world took another turn, is replaced by a new one,
-    `MOST_ATTEMPTS` in all. When `interrupted` becomes true everything is halted: what pushed lets go, what yielded is
-    stiff again.
+    `MOST_ATTEMPTS` in all. An implementation that failed is not taken again while nothing that it depends on has
+    changed. When `interrupted` becomes true everything is halted: what pushed lets go, what yielded is stiff again.
     """
     began = perf_counter()
     tell, name = Listeners(listeners), prepared.assignment.name
-    setting = Setting(library, cell, listeners, watch, interrupted)
+    setting = Setting(library, cell, listeners, watch, interrupted, Failures(library))
     tell(TaskStarted(time=cell.now, format=FORMAT, task=name, library=library.name, hash=library.hash))
     attempts = [attempt(prepared, setting, 0)]
     while isinstance(following := _following(attempts, setting), Prepared):
@@ -73,12 +75,35 @@ def _following(attempts: Sequence[Attempt], setting: Setting) -> Prepared | Refu
     state = setting.cell.world.snapshot()
     if last.status is Status.SUCCESS and evaluate(aim.goal, state, {}):
         return None
+    if last.status is Status.FAILURE and not _blamed(last, setting.failures):
+        return None
     if len(attempts) == MOST_ATTEMPTS:
         return Refused(f"the task was tried {MOST_ATTEMPTS} times")
-    now = replace(assignment, state=state)
-    failed = () if last.prepared.planned is None else progress(last.prepared.planned.steps, last.tree).of("failure")
-    answer = prepare(now, library, failed)
-    return prepare(now, library) if isinstance(answer, Refused) and failed else answer
+    return _another_way(replace(assignment, state=state), library, setting.failures)
+
+
+def _blamed(last: Attempt, failures: Failures) -> bool:
+    """Whether a step is to blame for the end of an attempt: nothing else would go another way next time."""
+    planned = last.prepared.planned
+    return planned is not None and any(
+        each in failures.steps for each in progress(planned.steps, last.tree).of("failure")
+    )
+
+
+def _another_way(now: Assignment, library: SkillLibrary, failures: Failures) -> Prepared | Refused:
+    """Plan without the steps that failed; if there is no such plan, without those that can only fail again."""
+    answer = prepare(now, library, failures.steps)
+    if isinstance(answer, Prepared) or not failures.steps:
+        return answer
+    without: tuple[Step, ...] = ()
+    while isinstance(answer := prepare(now, library, without), Prepared) and answer.planned is not None:
+        repeated = failures.repeated(answer.planned.steps, now.state)
+        if not repeated:
+            return answer
+        without = (*without, *repeated)
+    if without:
+        return Refused(f"what is left has failed, and nothing that it depends on has changed: {failures.listed()}")
+    return answer
 
 
 def _end(last: Attempt, answer: Refused | None) -> tuple[Status, Failure | None]:

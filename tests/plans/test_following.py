@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from plans.depot import LAB, Depot, carried_out, contain, iri, world
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.task import MOST_ATTEMPTS
 from skillc_runtime.trace.events import Event, Replanned
 from skillc_runtime.world.changes import RemoveIndividual
 from skillc_runtime.world.model import WorldModel
@@ -63,21 +62,70 @@ def test_a_step_that_failed_is_left_to_somebody_else() -> None:
     assert depot.log[0] == "carl crate a" and "dora crate a" in depot.log
 
 
-def test_a_step_that_failed_is_tried_again_where_there_is_no_other_way() -> None:
+def test_a_step_that_failed_is_done_in_another_way_where_there_is_one() -> None:
     model, state = one_robot()
-    depot = Depot(model, fails=lambda step, number: "crate a" in step and number == 1)
+    depot = Depot(model, fails=lambda step, number: "crate b" in step and number == 1)
     execution = carried_out(MOVED, state, depot)
     assert execution.status is Status.SUCCESS and len(execution.attempts) == 2
-    assert execution.attempts[0].why == "carl crate a failed"
+    calls = [node.name for each in execution.attempts for node in each.tree.nodes() if node.kind == "call"]
+    assert [name for name in calls if "Unload" in name] == ["Unload[lower]", "Unload[tilt]"]
+    (call,) = (node for node in execution.last.tree.nodes() if node.name == "Unload[tilt]")
+    assert [each.reason for each in call.rejected] == [
+        "it has failed, and nothing that it depends on has changed since: carl crate b failed"
+    ]
 
 
-def test_a_step_that_always_fails_is_given_up() -> None:
+def test_a_step_that_can_only_fail_again_is_not_repeated() -> None:
     model, state = one_robot()
     depot = Depot(model, fails=lambda step, number: "crate a" in step)
     execution = carried_out(MOVED, state, depot)
-    assert execution.status is Status.FAILURE and len(execution.attempts) == MOST_ATTEMPTS
+    assert execution.status is Status.FAILURE and len(execution.attempts) == 1
+    assert depot.log == ["carl c a", "carl crate a"]
     assert execution.failure is not None and execution.failure.kind == "plan"
-    assert "carl crate a failed; there is no other way: the task was tried" in execution.failure.message
+    assert execution.failure.message.replace(LAB, "lab:") == (
+        "carl crate a failed; there is no other way: what is left has failed, and nothing that it depends on has "
+        "changed: Load[forks](robot: lab:carl, crate: lab:crate, from: lab:a): carl crate a failed"
+    )
+
+
+def test_when_all_ways_have_failed_each_is_listed_with_its_reason() -> None:
+    model, state = one_robot()
+    depot = Depot(model, fails=lambda step, number: "crate b" in step)
+    execution = carried_out(MOVED, state, depot)
+    assert execution.status is Status.FAILURE and len(execution.attempts) == 2
+    assert execution.failure is not None
+    assert all(f"Unload[{each}](" in execution.failure.message for each in ("lower", "tilt"))
+
+
+def test_a_step_that_failed_is_tried_again_after_a_change_of_what_it_depends_on() -> None:
+    model, state = one_robot()
+    away = {7.5: lambda world: world.commit([contain("d", "crate")], "somebody")}
+    depot = Depot(model, away, fails=lambda step, number: "crate a" in step)
+    execution = carried_out(MOVED, state, depot)
+    assert execution.status is Status.FAILURE and depot.log == ["carl c a", "carl crate a"]
+    away = {6.5: lambda world: world.commit([contain("d", "crate")], "somebody")}
+    depot = Depot(WorldModel(state), away, fails=lambda step, number: "crate a" in step)
+    execution = carried_out(MOVED, state, depot)
+    assert execution.status is Status.SUCCESS and "carl crate d" in depot.log
+
+
+def test_a_change_elsewhere_is_no_reason_to_try_again() -> None:
+    state = world({"carl": "c"}, {"crate": "a", "box": "d"})
+    elsewhere = {6.0: lambda world: world.commit([contain("b", "box")], "somebody")}
+    depot = Depot(WorldModel(state), elsewhere, fails=lambda step, number: "crate a" in step)
+    execution = carried_out(MOVED, state, depot)
+    assert execution.status is Status.FAILURE and depot.log == ["carl c a", "carl crate a"]
+
+
+def test_a_cell_that_breaks_ends_the_task_at_once() -> None:
+    model, state = one_robot()
+
+    def breaks(world: WorldModel) -> None:
+        raise OSError("the line is dead")
+
+    execution = carried_out(MOVED, state, Depot(model, {1.0: breaks}))
+    assert execution.status is Status.FAILURE and len(execution.attempts) == 1
+    assert execution.failure is not None and "the line is dead" in execution.failure.message
 
 
 def test_a_goal_that_has_become_unreachable_is_told_with_the_reason() -> None:

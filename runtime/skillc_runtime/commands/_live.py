@@ -6,9 +6,10 @@ import sys
 import time
 from types import TracebackType
 
-from rich.console import Console
 from rich.status import Status as Spinner
+from rich.text import Text
 
+from skillc_runtime.commands._console import console
 from skillc_runtime.trace.events import Event, NodeEnded, NodeStarted, PlanMade, Replanned
 
 STEP_DEPTH = 2
@@ -19,7 +20,7 @@ class Live:
     """A listener that shows which skills run; `real_time` makes simulated time pass no faster than the clock."""
 
     def __init__(self, title: str, quiet: bool, real_time: bool = False) -> None:
-        self._console = Console(stderr=True, highlight=False)
+        self._console = console(stderr=True)
         self._title, self._quiet, self._real_time = title, quiet, real_time
         self._calls: dict[int, tuple[str, ...]] = {0: ()}
         self._spinner: Spinner | None = None
@@ -27,7 +28,7 @@ class Live:
 
     def __enter__(self) -> Live:
         if not self._quiet and sys.stderr.isatty():
-            self._spinner = self._console.status(f"{self._title}: preparing")
+            self._spinner = self._console.status(Text(f"{self._title}: preparing"))
             self._spinner.start()
         return self
 
@@ -40,7 +41,7 @@ class Live:
     def say(self, message: str) -> None:
         """Say what happens before the first tick."""
         if self._spinner is not None:
-            self._spinner.update(f"{self._title}: {message}")
+            self._spinner.update(Text(f"{self._title}: {message}"))
         elif not self._quiet:
             self._console.print(f"{self._title}: {message}", soft_wrap=True)
 
@@ -69,6 +70,6 @@ class Live:
     def _show(self, now: float, calls: tuple[str, ...]) -> None:
         stack = " > ".join(calls)
         if self._spinner is not None:
-            self._spinner.update(f"{self._title}  {now:6.1f} s  {stack}")
+            self._spinner.update(Text(f"{self._title}  {now:6.1f} s  {stack}"))
         elif not self._quiet and len(calls) <= STEP_DEPTH:
             self._console.print(f"{self._title}  {now:6.1f} s  {stack}", soft_wrap=True)

@@ -7,17 +7,17 @@ from pathlib import Path
 
 import click
 import msgspec
-from rich.console import Console
 
+from skillc_runtime.commands._console import console
 from skillc_runtime.report.result import TaskResult
 from skillc_runtime.report.table import render
 
 
 def show(results: Sequence[TaskResult], directory: Path | None) -> None:
     """Print a table for each result and where its report is."""
-    console = Console(highlight=False)
+    terminal = console()
     for result in results:
-        console.print(render(result))
+        terminal.print(render(result))
         if directory is not None and result.status != "refused":
             click.echo(f"report: {directory / 'report.html'}\n")
 

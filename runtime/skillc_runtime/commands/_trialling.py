@@ -12,12 +12,12 @@ from types import TracebackType
 
 import click
 import msgspec
-from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from skillc_compiler.library import codec
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.commands import _mission
+from skillc_runtime.commands._console import console
 from skillc_runtime.trials import identity, page
 from skillc_runtime.trials.experiment import Experiment, Laboratory
 from skillc_runtime.trials.journal import Heading, Journal, JournalError, missing
@@ -99,9 +99,14 @@ class Told:
     """Tells of each trial that is done: a bar on a terminal, a line elsewhere, nothing when it shall be quiet."""
 
     def __init__(self, task: str, wanted: Wanted, done: int) -> None:
-        self._console = Console(stderr=True, highlight=False, quiet=wanted.quiet)
+        self._console = console(stderr=True, quiet=wanted.quiet)
         self._disturbance, self._count, self._done = wanted.disturbance, len(wanted.seeds), done
-        columns = TextColumn(task), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn()
+        columns = (
+            TextColumn("{task.description}", markup=False),
+            BarColumn(),
+            MofNCompleteColumn(),
+            TimeRemainingColumn(),
+        )
         self._bar = Progress(*columns, console=self._console, disable=wanted.quiet or not sys.stderr.isatty())
         self._row = self._bar.add_task(task, total=self._count, completed=done)
 
@@ -121,7 +126,7 @@ class Told:
         why = misses(trial, self._disturbance)
         if why or self._bar.disable:
             line = f"seed {trial.seed}: {'; '.join(why) or 'as it should be'} ({self._done} of {self._count})"
-            self._console.print(line, soft_wrap=True, markup=False)
+            self._console.print(line, soft_wrap=True)
 
 
 @contextmanager

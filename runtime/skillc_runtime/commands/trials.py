@@ -37,9 +37,8 @@ def command(
     Each seed draws how reality differs, within the ranges in the scene. With --out the trials are kept, and those that
     are there already are not run again.
     """
-    from rich.console import Console
-
     from skillc_runtime.commands import _trialling
+    from skillc_runtime.commands._console import console
     from skillc_runtime.trials.table import render
 
     at_a_time = min(jobs or os.cpu_count() or 1, number)
@@ -48,5 +47,5 @@ def command(
     if as_json:
         click.echo(_trialling.as_json(result))
     else:
-        Console(highlight=False).print(render(result))
+        console().print(render(result))
     sys.exit(0 if result.good else 3)

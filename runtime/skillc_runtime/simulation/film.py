@@ -102,6 +102,8 @@ class Film:
 
         FilmError or RenderingError where that is not possible, OSError where the folder cannot be written to.
         """
+        if not self._arms:
+            raise FilmError("there is no arm in the scene for a camera to stay with")
         if not self._frames:
             raise FilmError("the run ended before anything moved")
         write_film(directory / FILM, self.pictures(), WIDTH * len(self._arms), HEIGHT, FRAMES_PER_S)

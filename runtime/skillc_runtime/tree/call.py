@@ -35,6 +35,7 @@ class CallNode(Node):
     kind: ClassVar[str] = "call"
     __slots__ = (
         "_arguments",
+        "_began_in",
         "_build",
         "_enclosing",
         "_facts",
@@ -62,6 +63,7 @@ class CallNode(Node):
         self.activation = None
         self.children = ()
         self._arguments, self._facts = {}, None
+        self._began_in = self.context.state
         self._arguments = self._evaluated_arguments()
         self._left = iter(candidates(self.context.library, self.node.skill, self.node.implementation))
         return self._try_next(self._left)
@@ -122,6 +124,8 @@ class CallNode(Node):
             activation = self._activated(implementation)
             if isinstance(activation, Rejected):
                 self.rejected.append(activation)
+                if activation.stage not in ("run", "lock"):
+                    self._remember(activation.implementation, activation.reason)
                 continue
             status = self._start(activation)
             if status is not None:
@@ -130,6 +134,9 @@ class CallNode(Node):
 
     def _activated(self, implementation: Implementation) -> Activation | Rejected:
         try:
+            repeated = self._repeated(implementation)
+            if repeated is not None:
+                return repeated
             fitted = fit(implementation, self._arguments, self.context.state)
             if isinstance(fitted, Rejected):
                 return fitted
@@ -152,6 +159,7 @@ class CallNode(Node):
         if isinstance(activation.body, PrimitiveNode) and activation.body.refused:
             activation.close()
             failure = self._with_skill(activation.body.failure)
+            self._remember(activation.implementation.name, failure.message)
             self.rejected.append(self._refusal(activation.implementation, failure))
             return None
         return self.after(status)
@@ -162,12 +170,24 @@ class CallNode(Node):
         if isinstance(activation.body, PrimitiveNode):
             activation.body.undo_now()
         activation.close()
+        self._remember(activation.implementation.name, failure.message)
         if not self.skill.fallback:
             return self.fail(failure)
         self.context.refresh()
         self.rejected.append(self._refusal(activation.implementation, failure, ran=True))
         self._facts = None
         return self._try_next(self._left)
+
+    def _repeated(self, implementation: Implementation) -> Rejected | None:
+        """Return why an implementation is not taken that failed in a former attempt and can only fail again."""
+        failures, name = self._enclosing.failures, implementation.name
+        why = failures and failures.reason(self.skill.name, self._arguments, name, self.context.state)
+        return Rejected(implementation=name, stage="run", reason=why, source=implementation.source) if why else None
+
+    def _remember(self, implementation: str, why: str) -> None:
+        """Note a failure for the attempts to come."""
+        if self._enclosing.failures is not None:
+            self._enclosing.failures.add(self.skill.name, self._arguments, implementation, self._began_in, why)
 
     def _broken(self, activation: Activation) -> Failure | None:
         """Look at the holds in a new state, at what is forbidden in every tick."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from skillc_compiler.library.skills import Implementation
+from skillc_runtime.plans.failures import Failures
 from skillc_runtime.tree.undo import Undo
 from skillc_runtime.world.values import Value
 
@@ -19,12 +20,14 @@ class Enclosing:
     `frame` has the values in scope: parameters, lets, loop variables, outputs; an optional parameter that was not
     passed is absent. `implementation` is whose body this is, None in a task. `calls` are the calls around it, which
     may hold locks, outermost first. `undo` is the innermost scope: what a scoped skill sets up is undone when it ends.
+    `failures` are those of former attempts at the goal, None where the calls are no steps of a plan.
     """
 
     undo: Undo
     frame: Frame = field(default_factory=dict)
     implementation: Implementation | None = None
     calls: tuple[object, ...] = ()
+    failures: Failures | None = None
 
     @property
     def skill(self) -> str:

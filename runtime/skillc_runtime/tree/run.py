@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from skillc_compiler.library import tree
 from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.plans.failures import Failures
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.robots.cell import Cell
 from skillc_runtime.robots.watchdog import Silence
@@ -43,16 +44,18 @@ class Run:
         listeners: Sequence[Listener] = (),
         locks: Locks | None = None,
         nodes_before: int = 0,
+        failures: Failures | None = None,
     ) -> None:
         """Ground the body; nothing starts.
 
         Runs on the same devices share `locks`; runs that are told of together number their nodes one after the other.
+        The calls of the body take nothing that can only fail again, as `failures` knows, and note there what fails.
         """
         self._listeners = Listeners(listeners)
         self._context = Context(library, cell, self._listeners if listeners else None, locks or Locks(), nodes_before)
         self._undo = Undo()
         self._unlisten = cell.world.listen(self._tell_world) if listeners else None
-        self._root = build(body, self._context, Enclosing(self._undo))
+        self._root = build(body, self._context, Enclosing(self._undo, failures=failures))
         self._strand = Strand(self._root)
         self._paused_at: float | None = None
         self.status = Status.IDLE

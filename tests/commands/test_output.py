@@ -1,0 +1,115 @@
+"""What commands print: text of the user's as it was written, and reports of whatever a task needs or does not."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+from rich.status import Status
+
+from skillc_runtime.commands._live import Live
+from skillc_runtime.commands._results import show
+from skillc_runtime.commands._trialling import Told, Wanted
+from skillc_runtime.commands.main import skillc
+from skillc_runtime.report.result import StepResult, TaskResult
+
+LIBRARY = """use skiros
+
+skill Carry {
+    in    crate: Product
+    in    to:    Location
+    infer from:  Location
+    pre   from contain crate
+    pre   not to contain crate
+    post moved: to contain crate
+}
+
+impl at_once of Carry { do seq { apply moved } }
+"""
+SCENE = """@prefix lab: <http://example.org/lab#> .
+@prefix skiros: <http://rvmi.aau.dk/ontologies/skiros.owl#> .
+@prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
+lab:a a skiros:Location ; rdfs:label "[/b]" ; skiros:contain lab:crate .
+lab:b a skiros:Location .
+lab:crate a skiros:Product .
+"""
+ODD = ("[bold]bold[/bold]", "[/red] :smile: [", "lab:b contain lab:crate # [/bold] {x}", "[link=x]", "\\[a]")
+
+
+@pytest.fixture
+def lab(tmp_path: Path) -> Path:
+    (tmp_path / "depot.skill").write_text(LIBRARY, encoding="utf-8")
+    (tmp_path / "scene.ttl").write_text(SCENE, encoding="utf-8")
+    return tmp_path
+
+
+def skillc_in(lab: Path, command: str, goal: str, *more: str) -> Result:
+    asked = (command, "--library", str(lab), "--scene", str(lab / "scene.ttl"), "--goal", goal, *more)
+    result = CliRunner().invoke(skillc, asked)
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
+    return result
+
+
+def test_a_task_without_an_arm_is_run_and_reported(lab: Path) -> None:
+    out = lab / "out [bold]"
+    result = skillc_in(lab, "run", "lab:b contain lab:crate  # [/bold] :smile:", "--out", str(out))
+    assert result.exit_code == 0, result.stderr
+    assert "lab:b contain lab:crate  # [/bold] :smile:  success" in result.stdout
+    assert f"report: {out / 'report.html'}" in result.stdout
+    assert {"report.html", "result.json", "events.jsonl"} <= {each.name for each in out.iterdir()}
+    assert "no film: there is no arm in the scene" in result.stderr
+
+
+def test_a_goal_in_brackets_is_printed_when_it_is_planned(lab: Path) -> None:
+    result = skillc_in(lab, "plan", "lab:b contain lab:crate  # [/bold]")
+    assert result.exit_code == 0 and "Carry(" in result.stdout
+
+
+def test_a_label_in_brackets_is_listed(lab: Path) -> None:
+    result = CliRunner().invoke(skillc, ["world", str(lab / "scene.ttl")])
+    assert result.exit_code == 0 and "[/b]" in result.stdout
+
+
+@pytest.mark.parametrize("text", ODD)
+def test_a_table_of_results_has_the_text_as_it_is(text: str, capsys: pytest.CaptureFixture[str]) -> None:
+    step = StepResult(skill=text, implementation=text, arguments={"what": text}, source="a.skill:1", status="success")
+    result = TaskResult(
+        task=text,
+        status="failure",
+        plan=(step,),
+        robot=text,
+        variation=text,
+        sim_time_s=1.0,
+        replanned=(text,),
+        failure=text,
+    )
+    show([result], Path(text))
+    assert capsys.readouterr().out.count(text) >= 7
+
+
+@pytest.mark.parametrize("text", ODD)
+@pytest.mark.parametrize("terminal", [False, True])
+def test_progress_has_the_text_as_it_is(
+    text: str, terminal: bool, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown: list[str] = []
+    update = Status.update
+    monkeypatch.setattr(Status, "update", lambda self, status: (shown.append(str(status)), update(self, status)))
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: terminal)
+    with Live(text, quiet=False) as live:
+        live.say(text)
+    told = shown if terminal else [capsys.readouterr().err.strip()]
+    assert told == [f"{text}: {text}"]
+
+
+@pytest.mark.parametrize("text", ODD)
+def test_the_bar_of_trials_has_the_text_as_it_is(
+    text: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    monkeypatch.setenv("TTY_COMPATIBLE", "1")
+    with Told(text, Wanted(text, "none", range(1), 1, None, False), 0):
+        pass
+    assert text in capsys.readouterr().err
