@@ -16,11 +16,29 @@ from urllib.parse import urlsplit
 from store.servers import serving
 
 Fault = Literal[
-    "lost request", "lost answer", "reset", "half an answer", "error 500", "error 503", "garbage", "page", "slow"
+    "lost request",
+    "lost answer",
+    "reset",
+    "half an answer",
+    "error 500",
+    "error 503",
+    "garbage",
+    "page",
+    "slow",
+    "other rows",
+    "echo",
+    "trickle",
+    "trickling head",
+    "moved",
 ]
-FAULTS: tuple[Fault, ...] = get_args(Fault)
+FAULTS: tuple[Fault, ...] = get_args(Fault)[:-3]
+"""Those that pass, or may."""
 SLOW_S = 0.6
 """Longer than the clients of the tests wait."""
+
+
+TRICKLE_S = 0.02
+"""Shorter than the clients of the tests wait for a byte."""
 
 
 class Proxy:
@@ -31,6 +49,7 @@ class Proxy:
         self.next_fault: Callable[[], Fault | None] = lambda: None
         self.requests = 0
         self.authorization: str | None = None
+        self.paths: list[str] = []
 
     def fail(self, fault: Fault, times: int) -> None:
         """Let so many requests go wrong from now on."""
@@ -56,10 +75,19 @@ class _Handler(BaseHTTPRequestHandler):
         with self.proxy.lock:
             fault = self.proxy.next_fault()
             self.proxy.requests += 1
+            self.proxy.paths.append(self.path)
             self.proxy.authorization = self.headers["Authorization"]
         match fault:
             case "lost request" | "reset":
                 self._hang_up(fault == "reset")
+            case "trickle" | "trickling head":
+                self._trickle(head=fault == "trickling head")
+            case "echo":
+                self._answer(500, "text/plain", f"{self.path} {self.headers['Authorization']} {self.server}".encode())
+            case "moved":
+                self._answer(307, "text/plain", b"", ("Location", "http://ann:secret@elsewhere.invalid/x?key=secret"))
+            case "other rows":
+                self._answer(200, self.headers["Accept"], b'{"results": {"bindings": [{"x": {"value": "1"}}]}}')
             case "error 500" | "error 503":
                 self._answer(int(fault[-3:]), "text/plain", b"the disk is full")
             case _:
@@ -83,14 +111,26 @@ class _Handler(BaseHTTPRequestHandler):
         place = urlsplit(self.proxy.server)
         connection = HTTPConnection(place.hostname or "", place.port or 80)
         headers = {name: self.headers[name] for name in ("Content-Type", "Accept")}
-        connection.request("POST", place.path.rstrip("/") + self.path, body, headers)
+        connection.request("POST", place.path.rstrip("/") + self.path.partition("?")[0], body, headers)
         response = connection.getresponse()
         content = response.read()
         connection.close()
         return response.status, response.headers["Content-Type"] or "", content
 
-    def _answer(self, status: int, kind: str, body: bytes, half: bool = False) -> None:
+    def _trickle(self, head: bool) -> None:
+        """Send a byte every so often, for ever: each of them in time."""
+        self.wfile.write(b"HTTP/1.1 200 OK\r\nX: " if head else b"HTTP/1.1 200 OK\r\nContent-Length: 9999\r\n\r\n")
+        self.close_connection = True
+        with suppress(OSError):
+            for _ in range(500):
+                self.wfile.write(b"x")
+                self.wfile.flush()
+                time.sleep(TRICKLE_S)
+
+    def _answer(self, status: int, kind: str, body: bytes, *headers: tuple[str, str], half: bool = False) -> None:
         self.send_response(status)
+        for name, value in headers:
+            self.send_header(name, value)
         self.send_header("Content-Type", kind)
         self.send_header("Content-Length", str(len(body)))
         self.end_headers()

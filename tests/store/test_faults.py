@@ -1,6 +1,7 @@
 """A network that loses, delays and garbles: clear words, nothing lost, nothing twice, and on as soon as it works."""
 
 import threading
+import traceback
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from concurrent.futures import TimeoutError as FutureTimeout
@@ -10,9 +11,12 @@ from urllib.parse import urlsplit
 import pyoxigraph as ox
 import pytest
 
+from skillc_runtime.commands._keeping import Keeping
 from skillc_runtime.world.event import ChangeEvent
+from skillc_runtime.world.store import http
+from skillc_runtime.world.store.address import Address
 from skillc_runtime.world.store.finding import find_endpoint
-from skillc_runtime.world.store.http import HttpEndpoint, Refused, Unreachable
+from skillc_runtime.world.store.http import Garbled, HttpEndpoint, Refused, Unreachable
 from skillc_runtime.world.store.opening import open_store
 from skillc_runtime.world.store.sparql import SparqlStore
 from skillc_runtime.world.store.store import StoreError
@@ -32,6 +36,8 @@ WORDS: dict[Fault, str] = {
     "garbage": "answers a query with something that is no answer",
     "page": "answers with text/html where application/sparql-results",
     "slow": "no answer within 0.3 s",
+    "other rows": "answers a query with something that is no answer",
+    "echo": "answers 500 Internal Server Error: /",
 }
 
 
@@ -149,6 +155,74 @@ def test_an_update_that_is_refused_is_not_tried_again(server: str, proxy: Proxy)
     with pytest.raises(Refused, match="answers 400 Bad Request"):
         endpoint.update("INSERT nonsense")
     assert proxy.requests == before + 1
+
+
+@pytest.mark.parametrize("fault", ["trickle", "trickling head"])
+def test_an_answer_that_never_ends_is_given_up(proxy: Proxy, fault: Fault) -> None:
+    proxy.fail(fault, 1)
+    endpoint = HttpEndpoint(proxy.address, "/query", "/update", 0.05)
+    with pytest.raises(Unreachable, match=r"no answer within 0.05 s, or not a whole one within 0.3 s"):
+        endpoint.query("ASK {}", "text/csv")
+
+
+def test_an_answer_that_is_too_large_is_not_read(proxy: Proxy, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(http, "LARGEST", 10)
+    with pytest.raises(Garbled, match=r"answers with more than 0 MB, which is no world"):
+        HttpEndpoint(proxy.address, "/query", "/update").query("ASK {}", "application/sparql-results+json")
+
+
+def test_a_server_that_sends_on_is_told_with_where_to(proxy: Proxy) -> None:
+    proxy.fail("moved", 100)
+    with pytest.raises(StoreError, match=r"answers 307 .*: it sends on to http://elsewhere\.invalid/x; name that one"):
+        open_store(proxy.address)
+
+
+SECRETS = (
+    "http://ann:xy%3Azzy@{host}",
+    "http://ann:xy%3Azzy@{host}/?access=xy%3Azzy",
+    "http://{host}?key=xy%3Azzy",
+)
+MALFORMED = (
+    "http://ann:xy:zzy@",
+    "http://ann:xy:zzy@[::1",
+    "http://ann:xy:zzy@host:port",
+    "http://ann:1/xy:zzy@host",
+    "http://ann:1?xy:zzy@host",
+    "http://ann:1#xy:zzy@host",
+    "http://ann:xy:zzy @host",
+    "http://ann:xy:zzy\u00e9@host",
+    "http://host/?key=xy:zzy#xy:zzy",
+    "ftp://ann:xy:zzy@host",
+    "x://ann:xy:zzy@host?xy:zzy",
+)
+
+
+@pytest.mark.parametrize("address", SECRETS)
+@pytest.mark.parametrize("fault", [*FAULTS, "moved"])
+def test_credentials_are_in_no_message(proxy: Proxy, fault: Fault, address: str) -> None:
+    place = address.format(host=urlsplit(proxy.address).netloc)
+    endpoint = HttpEndpoint(place, "/query", "/update", 0.05)
+    proxy.fail(fault, 100)
+    shown = [str(endpoint), repr(endpoint), repr(Keeping(place)), Keeping(place).name, repr(Address.of(place))]
+    for ask in (lambda: endpoint.query("ASK {}", "text/csv"), lambda: SparqlStore(endpoint, patience_s=0.0).read()):
+        try:
+            ask()
+        except StoreError as error:
+            shown += traceback.format_exception(error)
+    assert len(shown) > 5 and "zzy" not in "".join(shown)
+
+
+@pytest.mark.parametrize("address", MALFORMED)
+def test_credentials_are_in_no_message_about_a_malformed_address(address: str) -> None:
+    with pytest.raises(StoreError) as caught:
+        open_store(address)
+    assert "zzy" not in "".join(traceback.format_exception(caught.value))
+
+
+def test_a_token_in_the_query_is_sent_with_every_request(proxy: Proxy) -> None:
+    endpoint = find_endpoint(f"{proxy.address}?key=secret")
+    endpoint.query("ASK {}", "application/sparql-results+json")
+    assert proxy.paths[-1] == "/query?key=secret" and str(endpoint) == proxy.address
 
 
 def test_a_password_is_sent_and_never_shown(proxy: Proxy) -> None:

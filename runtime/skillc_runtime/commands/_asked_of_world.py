@@ -39,7 +39,7 @@ def open_world(scene: Path | None, library: Path | None, keeping: Keeping, every
     path = None if scene is None else _files.scene_path(scene)
     compiled = _mission.compiled(_library.find(library or _beside(path) or _library.SHIPPED / "wiping"))
     state = _mission.world_for(keeping, path, compiled).snapshot()
-    document = Document.read(path) if path and not keeping.place else _listing.kept(str(keeping.place), state)
+    document = Document.read(path) if path and not keeping.place else _listing.kept(keeping.name, state)
     own = contents([document]).subjects & state.individuals
     return World(path, compiled, document, state, state.individuals if everything else own)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 import click
@@ -13,10 +13,20 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 
 @dataclass(frozen=True, slots=True)
 class Keeping:
-    """Where a world is kept, a folder or the address of a SPARQL server, and whether it begins anew there."""
+    """Where a world is kept, a folder or the address of a SPARQL server, and whether it begins anew there.
 
-    place: str | None = None
+    The address may have a password, so it is not shown; `name` is the place without it.
+    """
+
+    place: str | None = field(default=None, repr=False)
     reset: bool = False
+
+    @property
+    def name(self) -> str:
+        """What the place is called in messages."""
+        from skillc_runtime.world.store.address import shown
+
+        return shown(self.place or "")
 
 
 NOT_KEPT = Keeping()

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from urllib.parse import urlsplit
-
+from skillc_runtime.world.store.address import Address
 from skillc_runtime.world.store.http import TIMEOUT_S, Garbled, HttpEndpoint, Refused
 from skillc_runtime.world.store.store import StoreError
 
@@ -15,8 +14,7 @@ ROWS = "application/sparql-results+json"
 
 def find_endpoint(address: str, timeout_s: float = TIMEOUT_S) -> HttpEndpoint:
     """Return a server that answers queries and makes updates; StoreError when there is none at the address."""
-    if urlsplit(address).scheme not in ("http", "https") or not urlsplit(address).hostname:
-        raise StoreError(f"{address} is no address of a SPARQL server; it begins with http:// or https:// and a host")
+    name = Address.of(address)
     refusals: list[StoreError] = []
     for query, update in FORMS:
         endpoint = HttpEndpoint(address, query, update, timeout_s)
@@ -28,4 +26,4 @@ def find_endpoint(address: str, timeout_s: float = TIMEOUT_S) -> HttpEndpoint:
         else:
             return endpoint
         endpoint.close()
-    raise StoreError(f"no SPARQL 1.1 server takes queries and updates at {address}: {refusals[-1]}")
+    raise StoreError(f"no SPARQL 1.1 server takes queries and updates at {name}: {refusals[-1]}")

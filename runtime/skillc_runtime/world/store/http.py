@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
-import base64
 import http.client
 import ssl
 from dataclasses import dataclass
 from typing import Protocol
-from urllib.parse import SplitResult, unquote, urlsplit
 
+from skillc_runtime.world.store.address import Address, shown
+from skillc_runtime.world.store.deadline import Deadline, TimedSocket
 from skillc_runtime.world.store.store import StoreError
 
 TIMEOUT_S = 10.0
+"""How long a server is waited for to take a connection, and then to send something."""
+TOTAL = 6
+"""So many times that long a whole answer may take."""
+LARGEST = 2**30
+"""The greatest number of bytes of an answer: a world of some million facts."""
 QUERY, UPDATE = "application/sparql-query", "application/sparql-update"
 LONGEST_REASON = 200
 """How many characters of a server's own message are shown."""
@@ -52,23 +57,30 @@ class _Answer:
     reason: str
     kind: str
     body: bytes
+    elsewhere: str
+
+
+class _TooLarge(Exception):
+    """An answer of more bytes than a world has."""
 
 
 class HttpEndpoint:
     """A SPARQL server with one address for queries and one for updates, `http://` or `https://`.
 
-    `user:password@` before the host is sent as basic authentication.
+    `user:password@` before the host is sent as basic authentication. As text it is its address without credentials.
     """
 
     def __init__(self, address: str, query: str, update: str, timeout_s: float = TIMEOUT_S) -> None:
-        """Use the server at an address; `query` and `update` are what follows it for each, TIMEOUT_S for one answer."""
-        base = address.rstrip("/")
-        self._address, self._timeout_s = urlsplit(address), timeout_s
-        self._query, self._update = urlsplit(base + query), urlsplit(base + update)
+        """Use the server at an address; `query` and `update` are what follows it for each.
+
+        A server is waited for `timeout_s` to say something, and TOTAL times that long for a whole answer.
+        """
+        self._address, self._timeout_s = Address.of(address), timeout_s
+        self._query, self._update = self._address.below(query), self._address.below(update)
         self._connection: http.client.HTTPConnection | None = None
 
     def __str__(self) -> str:
-        return _shown(self._address)
+        return str(self._address)
 
     def query(self, text: str, accept: str) -> bytes:
         """Return an answer in the media type `accept`; Unreachable, Refused."""
@@ -87,55 +99,73 @@ class HttpEndpoint:
             self._connection.close()
             self._connection = None
 
-    def _post(self, url: SplitResult, kind: str, text: str, accept: str) -> _Answer:
+    def _post(self, url: Address, kind: str, text: str, accept: str) -> _Answer:
         """Send a text; a connection that was kept and that the server closed in the meantime is opened again."""
         kept = self._connection is not None
         try:
             answer = self._exchange(url, kind, text, accept)
+        except _TooLarge:
+            self.close()
+            raise Garbled(f"{url} answers with more than {LARGEST >> 20} MB, which is no world") from None
         except (OSError, http.client.HTTPException) as error:
             self.close()
             if kept and isinstance(error, ConnectionError):
                 return self._post(url, kind, text, accept)
-            raise Unreachable(f"{_shown(url)} does not answer: {_why(error, self._timeout_s)}") from error
+            raise Unreachable(f"{url} does not answer: {url.without_secrets(_why(error, self._timeout_s))}") from None
         if answer.status < 300:
             return answer
-        told = " ".join(answer.body.decode("utf-8", "replace").split())[:LONGEST_REASON]
-        message = f"{_shown(url)} answers {answer.status} {answer.reason}" + (f": {told}" if told else "")
-        raise Unreachable(message) if answer.status >= 500 and answer.status != 501 else Refused(message, answer.status)
+        raise _refusal(url, answer)
 
-    def _exchange(self, url: SplitResult, kind: str, text: str, accept: str) -> _Answer:
+    def _exchange(self, url: Address, kind: str, text: str, accept: str) -> _Answer:
+        deadline = Deadline(TOTAL * self._timeout_s, self._timeout_s)
         connection = self._connection = self._connection or _connection(url, self._timeout_s)
-        target = (url.path or "/") + (f"?{url.query}" if url.query else "")
-        headers = {"Content-Type": f"{kind}; charset=utf-8", "Accept": accept, **_authorization(url)}
-        connection.request("POST", target, text.encode(), headers)
+        if connection.sock is None:
+            connection.connect()
+            connection.sock = TimedSocket(connection.sock)
+        connection.sock.deadline = deadline
+        headers = {"Content-Type": f"{kind}; charset=utf-8", "Accept": accept, **url.authorization()}
+        connection.request("POST", url.target, text.encode(), headers)
         response = connection.getresponse()
         content = response.headers.get_content_type() if "Content-Type" in response.headers else ""
-        return _Answer(response.status, response.reason, content, response.read())
+        elsewhere = shown(response.headers.get("Location", ""))
+        return _Answer(response.status, response.reason, content, _body(response), elsewhere)
 
 
-def _connection(url: SplitResult, timeout_s: float) -> http.client.HTTPConnection:
-    host = url.hostname or ""
-    if url.scheme == "https":
-        return http.client.HTTPSConnection(host, url.port, timeout=timeout_s, context=ssl.create_default_context())
-    return http.client.HTTPConnection(host, url.port, timeout=timeout_s)
+def _body(response: http.client.HTTPResponse) -> bytes:
+    parts, size = list[bytes](), 0
+    while part := response.read(2**20):
+        parts.append(part)
+        size += len(part)
+        if size > LARGEST:
+            raise _TooLarge
+    if response.length:
+        raise http.client.IncompleteRead(b"", response.length)
+    return b"".join(parts)
 
 
-def _authorization(url: SplitResult) -> dict[str, str]:
-    if url.username is None:
-        return {}
-    pair = f"{unquote(url.username)}:{unquote(url.password or '')}"
-    return {"Authorization": f"Basic {base64.b64encode(pair.encode()).decode()}"}
+def _refusal(url: Address, answer: _Answer) -> StoreError:
+    """Return what it means that a server does not do what it was asked for, with its own words."""
+    told = " ".join(answer.body.decode("utf-8", "replace").split())
+    told = url.without_secrets("".join(each for each in told if each.isprintable()))[:LONGEST_REASON]
+    reason = url.without_secrets(answer.reason)
+    message = f"{url} answers {answer.status} {reason}" + (f": {told}" if told else "")
+    if answer.status < 400:
+        where = url.without_secrets(answer.elsewhere) or "another address"
+        return Refused(f"{url} answers {answer.status} {reason}: it sends on to {where}; name that one", answer.status)
+    return Unreachable(message) if answer.status >= 500 and answer.status != 501 else Refused(message, answer.status)
 
 
-def _shown(url: SplitResult) -> str:
-    """Return an address without its password."""
-    return url._replace(netloc=url.netloc.rpartition("@")[2]).geturl()
+def _connection(url: Address, timeout_s: float) -> http.client.HTTPConnection:
+    if url.is_encrypted:
+        context = ssl.create_default_context()
+        return http.client.HTTPSConnection(url.host, url.port, timeout=timeout_s, context=context)
+    return http.client.HTTPConnection(url.host, url.port, timeout=timeout_s)
 
 
 def _why(error: Exception, timeout_s: float) -> str:
     match error:
         case TimeoutError():
-            return f"no answer within {timeout_s:g} s"
+            return f"no answer within {timeout_s:g} s, or not a whole one within {TOTAL * timeout_s:g} s"
         case ConnectionRefusedError():
             return "nobody listens there"
         case ConnectionError() | http.client.RemoteDisconnected():

@@ -85,10 +85,13 @@ class SparqlStore:
         return self._patiently(lambda: self._logged(sequence)) if behind else self._logged(sequence)
 
     def _logged(self, sequence: int) -> tuple[Transaction, ...]:
-        rows = sorted(self._rows(texts.logged(sequence)), key=lambda row: int(row["n"]))
+        rows = sorted(self._rows(texts.logged(sequence), "origin"), key=lambda row: int(row["n"]))
         if any(int(row["n"]) != n or "changes" not in row for n, row in enumerate(rows, sequence + 1)):
             raise StoreError(f"{self} was filled anew by somebody else; start again to go on with what it holds now")
-        return tuple(Transaction(int(row["n"]), row["origin"], changes_of(row["changes"])) for row in rows)
+        try:
+            return tuple(Transaction(int(row["n"]), row["origin"], changes_of(row["changes"])) for row in rows)
+        except ValueError as error:
+            raise StoreError(f"the log of {self} is damaged: {error}; fill the store anew with --reset") from error
 
     def _sent(self, update: str, after: int, mark: str) -> bool:
         """Send an update, which does nothing where it was made already, and return whether it was made."""
@@ -100,30 +103,34 @@ class SparqlStore:
 
     def _read(self) -> Kept:
         while True:
-            head = self._one(texts.began())
+            head = self._one(texts.began(), "beginning")
             triples = self._triples()
-            if self._one(texts.began()) == head:
+            if self._one(texts.began(), "beginning") == head:
                 return Kept(int(head["n"]), head["beginning"], triples)
 
-    def _one(self, query: str) -> Row:
-        rows = self._rows(query)
+    def _one(self, query: str, *names: str) -> Row:
+        rows = self._rows(query, *names)
         if not rows:
             raise StoreError(f"{self} holds no world any more: somebody removed it")
         return rows[0]
 
-    def _rows(self, query: str) -> list[Row]:
+    def _rows(self, query: str, *names: str) -> list[Row]:
+        """Return the rows of an answer, each with a number `n` and with these names."""
         answer = self._endpoint.query(query, ROWS)
         try:
-            rows = msgspec.json.decode(answer, type=_Answer).results.bindings
-        except msgspec.DecodeError as error:
+            bindings = msgspec.json.decode(answer, type=_Answer).results.bindings
+        except (msgspec.DecodeError, UnicodeDecodeError) as error:
             raise Unreachable(f"{self} answers a query with something that is no answer") from error
-        return [{name: term.value for name, term in row.items()} for row in rows]
+        rows = [{name: term.value for name, term in row.items()} for row in bindings]
+        if not all(row.get("n", "").isdecimal() and row.keys() >= {*names} for row in rows):
+            raise Unreachable(f"{self} answers a query with something that is no answer")
+        return rows
 
     def _triples(self) -> tuple[ox.Triple, ...]:
         answer = self._endpoint.query(texts.FACTS, TRIPLES)
         try:
             return tuple(quad.triple for quad in ox.parse(answer, format=ox.RdfFormat.N_TRIPLES))
-        except SyntaxError as error:
+        except (SyntaxError, ValueError) as error:
             raise Unreachable(f"{self} answers a query with something that is no answer") from error
 
     def _patiently(self, ask: Callable[[], T]) -> T:
