@@ -31,10 +31,16 @@ def no_term(token: Token, names: Iterable[str]) -> Complaint | None:
     match token.kind:
         case "open-text":
             return Complaint("the text that begins here has no closing quote", f"end it with `{_quote(token)}`")
+        case "open-iri" if token.text.startswith("<<"):
+            return Complaint(
+                "statements about statements are not Turtle 1.1", "name what it is about, and say it of that"
+            )
         case "open-iri":
             return Complaint("the IRI that begins here has no `>`", "an IRI has no spaces and ends with `>`")
         case "stray" if token.text.startswith(COMMENTS):
             return Complaint(f"{shown(token)} is no Turtle", "a comment begins with `#`")
+        case "stray" if token.text.startswith(("{", "}")):
+            return Complaint("named graphs are not Turtle", "a scene is one graph: remove the braces and the name")
         case "stray":
             return Complaint(f"{shown(token)} is no Turtle", "delete it, or put it in quotes if it is a text")
         case "word" if token.text not in ("a", "true", "false"):

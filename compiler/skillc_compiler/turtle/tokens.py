@@ -39,7 +39,7 @@ _TOKEN = re.compile(
       | (?P<datatype>\^\^)
       | (?P<word>[{_LETTER}_][{_CHARACTER}]*)
       | (?P<open_text>(?:\"\"\"|''').*|["'][^\r\n]*)
-      | (?P<open_iri><[^\s<>"]*)
+      | (?P<open_iri><<|<[^\s<>"]*)
       | (?P<stray>[^\s"'<>;,\[\]()]+|.)""",
     re.VERBOSE | re.DOTALL,
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ import click
 
 from skillc_compiler.goals import parse_call, parse_goal
 from skillc_compiler.library.skills import SkillLibrary, Task
+from skillc_compiler.turtle.problems import Problem
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
 from skillc_runtime.assignment import Assignment, Perform, Reach
@@ -86,11 +88,15 @@ def compiled(files: _library.LibraryFiles) -> SkillLibrary:
 
 
 def loaded(scene: Path, library: SkillLibrary) -> WorldState:
-    """Load a scene; exit with what is wrong with it."""
+    """Load a scene and tell what is doubtful in it; exit with what is wrong with it."""
+
+    def tell(problems: Sequence[Problem]) -> None:
+        _telling.tell(_diagnostics.of_problems(problems), _diagnostics.scene_text(scene))
+
     try:
-        return load_scene(scene, library.vocabulary)
+        return load_scene(scene, library.vocabulary, tell)
     except SceneError as error:
-        _telling.tell(_diagnostics.of_problems(error.problems), _diagnostics.scene_text(scene))
+        tell(error.problems)
     except OSError as error:
         click.echo(f"error: the scene {scene} cannot be read: {error.strerror}", err=True)
     sys.exit(1)

@@ -9,6 +9,7 @@ from skillc_compiler.turtle.statements import Statement
 from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_runtime.world.device_sheets import unsuited
 from skillc_runtime.world.flaw import Flaw
+from skillc_runtime.world.holding import circular
 from skillc_runtime.world.individuals import iri_of
 from skillc_runtime.world.mandatory import incomplete
 from skillc_runtime.world.on_surfaces import astray
@@ -25,7 +26,7 @@ def flaws(
     Where things are is looked at only when there is no other problem: a frame may be missing because of it.
     """
     troubled = {*doubtful, *_subjects(said, problems)}
-    found = [*incomplete(state), *implausible(state), *unsuited(state)]
+    found = [*circular(state), *incomplete(state), *implausible(state), *unsuited(state)]
     if not problems and not doubtful:
         found += list(misplaced(state)) or astray(state)
     places = {(iri_of(each.subject), each.predicate): each for each in reversed(said)}

@@ -24,6 +24,11 @@ ANNOTATIONS = (
     "http://www.w3.org/ns/shacl#",
 )
 """What is said in these vocabularies is for people and other tools."""
+REMARKS = frozenset(
+    {f"{RDFS}{name}" for name in ("label", "comment", "seeAlso", "isDefinedBy")}
+    | {f"{OWL}{name}" for name in ("versionInfo", "versionIRI", "priorVersion", "deprecated")}
+    | {f"{OWL}{name}" for name in ("backwardCompatibleWith", "incompatibleWith")}
+)
 CLASS_DECLARATIONS = (f"{OWL}Class", f"{OWL}class")  # SkiROS2's scenes write the second
 SUBCLASS = f"{RDFS}subClassOf"
 NAMED_INDIVIDUAL, ANNOTATION = f"{OWL}NamedIndividual", f"{OWL}AnnotationProperty"
@@ -86,6 +91,11 @@ def is_term_kind(cls: str) -> bool:
 def is_remark(predicate: str) -> bool:
     """Whether what is said with a predicate is for people and other tools."""
     return predicate != RDF_TYPE and predicate.startswith((*ABOUT_TERMS, *ANNOTATIONS))
+
+
+def is_annotation(predicate: str) -> bool:
+    """Whether a predicate says something for people and other tools, and nothing that a world could know."""
+    return predicate in REMARKS or predicate.startswith((*ANNOTATIONS, ABOUT_TERMS[-1]))
 
 
 def iri_of(node: Node) -> str:

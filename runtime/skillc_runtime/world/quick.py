@@ -17,6 +17,7 @@ from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_runtime.world.bulk import Facts, state_of
 from skillc_runtime.world.device_sheets import unsuited
 from skillc_runtime.world.documents import BASE, Document
+from skillc_runtime.world.holding import circular
 from skillc_runtime.world.individuals import (
     ANNOTATION,
     CLASS_DECLARATIONS,
@@ -27,6 +28,7 @@ from skillc_runtime.world.individuals import (
     terms_of,
     with_classes,
 )
+from skillc_runtime.world.ineffective import is_ordinary, is_ordinary_class
 from skillc_runtime.world.literals import LiteralError, read
 from skillc_runtime.world.mandatory import incomplete
 from skillc_runtime.world.on_surfaces import astray
@@ -61,6 +63,8 @@ class _Said:
     prefixes: dict[str, str] = field(default_factory=dict)
     types_first: int = 0
     """How many classes of things the first text states."""
+    unnamed: bool = False
+    """Whether anything without a name, or a statement about a statement, was said so far."""
 
 
 def quick_world(documents: Sequence[Document], vocabulary: Vocabulary) -> WorldState | None:
@@ -75,7 +79,7 @@ def quick_world(documents: Sequence[Document], vocabulary: Vocabulary) -> WorldS
             state = state_of(vocabulary, _facts(said, vocabulary))
         except (_OutOfOrder, SyntaxError, LiteralError):
             return None
-        rules = (incomplete, implausible, unsuited, misplaced, astray)
+        rules = (circular, incomplete, implausible, unsuited, misplaced, astray)
         in_order = is_sound(state) and not any(any(rule(state)) for rule in rules)
         return state if in_order else None
 
@@ -87,6 +91,7 @@ def _said(documents: Iterable[Document], vocabulary: Vocabulary) -> _Said:
         while _sort(islice(parser, AT_ONCE), vocabulary.aliases, names, said):
             watch.look()
         if place == 0:
+            _refuse_unusual(said, vocabulary)
             said.types_first = len(said.named[RDF_TYPE])
         for prefix, base in parser.prefixes.items():
             if vocabulary.prefixes.get(prefix, base) != base and base not in vocabulary.prefixes.values():
@@ -111,7 +116,24 @@ def _sort(triples: Iterable[ox.Quad], aliases: dict[str, str], names: dict[str, 
             named[predicate].append((name, known(value, value)))
         else:
             named[predicate].append((name, ""))
+            said.unnamed = True
+        if not name:
+            said.unnamed = True
     return each is not None
+
+
+def _refuse_unusual(said: _Said, vocabulary: Vocabulary) -> None:
+    """Leave a text to the careful reader that says more than facts about individuals, and something about classes."""
+    terms = terms_of(vocabulary)
+    classes = {cls for _, cls in said.named[RDF_TYPE]}
+    subjects = (name for part in (said.named, said.literal) for pairs in part.values() for name, _ in pairs)
+    if (
+        said.unnamed
+        or not all(map(is_ordinary, said.named.keys() | said.literal.keys()))
+        or not all(map(is_ordinary_class, classes))
+        or any(name in terms for name in subjects)
+    ):
+        raise _OutOfOrder
 
 
 def _own(said: _Said, vocabulary: Vocabulary) -> Vocabulary:
@@ -170,6 +192,8 @@ def _classes(said: _Said, terms: set[str], vocabulary: Vocabulary) -> dict[str, 
 def _values(literals: Iterable[tuple[str, ox.Literal]], term: PropertyTerm) -> dict[str, Value | None]:
     found: dict[str, Value | None] = {}
     for individual, literal in literals:
+        if literal.language is not None:
+            raise _OutOfOrder  # it has no effect, which is told
         value = read(literal, term)
         before = found.get(individual)
         if before is None:

@@ -160,9 +160,9 @@ def fault(state: WorldState, fact: Fact) -> Breach | None:
 
 def _irreflexive(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[Breach]:
     for term, start, end in _implied(state, subject, relation, object_):
-        if term.irreflexive and start == end:
-            short = state.vocabulary.short
-            yield Breach("irreflexive-relation", f"{short(term.iri)} is irreflexive, nothing has it to itself")
+        if (term.irreflexive or term.asymmetric) and start == end:
+            short, kind = state.vocabulary.short, "irreflexive" if term.irreflexive else "asymmetric"
+            yield Breach("irreflexive-relation", f"{short(term.iri)} is {kind}, nothing has it to itself")
 
 
 def _asymmetric(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[Breach]:

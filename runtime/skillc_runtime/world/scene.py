@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -11,13 +11,15 @@ import pyoxigraph as ox
 
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.turtle.problems import Place, Problem
-from skillc_compiler.turtle.statements import Parsed, Statement
-from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_compiler.turtle.statements import Node, Parsed, Statement
+from skillc_compiler.turtle.terms import RDF, RDF_TYPE
 from skillc_ontology.catalogue import sheet_files
 from skillc_runtime.world.breaches import breaches
 from skillc_runtime.world.documents import Document, SceneError, parse, resolved, unreadable
 from skillc_runtime.world.flaws import flaws
+from skillc_runtime.world.identity import Claims
 from skillc_runtime.world.individuals import facts, iri_of, with_own_classes, with_own_prefixes
+from skillc_runtime.world.ineffective import ineffective, language_tags, without_class
 from skillc_runtime.world.names import suggest
 from skillc_runtime.world.own_classes import misplaced_classes, of_lost_classes
 from skillc_runtime.world.quick import quick_world
@@ -25,6 +27,8 @@ from skillc_runtime.world.reading import Reader
 from skillc_runtime.world.room import CAREFULLY, NoRoom, make_sure
 from skillc_runtime.world.standard import is_misspelt, standard_terms
 from skillc_runtime.world.state import WorldState
+
+FIRST = f"{RDF}first"
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,10 +49,22 @@ class Scene:
         return not any(problem.severity == "error" for problem in self.problems)
 
 
-def load_scene(path: Path, vocabulary: Vocabulary) -> WorldState:
-    """Return the world of a scene file and of the packaged data sheets; SceneError with all that is wrong."""
+def load_scene(
+    path: Path, vocabulary: Vocabulary, warn: Callable[[Sequence[Problem]], None] = lambda problems: None
+) -> WorldState:
+    """Return the world of a scene file and of the packaged data sheets; SceneError with all that is wrong.
+
+    What is doubtful and no error goes to `warn`.
+    """
     own = Document.read(path)
-    return _quickly(own, [own, *sheets()], vocabulary) or _sound(scene_in(own, vocabulary))
+    quick = _quickly(own, [own, *sheets()], vocabulary)
+    if quick is not None:
+        return quick
+    scene = scene_in(own, vocabulary)
+    state = _sound(scene)
+    if scene.problems:
+        warn(scene.problems)
+    return state
 
 
 def world_of(documents: Sequence[Document], vocabulary: Vocabulary) -> WorldState:
@@ -79,15 +95,17 @@ def scene_of(documents: Iterable[Document], vocabulary: Vocabulary) -> Scene:
     """
     parsed = [parse(document, vocabulary.prefixes) for document in documents]
     said = [resolved(each, vocabulary.aliases) for document in parsed for each in document.statements]
+    written = said[: len(parsed[0].statements)] if parsed else []
     vocabulary = with_own_prefixes(vocabulary, parsed)
     known = vocabulary.classes.keys()
     vocabulary = with_own_classes(vocabulary, said)
     syntax = [problem for document in parsed for problem in document.problems]
     own = frozenset(vocabulary.classes.keys() - known)
-    terms = [*_misused(said, vocabulary), *misplaced_classes(said, own, vocabulary)]
+    terms = [*_misused(said, vocabulary), *_unnamed(said, vocabulary), *misplaced_classes(said, own, vocabulary)]
     lost = of_lost_classes(said, own, vocabulary)
     clear = tuple(each for each in facts(said, vocabulary) if iri_of(each.subject) not in lost)
-    return _understood(clear, vocabulary, [*syntax, *terms], _doubtful(parsed) | lost)
+    scene = _understood(clear, vocabulary, [*syntax, *terms], _doubtful(parsed) | lost)
+    return _with_rest(scene, written, own)
 
 
 def _quickly(own: Document, documents: Sequence[Document], vocabulary: Vocabulary) -> WorldState | None:
@@ -120,8 +138,20 @@ def _understood(
     state = WorldState.empty(vocabulary).changed(change for change, _ in written)
     wrong = [*problems, *reader.problems, *breaches(state, written)]
     wrong += flaws(state, said, wrong, doubtful)
-    ordered = sorted(dict.fromkeys(wrong), key=lambda each: (each.place, each.name, each.message))
-    return Scene(state, tuple(ordered), said, doubtful)
+    return Scene(state, _ordered(wrong), said, doubtful)
+
+
+def _with_rest(scene: Scene, written: Sequence[Statement], own: frozenset[str]) -> Scene:
+    """Return the scene with what is wrong with those of its statements that are no facts, and which have no effect."""
+    vocabulary = scene.state.vocabulary
+    claims = Claims(written, scene.state)
+    found = [*claims.problems(), *without_class(written, vocabulary), *language_tags(written, vocabulary)]
+    found += ineffective(written, facts(written, vocabulary), vocabulary, own, claims.used)
+    return replace(scene, problems=_ordered([*scene.problems, *found]))
+
+
+def _ordered(problems: Iterable[Problem]) -> tuple[Problem, ...]:
+    return tuple(sorted(dict.fromkeys(problems), key=lambda each: (each.place, each.name, each.message)))
 
 
 def _sound(scene: Scene) -> WorldState:
@@ -145,6 +175,26 @@ def _misused(said: Iterable[Statement], vocabulary: Vocabulary) -> Iterator[Prob
         elif isinstance(each.subject, ox.BlankNode) and cls in vocabulary.classes:
             message = f"this {vocabulary.short(cls)} has no name"
             yield Problem(each.subject_place, "unnamed-individual", message, f"write `:NAME a {vocabulary.short(cls)}`")
+
+
+def _unnamed(said: Sequence[Statement], vocabulary: Vocabulary) -> Iterator[Problem]:
+    """Yield a problem for each thing without a name, and of no class, that a relation or a property is said of."""
+    typed = {each.subject for each in said if each.predicate == RDF_TYPE and iri_of(each.object) in vocabulary.classes}
+    lists = {each.subject for each in said if each.predicate == FIRST}
+    told = set[Node]()
+    for each in said:
+        relation = each.predicate in vocabulary.relations
+        if relation and each.object in lists:
+            message = f"{vocabulary.short(each.predicate)} leads to an individual, and this is a list"
+            help_ = "name its members one after another, with a `,` between them"
+            yield Problem(each.object_place, "relation-range", message, help_)
+        for node, place in ((each.subject, each.subject_place), (each.object, each.object_place)):
+            said_of = relation or (each.predicate in vocabulary.properties and node is each.subject)
+            if said_of and isinstance(node, ox.BlankNode) and node not in typed | lists | told:
+                told.add(node)
+                yield Problem(
+                    place, "unnamed-individual", "this has no name", "give it one, and a class: `:NAME a CLASS`"
+                )
 
 
 def _misspelt(kind: Literal["class", "property"], term: str, place: Place, vocabulary: Vocabulary) -> Problem:

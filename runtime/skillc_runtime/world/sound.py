@@ -41,7 +41,9 @@ def _fits(state: WorldState, relation: str, links: Links) -> bool:
         return not links.forward
     of = state.classes.get
     terms = [(state.vocabulary.relations[iri], flipped) for iri, flipped in state.axioms.implied[relation]]
-    if any(term.irreflexive for term, _ in terms) and any(start == end for start, end in links.pairs()):
+    if any(term.irreflexive or term.asymmetric for term, _ in terms) and any(
+        start == end for start, end in links.pairs()
+    ):
         return False
     for start, end in {(of(start), of(end)) for start, end in links.pairs()}:
         if not start or not end:
