@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import TypeVar
 
 import msgspec
 
@@ -13,6 +14,7 @@ from skillc_compiler.asking.slips import EXAMPLES, Asked, slips, told_plainly
 from skillc_compiler.checks import check
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Condition
+from skillc_compiler.library.reading import is_deeper
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Position, Vocabulary
 from skillc_compiler.lower.bodies import node
@@ -27,6 +29,10 @@ from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.parser import parse
 from skillc_dsl.source import Source, Span
 
+T = TypeVar("T")
+
+LONGEST, DEEPEST = 50_000, 100
+"""How many characters a goal or a call may have, and how deep it may be nested."""
 LINES_ABOVE = 2
 BETWEEN = frozenset(("==", "!=", "<", "<=", ">", ">=", "is", "has"))
 """Words that stand between two others in a condition of the language."""
@@ -40,7 +46,35 @@ def parse_goal(
     `individuals` are the IRIs of the scene with their classes, `prefixes` those its file declares. The value is None
     if there are errors; spans count in `text`, under the path `goal`.
     """
-    asked = setting(vocabulary, individuals, prefixes or {})
+    return _bounded(lambda: _goal(text, setting(vocabulary, individuals, prefixes or {})), text, "goal")
+
+
+def parse_call(
+    text: str, library: SkillLibrary, individuals: Individuals, prefixes: Mapping[str, str] | None = None
+) -> Outcome[tree.Call | None]:
+    """Understand a call such as `Wipe(surface: lab:Board)`; as `parse_goal`, with the path `call`."""
+    asked = setting(library.vocabulary, individuals, prefixes or {}, library.skills)
+    return _bounded(lambda: _call(text, asked), text, "call")
+
+
+def _bounded(understand: Callable[[], Outcome[T | None]], text: str, what: Asked) -> Outcome[T | None]:
+    """Understand a text unless it is longer, or nested deeper, than anybody would write it."""
+    if len(text) > LONGEST:
+        return _refused(what, f"the {what} has {len(text)} characters, and {LONGEST} at most are read")
+    try:
+        outcome = understand()
+    except RecursionError:
+        return _refused(what, f"the {what} is nested too deeply")
+    if is_deeper(outcome.value, DEEPEST):
+        return _refused(what, f"the {what} is nested more than {DEEPEST} deep")
+    return outcome
+
+
+def _refused(what: Asked, message: str) -> Outcome[T | None]:
+    return Outcome(None, (Diagnostic("syntax", Span(what, 1, 1, 1, 2), message, EXAMPLES[what]),))
+
+
+def _goal(text: str, asked: Setting) -> Outcome[Condition | None]:
     wrong = _slips(asked, text, "goal")
     if wrong:
         return Outcome(None, wrong)
@@ -53,11 +87,7 @@ def parse_goal(
     return Outcome(fold_condition(reached.meaning) if reached else None, understood.diagnostics)
 
 
-def parse_call(
-    text: str, library: SkillLibrary, individuals: Individuals, prefixes: Mapping[str, str] | None = None
-) -> Outcome[tree.Call | None]:
-    """Understand a call such as `Wipe(surface: lab:Board)`; as `parse_goal`, with the path `call`."""
-    asked = setting(library.vocabulary, individuals, prefixes or {}, library.skills)
+def _call(text: str, asked: Setting) -> Outcome[tree.Call | None]:
     wrong = _slips(asked, text, "call")
     if wrong:
         return Outcome(None, wrong)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import lru_cache
 
 import msgspec
@@ -24,6 +24,27 @@ def walk(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
     yield item
     for part in _inside(item):
         yield from walk(part)
+
+
+def is_deeper(item: object, most: int) -> bool:
+    """Whether parts of a condition, an expression or a call are inside each other more than so many times."""
+    level = [item]
+    for _ in range(most + 1):
+        structs = [each for each in level if isinstance(each, msgspec.Struct)]
+        level = [part for each in structs for name in each.__struct_fields__ for part in _flat(getattr(each, name))]
+        if not level:
+            return False
+    return any(isinstance(each, msgspec.Struct) for each in level)
+
+
+def _flat(value: object) -> Iterable[object]:
+    match value:
+        case tuple():
+            return value
+        case dict():
+            return value.values()
+        case _:
+            return (value,)
 
 
 def terms_read(condition: Condition) -> frozenset[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from types import MappingProxyType
 
@@ -21,11 +22,19 @@ from skillc_compiler.turtle.tokens import Token
 NOTHING_KNOWN: Mapping[str, str] = MappingProxyType({})
 DEEPEST = 100
 """How deep brackets may be nested."""
+MOST_PROBLEMS = 100
+"""A text with so many mistakes is not read to its end."""
+_SURROGATE = re.compile("[\ud800-\udfff]")
 FIRST, REST, NIL = f"{RDF}first", f"{RDF}rest", f"{RDF}nil"
 
 
 def parse(path: str, text: str, base: str = "", known: Mapping[str, str] = NOTHING_KNOWN) -> Parsed:
     """Read a Turtle text; relative IRIs are completed by `base`, `known` are the prefixes of the vocabularies."""
+    halves = _SURROGATE.search(text)
+    if halves is not None:
+        line, column = text.count("\n", 0, halves.start()) + 1, halves.start() - text.rfind("\n", 0, halves.start())
+        half = Problem(Place(path, line, column, line, column + 1), "broken-turtle", "this is half a character")
+        return Parsed((), {}, (half,), frozenset({SOMETHING}))
     other = other_format(text)
     if other is not None:
         problem = Problem(Place(path, 1, 1, 1, 2), "not-turtle", f"this is {other[0]}, not Turtle", other[1])
@@ -47,6 +56,9 @@ class _Parser:
         cursor = self._cursor
         subject: Found = None, Extent(0, 0)
         while not cursor.at_end:
+            if len(cursor.problems) >= MOST_PROBLEMS:
+                self._give_up()
+                break
             if cursor.at_directive:
                 self._declarations.read()
             elif cursor.at_lost_prefix:
@@ -58,6 +70,13 @@ class _Parser:
         problems = sorted((*cursor.problems, *self._naming.prefixes.problems()), key=lambda problem: problem.place)
         prefixes = self._naming.prefixes.all()
         return Parsed(tuple(self._statements), prefixes, tuple(problems), frozenset(self._naming.doubtful))
+
+    def _give_up(self) -> None:
+        """Leave out the rest of a text that is wrong almost everywhere."""
+        token = self._cursor.peek
+        complaint = Complaint(f"there are {MOST_PROBLEMS} mistakes before this; the rest of the file is not looked at")
+        self._cursor.complain(token, complaint)
+        self._naming.doubtful.add(SOMETHING)
 
     def _sentence(self, before: Found) -> Found:
         """Read what is said of a subject and return it; what goes on with the subject before says more of that."""
@@ -161,7 +180,8 @@ class _Parser:
         """Say what is wrong between an object and the next mark, and mend it; whether the objects before it count."""
         token, before = self._cursor.peek, self._cursor.before
         if token.is_mark(")"):
-            self._cursor.complain(self._cursor.take(), Complaint("this `)` closes nothing", "delete it"))
+            while self._cursor.peek.is_mark(")"):
+                self._cursor.complain(self._cursor.take(), Complaint("this `)` closes nothing", "delete it"))
         elif before.kind == "number" and token.is_unit:
             self._cursor.complain(self._cursor.take(), complaints.number_with_unit(before, token))
         elif self._is_surplus():

@@ -77,7 +77,7 @@ def quick_world(documents: Sequence[Document], vocabulary: Vocabulary) -> WorldS
             said = _said(documents, vocabulary)
             vocabulary = _own(said, vocabulary)
             state = state_of(vocabulary, _facts(said, vocabulary))
-        except (_OutOfOrder, SyntaxError, LiteralError):
+        except (_OutOfOrder, SyntaxError, LiteralError, UnicodeEncodeError):
             return None
         rules = (circular, incomplete, implausible, unsuited, misplaced, astray)
         in_order = is_sound(state) and not any(any(rule(state)) for rule in rules)
@@ -87,7 +87,7 @@ def quick_world(documents: Sequence[Document], vocabulary: Vocabulary) -> WorldS
 def _said(documents: Iterable[Document], vocabulary: Vocabulary) -> _Said:
     said, names, watch = _Said(), dict[str, str](), Watch()
     for place, document in enumerate(documents):
-        parser = ox.parse(document.text, format=ox.RdfFormat.TURTLE, base_iri=BASE)
+        parser = ox.parse(document.text.encode(), format=ox.RdfFormat.TURTLE, base_iri=BASE)
         while _sort(islice(parser, AT_ONCE), vocabulary.aliases, names, said):
             watch.look()
         if place == 0:

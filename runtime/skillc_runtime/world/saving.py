@@ -58,7 +58,7 @@ def turtle(state: WorldState, without: WorldState, source: Document | None = Non
     for subject, property_, value in _values(state):
         if not has(without.value(subject, property_), value):
             written.value(subject, property_, value)
-    for triple in {*_classes(state, without.vocabulary), *(_besides(source, state) if source is not None else ())}:
+    for triple in (*_classes(state, without.vocabulary), *(_besides(source, state) if source is not None else ())):
         written.triple(triple)
     return written.text()
 
@@ -123,6 +123,7 @@ class _Written:
         self._prefixes = sorted(vocabulary.prefixes.items(), key=lambda pair: -len(pair[1]))
         self._used: dict[str, str] = {}
         self._names: dict[str, str] = {}
+        self._blank: dict[ox.BlankNode, str] = {}
         self._said: dict[str, dict[str, list[str]]] = defaultdict(lambda: defaultdict(list))
 
     def link(self, subject: str, predicate: str, object_: str) -> None:
@@ -166,6 +167,8 @@ class _Written:
         return f"{subject} " + " ;\n    ".join(lines) + " .\n"
 
     def _term(self, node: ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple) -> str:
+        if isinstance(node, ox.BlankNode):
+            return self._blank.setdefault(node, f"_:b{len(self._blank)}")
         return self._name(node.value) if isinstance(node, ox.NamedNode) else str(node)
 
     def _name(self, iri: str) -> str:
