@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 
@@ -113,3 +114,53 @@ def test_the_bar_of_trials_has_the_text_as_it_is(
     with Told(text, Wanted(text, "none", range(1), 1, None, False), 0):
         pass
     assert text in capsys.readouterr().err
+
+
+def test_what_has_no_effect_in_a_scene_is_told_and_the_rest_used(lab: Path) -> None:
+    with (lab / "scene.ttl").open("a", encoding="utf-8") as scene:
+        scene.write("@prefix rdf: <http://www.w3.org/1999/02/22-rdf-syntax-ns#> .\nlab:a rdf:value 3 .\n")
+    result = skillc_in(lab, "plan", "lab:b contain lab:crate")
+    assert result.exit_code == 0 and "warning[no-effect]: `rdf:value` has no effect in a scene" in result.stderr
+    shown = CliRunner().invoke(skillc, ["world", str(lab / "scene.ttl")])
+    assert shown.exit_code == 0 and "warning[no-effect]" in shown.stderr
+
+
+DEEP = "@prefix : <x:> .\n:a :b " + "[ :b " * 3000 + "( " * 3000
+BAD: dict[str, str | bytes] = {
+    "empty": "",
+    "binary": b"\x00\xff\xfe" * 100,
+    "noise": "( ] ; . , [ ) <" * 300,
+    "deep": DEEP,
+    "closed": ":a :b :c " + ")" * 20000 + " .",
+    "foreign": "@prefix f: <http://xmlns.com/foaf/0.1/> . f:me a f:Person .",
+}
+
+
+@pytest.mark.parametrize("name", [*BAD, "fifo", "folder", "missing", "x" * 300])
+def test_a_file_that_is_no_scene_is_refused_in_words(lab: Path, name: str) -> None:
+    path = lab / f"{name}.ttl"
+    match BAD.get(name):
+        case None if name == "fifo":
+            os.mkfifo(path)
+        case None if name == "folder":
+            path.mkdir()
+        case str() as text:
+            path.write_text(text, encoding="utf-8")
+        case bytes() as data:
+            path.write_bytes(data)
+    result = CliRunner().invoke(skillc, ["world", "--library", str(lab), str(path)])
+    assert isinstance(result.exception, SystemExit), result.exception
+    assert result.exit_code in (1, 2) and "error" in result.stderr.lower()
+
+
+@pytest.mark.parametrize("place", ["x" * 300, "http://ann:secret@[::1", "ftp://ann:secret@host", "/dev/null"])
+def test_a_place_that_is_no_store_is_refused_in_words(lab: Path, place: str) -> None:
+    result = CliRunner().invoke(skillc, ["world", str(lab / "scene.ttl"), "--library", str(lab), "--store", place])
+    assert isinstance(result.exception, SystemExit), result.exception
+    assert result.exit_code == 1 and "error: " in result.stderr and "secret" not in result.output
+
+
+@pytest.mark.parametrize("goal", ["", "\0", "(" * 10_000, "not " * 2000 + "a", "(not " * 3000 + "(a b)" + ")" * 3000])
+def test_a_text_that_is_no_goal_is_refused_in_words(lab: Path, goal: str) -> None:
+    result = skillc_in(lab, "plan", goal)
+    assert result.exit_code in (1, 2) and "error" in result.stderr.lower()

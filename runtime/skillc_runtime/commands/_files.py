@@ -79,14 +79,14 @@ def texts(library: LibraryFiles) -> dict[str, Source]:
 
 def scene_path(scene: Path) -> Path:
     """Return a scene file: the path itself, or a shipped scene of that name."""
-    if scene.is_file():
-        return scene
     from skillc_ontology import catalogue
 
     try:
-        return catalogue.scene(str(scene))
+        return scene if scene.is_file() else catalogue.scene(str(scene))
     except FileNotFoundError as error:
         raise click.UsageError(f"there is no file {scene}, and {error}") from error
+    except OSError as error:
+        raise click.UsageError(f"{scene} cannot be opened: {error.strerror}") from error
 
 
 def _library(

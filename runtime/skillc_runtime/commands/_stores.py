@@ -38,7 +38,9 @@ def kept_world(
         return _world(store, scene, vocabulary, load)
     except StoreError as error:
         click.echo(f"error: {error}", err=True)
-        sys.exit(1)
+    except OSError as error:
+        click.echo(f"error: the store {keeping.name} cannot be opened: {error.strerror}", err=True)
+    sys.exit(1)
 
 
 def _world(
