@@ -104,11 +104,13 @@ class _Kinds:
 
     def _is_declared(self, iri: str, kind: str) -> bool:
         """Whether the vocabulary has a term of this kind already."""
-        known = {
-            f"{OWL}ObjectProperty": self._vocabulary.relations,
-            f"{OWL}DatatypeProperty": self._vocabulary.properties,
-        }
-        return iri in known.get(kind, ())
+        match kind.removeprefix(OWL):
+            case "ObjectProperty":
+                return iri in self._vocabulary.relations
+            case "DatatypeProperty":
+                return iri in self._vocabulary.properties
+            case _:
+                return False
 
 
 def language_tags(facts: Iterable[Statement], vocabulary: Vocabulary) -> Iterator[Problem]:
