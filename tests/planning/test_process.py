@@ -61,9 +61,9 @@ def test_a_program_that_fails_is_a_planner_that_gives_up(
 
 def test_proof_of_unsolvability_and_best_found_plans_are_told_apart(tmp_path: Path) -> None:
     words = next(" ".join(("drive", *each)) for each in _arguments())
-    proved = plan(tmp_path, search=f'printf "({words})\\n; cost = 120\\n" > proved')
+    proved = plan(tmp_path, search=f'printf "({words})\\n; cost = 12\\n" > proved')
     assert isinstance(proved, Solved) and proved.optimal == "proven"
-    twice = f'for n in 1 10; do printf "({words})\\n; cost = 120\\n" > found.$n; done; exit 23'
+    twice = f'for n in 1 10; do printf "({words})\\n; cost = 12\\n" > found.$n; done; exit 23'
     found = plan(tmp_path, search="exit 23", driver=twice)
     assert isinstance(found, Solved) and found.optimal == "best found" and len(found.plan.steps) == 1
     assert isinstance(plan(tmp_path, search="exit 11"), Unsolvable)

@@ -39,7 +39,7 @@ def as_text(answer: Answer, mission: Mission) -> str:
         case Solved(plan=plan, planner=planner):
             lines = [f"{number}  {_call(step, mission)}" for number, step in enumerate(plan.steps, 1)]
             total = f"{len(plan.steps)} steps, {plan.duration_s:g} s expected, {_quality(answer)} ({planner})"
-            return "\n".join([*lines, total, *_left_out(answer, mission)])
+            return "\n".join([*lines, total, *_assumed(answer), *_left_out(answer, mission)])
         case Scheduled():
             return _schedule_text(answer, mission)
         case Unsolvable(why=why):
@@ -55,7 +55,7 @@ def _schedule_text(answer: Scheduled, mission: Mission) -> str:
     lines = [f"{each.start_s:7.1f} s  {each.duration_s:6.1f} s  {_call(each.step, mission)}" for each in timed]
     over = f"{len(timed)} steps, over after {answer.schedule.makespan_s:g} s with {answer.plan.duration_s:g} s of work"
     lines.append(f"{over}, {_quality(answer)} ({answer.planner})")
-    lines += [f"times: {answer.times}", *_left_out(answer, mission)]
+    lines += [f"times: {answer.times}", *_assumed(answer), *_left_out(answer, mission)]
     return "\n".join(lines if answer.note is None else [*lines, f"note: {answer.note}"])
 
 
@@ -65,7 +65,14 @@ def _quality(answer: Solved | Scheduled) -> str:
     known = "" if answer.at_least_s is None else f", any plan takes at least {answer.at_least_s:g} s"
     if answer.optimal == "optimal for the filtered problem":
         return f"optimal for the part of the scene that was planned with{known}"
+    if answer.optimal == "optimal for approximate durations":
+        return f"optimal for approximate durations{known}"
     return f"best found, not proved optimal{known}"
+
+
+def _assumed(answer: Solved | Scheduled) -> Iterator[str]:
+    """Yield which durations are not known before the plan is executed."""
+    yield from (f"assumed: {each}" for each in answer.assumptions)
 
 
 def _left_out(answer: Solved | Scheduled, mission: Mission) -> Iterator[str]:
@@ -112,6 +119,7 @@ def _solved(answer: Solved | Scheduled, steps: list[dict[str, object]]) -> dict[
         "plan_optimal": answer.optimal == "proven",
         "optimal": answer.optimal,
         "at_least_s": answer.at_least_s,
+        "assumptions": list(answer.assumptions),
         "left_out": [{"what": each.what, "why": each.why, "harmless": each.harmless} for each in answer.left_out],
     }
 

@@ -23,7 +23,7 @@ from skillc_compiler.library.pddl.problem import Problem
 from skillc_runtime.planning.grounding import GroundAction, Grounding, TimeIsUp
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.relaxed import Estimate
-from skillc_runtime.planning.steps import plan_of
+from skillc_runtime.planning.steps import costed
 
 Test: TypeAlias = Callable[[int], bool]
 
@@ -59,7 +59,12 @@ class AStar:
             return Unsolvable("no sequence of skills reaches the goal")
         if isinstance(found, _TimeUp):
             return self._gave_up(f"its time was up after {found.states} states")
-        return Solved(plan_of(problem, (actions[index].words for index in found)), "proven", self.name)
+        answer = costed(problem, (actions[index].words for index in found))
+        if answer.exact:
+            return Solved(answer.plan, "proven", self.name)
+        return Solved(
+            answer.plan, "optimal for approximate durations", self.name, at_least_s=answer.at_least_s(problem)
+        )
 
     def _gave_up(self, why: str) -> GaveUp:
         return GaveUp(f"the built-in planner gave up: {why}{self._advice}")

@@ -12,11 +12,12 @@ What an axiom forbids is used to come closer: an assertion of a functional relat
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
 from itertools import product
 from math import prod
 from typing import assert_never
 
-from skillc_compiler.library.pddl.costs import ASSUMED_SECONDS, units
+from skillc_compiler.library.pddl.costs import ASSUMED_SECONDS
 from skillc_compiler.library.pddl.domain import (
     ClassFact,
     CostFunction,
@@ -31,11 +32,11 @@ from skillc_compiler.library.pddl.formulas import Atom, Typed
 from skillc_compiler.library.pddl.names import fresh
 from skillc_compiler.library.pddl.problem import CostValue, Problem
 from skillc_compiler.library.pddl.relations import Relations
-from skillc_runtime.planning.initial import TooManyValues
+from skillc_runtime.planning.initial import TooManyValues, duration_s
 from skillc_runtime.planning.problem import Posed
 from skillc_runtime.planning.weakening import Refused, Weakening
 from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.expressions import EvaluationError, property_of, value_of
+from skillc_runtime.world.expressions import EvaluationError, property_of
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import has
 
@@ -45,10 +46,11 @@ MOST_TUPLES = 100_000
 def relaxed_scene(posed: Posed, state: WorldState) -> Problem | None:
     """Return the problem whose shortest plan is no longer than any plan of the whole scene.
 
-    A stand-in is named after the first of those it stands for. None where the problem is not narrowed, where an effect
-    depends on conditions in a way that cannot be weakened, or where there would be too much to say about stand-ins.
+    A stand-in is named after the first of those it stands for. None where the problem is not narrowed, where the goal
+    is open, where an effect depends on conditions in a way that cannot be weakened, or where there would be too much to
+    say about stand-ins.
     """
-    if not posed.narrowed:
+    if not posed.narrowed or posed.open_goal:
         return None
     problem = posed.problem
     weakening = Weakening(problem.domain, problem.goal, Relations(posed.library.vocabulary))
@@ -134,12 +136,12 @@ class _StandIns:
 
     def _costs(self, function: CostFunction) -> Iterator[CostValue]:
         for names in self._choices(function.parameters):
-            least = self._least(function, names[0]) if len(names) == 1 else 1
+            least = self._least(function, names[0]) if len(names) == 1 else Fraction(0)
             yield CostValue(function.name, names, least)
 
-    def _least(self, function: CostFunction, name: str) -> int:
+    def _least(self, function: CostFunction, name: str) -> Fraction:
         (variable,) = function.variables
-        return min(_units(function, self._state, {variable: iri}) for iri in self._members[name])
+        return min(_seconds(function, self._state, {variable: iri}) for iri in self._members[name])
 
     def _fitting(self, parameter: Typed) -> list[Typed]:
         return [each for each in self._objects if self._posed.problem.domain.is_a(each.type, parameter.type)]
@@ -162,9 +164,6 @@ def _decided(holds: Callable[[str], bool], individual: str) -> bool:
         return False
 
 
-def _units(function: CostFunction, state: WorldState, bindings: Mapping[str, str]) -> int:
-    try:
-        seconds = value_of(function.expression, state, dict(bindings))
-    except EvaluationError:
-        return units(ASSUMED_SECONDS)
-    return units(seconds) if isinstance(seconds, int | float) else units(ASSUMED_SECONDS)
+def _seconds(function: CostFunction, state: WorldState, bindings: Mapping[str, str]) -> Fraction:
+    seconds = duration_s(function.expression, state, bindings)
+    return seconds if isinstance(seconds, Fraction) else ASSUMED_SECONDS

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from fractions import Fraction
 
 from skillc_compiler.library.pddl.domain import Action, FixedCost
 from skillc_compiler.library.pddl.formulas import Equal, Negation, conjunction
@@ -24,7 +25,7 @@ def work_of(problem: Problem, device: str) -> Problem:
 def _cases(action: Action, device: str, taken: set[str]) -> Iterator[Action]:
     """Yield an action that costs nothing for other devices, and the action for this one in each place for a device."""
     others = (Negation(Equal(each, device)) for each in action.uses)
-    yield replace(action, precondition=conjunction((action.precondition, *others)), cost=FixedCost(0))
+    yield replace(action, precondition=conjunction((action.precondition, *others)), cost=FixedCost(Fraction(0)))
     for each in action.uses:
         here = conjunction((action.precondition, Equal(each, device)))
         name = fresh(f"{action.name}-busy", taken)

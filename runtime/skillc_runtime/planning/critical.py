@@ -23,4 +23,4 @@ def critical_path_s(problem: Problem, deadline_s: float) -> float:
     atoms = sorted(grounding.reachable, key=lambda each: (each.predicate, each.terms))
     numbers = {atom: number for number, atom in enumerate(atoms)}
     start = sum(1 << numbers[atom] for atom in grounding.init)
-    return Estimate(actions, goal, numbers)(start) / problem.domain.scale
+    return Estimate(actions, goal, numbers)(start) / float(problem.domain.scale)

@@ -1,4 +1,4 @@
-"""Fast Downward, a program of its own: A* with LM-cut, which proves the optimum, and LAMA, which finds plans, race."""
+"""Fast Downward, a program of its own: A*, which proves the optimum, and LAMA, which finds plans, race."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ import re
 import signal
 import sys
 import time
+from collections.abc import Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
@@ -15,6 +17,7 @@ from skillc_compiler.library.pddl.formulas import FALSE
 from skillc_compiler.library.pddl.prepare import prepared
 from skillc_compiler.library.pddl.problem import Problem
 from skillc_compiler.library.pddl.text import domain_text, problem_text
+from skillc_runtime.planning.admissible import Heuristic, heuristics, needs_of
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.process import (
     Ended,
@@ -27,10 +30,13 @@ from skillc_runtime.planning.process import (
     wait,
     workplace,
 )
-from skillc_runtime.planning.steps import PlanTextError, plan_of
+from skillc_runtime.planning.steps import PlanTextError, costed
 
 HEAD_START_S = 0.2
 """LAMA starts so much later than A*: most tasks are solved by then."""
+
+MOST_COST = 2**30
+"""A plan that costs more may have been compared with costs that no longer fit into the planner's 32-bit integers."""
 
 _COST = re.compile(r"^; cost = (\d+)", re.MULTILINE)
 _PROVED = re.compile(r"\bf = (\d+)")
@@ -98,60 +104,96 @@ class FastDownward:
             translated = translator.outcome()
         if not isinstance(translated, Ended) or not (folder / "task.sas").is_file():
             return GaveUp(f"Fast Downward did not take the problem: {_reason(translated)}")
-        return self._race(problem, folder, end, "lmcut()" if _axioms(translated.output) == 0 else "blind()")
+        try:
+            chosen = heuristics(needs_of(folder / "task.sas"))
+        except ValueError:
+            return GaveUp("Fast Downward did not take the problem: what its translator wrote is no task")
+        return self._race(problem, folder, end, chosen)
 
-    def _race(self, problem: Problem, folder: Path, end: float, heuristic: str) -> PlanResult:
-        proving = (self._programs.search, "--internal-plan-file", "proved", "--search", f"astar({heuristic})")
-        with Running(proving, folder, "proving.txt", self._limits, folder / "task.sas") as proof:
-            wait((proof,), min(end, time.monotonic() + HEAD_START_S))
-            answer = _proved(problem, folder, proof.outcome())
-            if answer is not None or time.monotonic() >= end:
-                return answer or _best(problem, folder, proof.outcome())
-            finding = ("--alias", "seq-sat-lama-2011", "--plan-file", "found", "task.sas")
-            with Running((*self._programs.driver, *finding), folder, "finding.txt", self._limits) as finder:
-                wait((proof,), end)
-                answer = _proved(problem, folder, proof.outcome())
-                if answer is None:
-                    wait((finder,), end)
-        return answer or _best(problem, folder, proof.outcome())
+    def _race(self, problem: Problem, folder: Path, end: float, chosen: Sequence[Heuristic]) -> PlanResult:
+        """Return what A* proves with one heuristic after the other, or the best that LAMA finds meanwhile."""
+        searched: list[Run] = []
+        finding = ("--alias", "seq-sat-lama-2011", "--plan-file", "found", "task.sas")
+        with ExitStack() as beside:
+            finder: Running | None = None
+            for index, heuristic in enumerate(chosen):
+                command = (
+                    self._programs.search,
+                    "--internal-plan-file",
+                    "proved",
+                    "--search",
+                    f"astar({heuristic.text})",
+                )
+                with Running(command, folder, f"proving{index}.txt", self._limits, folder / "task.sas") as proof:
+                    if finder is None:
+                        wait((proof,), min(end, time.monotonic() + HEAD_START_S))
+                        if not _has_proved(proof.outcome()) and time.monotonic() < end:
+                            finder = beside.enter_context(
+                                Running((*self._programs.driver, *finding), folder, "finding.txt", self._limits)
+                            )
+                    wait((proof,), _turn(heuristic, end))
+                    searched.append(proof.outcome())
+                if _has_proved(searched[-1]) or time.monotonic() >= end:
+                    break
+            answer = _proved(problem, folder, searched[-1])
+            if answer is None and finder is not None:
+                wait((finder,), end)
+        return answer or _best(problem, folder, searched)
+
+
+def _turn(heuristic: Heuristic, end: float) -> float:
+    """Return until when a search may take, by the monotonic clock."""
+    now = time.monotonic()
+    return now + heuristic.share * max(end - now, 0.0)
+
+
+def _has_proved(searched: Run) -> bool:
+    if not isinstance(searched, Ended):
+        return False
+    explored = searched.code == 12 and _ALL_EXPLORED in searched.output
+    return searched.code == 0 or searched.code in _UNSOLVABLE or explored
 
 
 def _proved(problem: Problem, folder: Path, searched: Run) -> PlanResult | None:
-    """Return what A* has proved, None as long as it has proved nothing."""
-    if isinstance(searched, Ended):
-        if searched.code == 0 and (folder / "proved").is_file():
-            return _solved(problem, folder / "proved", None)
-        if searched.code in _UNSOLVABLE or (searched.code == 12 and _ALL_EXPLORED in searched.output):
-            return Unsolvable("no sequence of skills reaches the goal")
-    return None
+    """Return what A* has proved, None where it has proved nothing."""
+    if not isinstance(searched, Ended) or not _has_proved(searched):
+        return None
+    if searched.code != 0:
+        return Unsolvable("no sequence of skills reaches the goal")
+    return _solved(problem, folder / "proved", None) if (folder / "proved").is_file() else None
 
 
-def _best(problem: Problem, folder: Path, searched: Run) -> PlanResult:
+def _best(problem: Problem, folder: Path, searched: Sequence[Run]) -> PlanResult:
     """Return the last whole plan that LAMA wrote, each is better than the one before; with the bound that A* proved."""
-    at_least = _bound(searched)
+    at_least = max(map(_bound, searched))
     plans = sorted(folder.glob("found*"), key=_number)
     whole = [path for path in plans if _COST.search(path.read_text("utf-8", "replace"))]
     if plans:
         return _solved(problem, (whole or plans)[-1], at_least)
-    known = f"; any plan takes at least {at_least / problem.domain.scale:g} s" if at_least else ""
-    return GaveUp(f"Fast Downward gave up: {_reason(searched)}{known}")
+    known = f"; any plan takes at least {float(at_least / problem.domain.scale):g} s" if at_least else ""
+    return GaveUp(f"Fast Downward gave up: {_reason(searched[-1])}{known}")
 
 
 def _solved(problem: Problem, file: Path, at_least: int | None) -> PlanResult:
-    """Return the plan in a file, proven to be the shortest unless only a bound on the cost is known, in units."""
+    """Return the plan in a file, proved to cost the least unless only a bound on the cost is known, in units."""
     try:
         text = file.read_text("utf-8")
         actions = [tuple(line.strip("() ").split()) for line in text.splitlines() if line.strip().startswith("(")]
-        plan = plan_of(problem, actions)
+        found = costed(problem, actions)
     except (UnicodeDecodeError, PlanTextError) as error:
         return GaveUp(f"Fast Downward wrote something that is no plan: {error}")
-    told, units = _COST.search(text), round(plan.duration_s * problem.domain.scale)
-    if told is None or int(told.group(1)) != units:
+    told = _COST.search(text)
+    if told is None or int(told.group(1)) != found.units:
         said = f"costs {told.group(1)}" if told else "has no cost"
-        return GaveUp(f"Fast Downward wrote something that is no plan: it {said}, but its steps cost {units}")
-    if at_least is None or units <= at_least:
-        return Solved(plan, "proven", FastDownward.name)
-    return Solved(plan, "best found", FastDownward.name, at_least_s=at_least / problem.domain.scale)
+        return GaveUp(f"Fast Downward wrote something that is no plan: it {said}, but its steps cost {found.units}")
+    bound = found.units if at_least is None else at_least
+    if bound < found.units or found.units > MOST_COST:
+        known = float(bound / problem.domain.scale) if found.units <= MOST_COST else None
+        return Solved(found.plan, "best found", FastDownward.name, at_least_s=known or None)
+    if found.exact:
+        return Solved(found.plan, "proven", FastDownward.name)
+    least_s = found.at_least_s(problem)
+    return Solved(found.plan, "optimal for approximate durations", FastDownward.name, at_least_s=least_s)
 
 
 def _number(file: Path) -> int:
@@ -162,11 +204,6 @@ def _bound(searched: Run) -> int:
     """Return the least cost that any plan can have, as far as A* had come; in units."""
     said = "" if isinstance(searched, NotStarted) else searched.output
     return max(map(int, _PROVED.findall(said)), default=0)
-
-
-def _axioms(said: str) -> int:
-    found = re.search(r"Translator axioms: (\d+)", said)
-    return int(found.group(1)) if found else 0
 
 
 def _reason(outcome: Run) -> str:

@@ -69,7 +69,7 @@ class Grounding:
         self._problem, self._end = problem, end
         types = {each.type for each in variables(problem.domain)}
         self._members = {type_: problem.domain.of_type(problem.objects, type_) for type_ in types}
-        self._costs = {(each.function, each.arguments): each.units for each in problem.costs}
+        self._costs = {(each.function, each.arguments): each.seconds for each in problem.costs}
         self._changing = {each.atom.predicate for action in problem.domain.actions for each in action.effects}
         self._static = frozenset(each for each in problem.init if each.predicate not in self._changing)
         self.init = frozenset(each for each in problem.init if each.predicate in self._changing)
@@ -231,10 +231,10 @@ class Grounding:
 
     def _units(self, action: Action, values: Values) -> int:
         match action.cost:
-            case FixedCost(units):
-                return units
+            case FixedCost(seconds):
+                return self._problem.domain.units(seconds)
             case ComputedCost(function, arguments):
-                return self._costs[function, tuple(values[each] for each in arguments)]
+                return self._problem.domain.units(self._costs[function, tuple(values[each] for each in arguments)])
 
 
 def _negated(formula: Formula) -> Formula:

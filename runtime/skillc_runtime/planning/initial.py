@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
 from itertools import product
 from math import prod
 from typing import assert_never
 
-from skillc_compiler.library.pddl.costs import ASSUMED_SECONDS, units
+from skillc_compiler.library.conditions import Expression
+from skillc_compiler.library.pddl.costs import ASSUMED_SECONDS, exact_seconds
 from skillc_compiler.library.pddl.domain import (
     ClassFact,
     CostFunction,
@@ -23,7 +25,7 @@ from skillc_compiler.library.pddl.problem import CostValue
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.expressions import EvaluationError, property_of, value_of
 from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import has
+from skillc_runtime.world.values import Value, has
 
 MOST_VALUES = 1_000_000
 
@@ -33,7 +35,10 @@ class TooManyValues(Exception):
 
 
 class Initial:
-    """Reads a version of the world for a planner; `undecided` collects what had no value for some individuals."""
+    """Reads a version of the world for a planner; `undecided` collects what had no value for some individuals.
+
+    `untimed` says why costs have no value, by function and arguments; they are taken for a second.
+    """
 
     def __init__(self, domain: PlanningDomain, state: WorldState, objects: Sequence[Typed], names: dict[str, str]):
         self._domain, self._state = domain, state
@@ -41,6 +46,7 @@ class Initial:
         self._names = {iri: name for name, iri in names.items()}
         self._members = {type_: domain.of_type(objects, type_) for type_ in _types(domain)}
         self.undecided: dict[str, None] = {}
+        self.untimed: dict[tuple[str, tuple[str, ...]], str] = {}
 
     def atoms(self) -> Iterator[Atom]:
         """Yield what is true at first, sorted within each predicate."""
@@ -51,7 +57,7 @@ class Initial:
         """Yield the value of each cost function for all tuples of its types."""
         for function in self._domain.costs:
             for names in self._choices(function.parameters, f"the duration of {function.skill}"):
-                yield CostValue(function.name, names, self._units(function, names))
+                yield CostValue(function.name, names, self._seconds(function, names))
 
     def _tuples(self, predicate: Predicate) -> Iterable[tuple[str, ...]]:
         match predicate.meaning:
@@ -108,14 +114,21 @@ class Initial:
             raise TooManyValues(f"{reader} would have to be worked out for {sizes} things")
         return product(*members)
 
-    def _units(self, function: CostFunction, names: tuple[str, ...]) -> int:
+    def _seconds(self, function: CostFunction, names: tuple[str, ...]) -> Fraction:
         bindings = {variable: self._iris[name] for variable, name in zip(function.variables, names, strict=True)}
-        try:
-            seconds = value_of(function.expression, self._state, bindings)
-        except EvaluationError as error:
-            self.undecided[f"duration of {function.skill}: {error}"] = None
-            return units(ASSUMED_SECONDS)
-        return units(seconds) if isinstance(seconds, int | float) else units(ASSUMED_SECONDS)
+        seconds = duration_s(function.expression, self._state, bindings)
+        if isinstance(seconds, Fraction):
+            return seconds
+        self.untimed[function.name, names] = f"duration of {function.skill}: {seconds}"
+        return ASSUMED_SECONDS
+
+
+def duration_s(expression: Expression, state: WorldState, bindings: Mapping[str, Value | None]) -> Fraction | str:
+    """Return a duration in seconds, or why there is none; then it is taken for `ASSUMED_SECONDS`."""
+    try:
+        return exact_seconds(value_of(expression, state, bindings))
+    except (EvaluationError, ValueError) as reason:
+        return str(reason)
 
 
 def _types(domain: PlanningDomain) -> set[str]:

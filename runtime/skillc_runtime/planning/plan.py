@@ -25,19 +25,32 @@ class Plan:
     duration_s: float
 
 
+Optimality: TypeAlias = Literal[
+    "proven", "optimal for the filtered problem", "optimal for approximate durations", "best found"
+]
+
+
 @dataclass(frozen=True, slots=True)
 class Solved:
     """A plan; `proven` when no plan is shorter. `planner` is who found it.
 
-    It was found without what is `left_out` of the scene; a shorter one that is `optimal for the filtered problem` would
-    have to need that. Any plan takes `at_least_s`, where that is known and less than proven.
+    It was found without what is `left_out` of the scene; a shorter one than what is `optimal for the filtered problem`
+    would have to need that. `optimal for approximate durations` is a plan of which that is proved for durations that
+    were rounded down to units that planners take, or estimated as the `assumptions` say. Any plan takes `at_least_s`,
+    where that is known and less than proven.
     """
 
     plan: Plan
-    optimal: Literal["proven", "optimal for the filtered problem", "best found"]
+    optimal: Optimality
     planner: str
     left_out: tuple[LeftOut, ...] = ()
     at_least_s: float | None = None
+    assumptions: tuple[str, ...] = ()
+
+    @property
+    def bound_s(self) -> float:
+        """A time in seconds that every plan takes."""
+        return self.plan.duration_s if self.optimal == "proven" else self.at_least_s or 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 
 import msgspec
 
 from skillc_compiler.library.conditions import Anything, Condition, Exists, Forall, Holds, Individual
-from skillc_compiler.library.pddl.domain import PlanningDomain
+from skillc_compiler.library.pddl.costs import common_scale
+from skillc_compiler.library.pddl.domain import Action, ComputedCost, PlanningDomain
 from skillc_compiler.library.pddl.formulas import TRUE, Formula, Typed, renamed
 from skillc_compiler.library.pddl.goals import ground_goal, with_predicates_of
 from skillc_compiler.library.pddl.names import object_names
-from skillc_compiler.library.pddl.problem import Problem
+from skillc_compiler.library.pddl.problem import Problem, durations
 from skillc_compiler.library.pddl.translate import Untranslatable
 from skillc_compiler.library.reading import walk
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_runtime.planning.domains import domain_of
 from skillc_runtime.planning.excluding import excluding
+from skillc_runtime.planning.grounding import Grounding, TimeIsUp
 from skillc_runtime.planning.initial import Initial
 from skillc_runtime.planning.left_out import LeftOut
 from skillc_runtime.planning.narrowing import Breadth
@@ -29,6 +33,9 @@ from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.expressions import EvaluationError
 from skillc_runtime.world.state import WorldState
 
+LONGEST_S = 2.0
+"""Finding out whether an action without a known duration may ever apply takes no longer than this."""
+
 
 class GoalError(ValueError):
     """A goal that cannot be planned for; the message says what of it, in the author's words."""
@@ -38,16 +45,20 @@ class GoalError(ValueError):
 class Posed:
     """A problem with the library it speaks of (the scene's own classes included), and what could not be decided.
 
-    `undecided` are static conditions and durations that have no value for some individuals, which are left out.
+    `undecided` are static conditions that have no value for some individuals, which are left out; `assumptions` say
+    which durations are not known before the plan is executed.
     `left_out` lists what the scene and the library have beyond the problem, with reasons; `others` are those
     individuals of it that might make a difference, by their types: where there are any, the problem is `narrowed`.
+    An `open_goal` speaks of whoever stands in a relation, of which a narrowed problem knows only those that it keeps.
     """
 
     problem: Problem
     library: SkillLibrary
     undecided: tuple[str, ...]
+    assumptions: tuple[str, ...] = ()
     left_out: tuple[LeftOut, ...] = ()
     others: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    open_goal: bool = False
 
     @property
     def narrowed(self) -> bool:
@@ -81,6 +92,8 @@ def pose_problem(
     useful = Helpful(domain, ()) if wanted == TRUE else helpful(domain, wanted)
     selection = select(useful.domain, state, kinds, named, breadth)
     types = selection.kept
+    if _is_open(goal):
+        wanted = _ground(goal, library, domain, named | types.keys(), state)
     names = object_names(types, state.vocabulary, domain.names.keys() | {each.name for each in domain.predicates})
     by_iri = {iri: name for name, iri in names.items()}
     objects = tuple(Typed(name, types[iri]) for name, iri in sorted(names.items()))
@@ -97,7 +110,37 @@ def pose_problem(
     )
     unhelpful = LeftOut(useful.unhelpful, "nothing that the goal depends on is changed by them", harmless=True)
     left_out = (*((unhelpful,) if useful.unhelpful else ()), *selection.left_out)
-    return Posed(problem, library, tuple(initial.undecided), left_out, selection.others)
+    problem = replace(problem, domain=replace(domain, scale=common_scale(durations(problem))))
+    assumptions = (*_untimed(initial, problem), *_estimates(domain, state.vocabulary))
+    return Posed(problem, library, tuple(initial.undecided), assumptions, left_out, selection.others, _is_open(goal))
+
+
+def _untimed(initial: Initial, problem: Problem) -> Iterator[str]:
+    """Yield why durations of actions have no value, if those may ever apply as far as can be found out soon."""
+    unknown = initial.untimed
+    if not unknown:
+        return
+    actions = {each.name: each for each in problem.domain.actions if isinstance(each.cost, ComputedCost)}
+    used = set(unknown)
+    with suppress(TimeIsUp):
+        grounding = Grounding(problem, time.monotonic() + LONGEST_S)
+        used &= {
+            _cost_of(actions[each.words[0]], each.words[1:]) for each in grounding.actions if each.words[0] in actions
+        }
+    yield from dict.fromkeys(unknown[each] for each in sorted(used))
+
+
+def _cost_of(action: Action, names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
+    assert isinstance(action.cost, ComputedCost)
+    bound = {each.name: name for each, name in zip(action.parameters, names, strict=True)}
+    return action.cost.function, tuple(bound[each] for each in action.cost.arguments)
+
+
+def _estimates(domain: PlanningDomain, vocabulary: Vocabulary) -> Iterator[str]:
+    for each in domain.costs:
+        if each.moving is not None:
+            read = vocabulary.short(each.moving)
+            yield f"duration of {each.skill}: reads `{read}`, which may change; its value before the plan is taken"
 
 
 def _in_the_words_of(vocabulary: Vocabulary, library: SkillLibrary) -> SkillLibrary:
@@ -118,7 +161,19 @@ def _named(goal: Condition, state: WorldState) -> frozenset[str]:
                 named |= state.instances(cls)
             case Holds(subject, relation, object_) if Anything() in (subject, object_):
                 named |= {individual for pair in state.pairs(relation) for individual in pair}
+                named |= {min(members) for members in _sides(relation, state) if members}
     return named
+
+
+def _sides(relation: str, state: WorldState) -> Iterator[frozenset[str]]:
+    """Yield who may stand on some side of a relation."""
+    for each in state.vocabulary.relations[relation].signatures:
+        yield from (state.instances(each.domain), state.instances(each.range))
+
+
+def _is_open(goal: Condition) -> bool:
+    """Whether a goal speaks of whoever stands in a relation, which may be somebody else once steps change it."""
+    return any(isinstance(each, Holds) and Anything() in (each.subject, each.object) for each in walk(goal))
 
 
 def _combined(kinds: Kinds, vocabulary: Vocabulary) -> frozenset[frozenset[str]]:

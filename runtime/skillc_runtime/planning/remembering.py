@@ -19,7 +19,7 @@ from skillc_compiler.library.pddl.text import domain_text, problem_text, tempora
 from skillc_runtime.planning.plan import GaveUp, Planner, PlanResult, Solved
 from skillc_runtime.planning.schedule import Schedule, Scheduler
 
-FORMAT = 1
+FORMAT = 2
 """Counts up when the meaning of what is kept changes."""
 
 SLACK = 0.95
@@ -131,6 +131,9 @@ def _names(problem: Problem) -> Iterator[str]:
         yield f"{name} {iri}"
     for action in problem.domain.actions:
         yield " ".join((action.name, action.skill or "", *action.binds))
+    if problem.rounds_down:
+        yield from (f"{action.name} {action.cost}" for action in problem.domain.actions)
+        yield from (f"{each.function} {each.arguments} {each.seconds}" for each in problem.costs)
 
 
 def _read(content: bytes | None, kind: type[Kept]) -> Kept | None:

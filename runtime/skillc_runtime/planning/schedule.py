@@ -42,7 +42,8 @@ class Scheduled:
 
     `plan` has the same steps in an order in which they also work one after the other; its duration is all their work.
     `planner` is who found the plan, `times` says where the times come from. Any plan takes `at_least_s`, where that is
-    known and less than proven; `note` says what else was tried, or would have been.
+    known and less than proven; `assumptions` say which durations are estimates. `note` says what else was tried,
+    or would have been.
     """
 
     schedule: Schedule
@@ -53,11 +54,12 @@ class Scheduled:
     at_least_s: float | None = None
     note: str | None = None
     left_out: tuple[LeftOut, ...] = ()
+    assumptions: tuple[str, ...] = ()
 
     def as_solved(self) -> Solved:
         """Return it as a plan that takes as long as the schedule."""
         plan = Plan(self.plan.steps, self.schedule.makespan_s)
-        return Solved(plan, self.optimal, self.planner, self.left_out, self.at_least_s)
+        return Solved(plan, self.optimal, self.planner, self.left_out, self.at_least_s, self.assumptions)
 
 
 class Scheduler(Protocol):

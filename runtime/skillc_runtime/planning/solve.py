@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.pddl.problem import Problem
@@ -11,9 +12,18 @@ from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.planning.choose import available
 from skillc_runtime.planning.diagnose import why_unsolvable
 from skillc_runtime.planning.narrowing import NARROW, Breadth
-from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Step, Unsolvable
+from skillc_runtime.planning.plan import (
+    GaveUp,
+    Optimality,
+    Plan,
+    Planner,
+    PlanResult,
+    Solved,
+    Step,
+    Unsolvable,
+)
 from skillc_runtime.planning.problem import GoalError, Posed, pose_problem
-from skillc_runtime.planning.validate import PlanError, validate
+from skillc_runtime.planning.validate import PlanError, validate, work_of_s
 from skillc_runtime.planning.widening import Means, in_stages
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.expressions import EvaluationError
@@ -86,6 +96,22 @@ def _checked(result: PlanResult, posed: Posed, state: WorldState, goal: Conditio
         return result
     try:
         validate(result.plan, posed.library, state, goal)
+        work_s = work_of_s(result.plan, posed.library, state)
     except PlanError as error:
         return GaveUp(f"{result.planner} returned a plan that does not work: {error}")
-    return result
+    return _estimated(result, work_s, posed.assumptions) if posed.assumptions else _timed(result, work_s)
+
+
+def _timed(solved: Solved, work_s: float) -> PlanResult:
+    if work_s == solved.plan.duration_s:
+        return solved
+    return GaveUp(
+        f"{solved.planner} returned a plan that does not work: it takes {work_s:g} s, not {solved.plan.duration_s:g}"
+    )
+
+
+def _estimated(solved: Solved, work_s: float, assumptions: tuple[str, ...]) -> Solved:
+    """Return a plan without the claims that hold only as far as durations are what they were taken for."""
+    optimal: Optimality = "best found" if solved.optimal == "best found" else "optimal for approximate durations"
+    plan = replace(solved.plan, duration_s=work_s)
+    return replace(solved, plan=plan, optimal=optimal, at_least_s=None, assumptions=assumptions)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
 
 from skillc_compiler.library.pddl.domain import Action, ComputedCost, FixedCost
 from skillc_compiler.library.pddl.problem import Problem
@@ -15,11 +17,31 @@ class PlanTextError(ValueError):
 
 def plan_of(problem: Problem, actions: Iterable[tuple[str, ...]]) -> Plan:
     """Return the plan of actions given as (name, object ..); PlanTextError when there is no such action or object."""
+    return costed(problem, actions).plan
+
+
+@dataclass(frozen=True, slots=True)
+class Costed:
+    """A plan with what planners take for its cost, in units, which is `exact` where no duration was rounded down."""
+
+    plan: Plan
+    units: int
+    exact: bool
+
+    def at_least_s(self, problem: Problem) -> float:
+        """Return a time in seconds that every plan takes if none costs fewer units."""
+        return float(self.units / problem.domain.scale)
+
+
+def costed(problem: Problem, actions: Iterable[tuple[str, ...]]) -> Costed:
+    """Return the plan of actions given as (name, object ..); PlanTextError when there is no such action or object."""
     ground = [_action(problem, each) for each in actions]
-    values = {(each.function, each.arguments): each.units for each in problem.costs}
-    units = sum(_units(action, arguments, values) for action, arguments in ground)
+    values = {(each.function, each.arguments): each.seconds for each in problem.costs}
+    durations = [_seconds(action, arguments, values) for action, arguments in ground]
     steps = (_step(problem, *each) for each in ground)
-    return Plan(tuple(step for step in steps if step is not None), units / problem.domain.scale)
+    plan = Plan(tuple(step for step in steps if step is not None), float(sum(durations)))
+    units = sum(map(problem.domain.units, durations))
+    return Costed(plan, units, units == problem.domain.scale * sum(durations))
 
 
 def step_of(problem: Problem, words: tuple[str, ...]) -> Step | None:
@@ -45,10 +67,12 @@ def _action(problem: Problem, words: tuple[str, ...]) -> tuple[Action, tuple[str
     return action, tuple(arguments)
 
 
-def _units(action: Action, arguments: tuple[str, ...], values: dict[tuple[str, tuple[str, ...]], int]) -> int:
+def _seconds(
+    action: Action, arguments: tuple[str, ...], values: dict[tuple[str, tuple[str, ...]], Fraction]
+) -> Fraction:
     match action.cost:
-        case FixedCost(units):
-            return units
+        case FixedCost(seconds):
+            return seconds
         case ComputedCost(function, variables):
             bound = {each.name: value for each, value in zip(action.parameters, arguments, strict=True)}
             return values[function, tuple(bound[each] for each in variables)]

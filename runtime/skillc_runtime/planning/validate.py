@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from fractions import Fraction
 
 from skillc_compiler.library.conditions import Condition
+from skillc_compiler.library.pddl.costs import ASSUMED_SECONDS, duration_of
 from skillc_compiler.library.skills import Implementation, Parameter, Requirement, SkillLibrary
 from skillc_compiler.library.vocabulary import ClassType
+from skillc_runtime.planning.initial import duration_s
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.world.changes import Change
 from skillc_runtime.world.conditions import evaluate
@@ -66,6 +69,32 @@ def effects_of(step: Step, library: SkillLibrary, state: WorldState) -> tuple[Ch
     skill = library.skills[step.skill]
     effects = [effect for post in skill.post for effect in post.effects]
     return changes_of(effects, state, bindings_of(step, library, state))
+
+
+def duration_of_step(step: Step, library: SkillLibrary, state: WorldState, before: WorldState) -> Fraction:
+    """Return how long a step that starts in `state` is expected to last, in seconds.
+
+    The first implementation that fits is taken. What the duration reads is taken from the world `before` the plan, as
+    planners do. PlanError when the step cannot start.
+    """
+    try:
+        implementation = fitting(step, library, state)[0]
+        duration = duration_of(library.skills[step.skill], implementation)
+        if duration is None:
+            return ASSUMED_SECONDS
+        seconds = duration_s(duration, before, _bindings(implementation.parameters, step, before))
+    except EvaluationError as reason:
+        raise PlanError(str(reason)) from reason
+    return seconds if isinstance(seconds, Fraction) else ASSUMED_SECONDS
+
+
+def work_of_s(plan: Plan, library: SkillLibrary, state: WorldState) -> float:
+    """Return the time that all steps of a plan take together, in seconds; PlanError when it does not work."""
+    before, work = state, Fraction(0)
+    for step in plan.steps:
+        work += duration_of_step(step, library, state, before)
+        state = after_step(step, library, state)
+    return float(work)
 
 
 def bindings_of(step: Step, library: SkillLibrary, state: WorldState) -> Bindings:

@@ -25,8 +25,6 @@ STAGE_SHARE = 0.5
 BOUND_S = 2.0
 """Finding out whether a plan for a part of the scene is the cheapest of all takes no longer than this."""
 
-TOLERANCE_S = 1e-6
-
 Pose: TypeAlias = Callable[[Breadth | None], Posed]
 Answer: TypeAlias = Callable[[Posed, float], PlanResult]
 Search: TypeAlias = Callable[[Problem, float], PlanResult]
@@ -96,13 +94,12 @@ def _labelled(solved: Solved, posed: Posed, means: Means, state: WorldState, end
     """Return a plan of a narrowed problem with what is known about it in the whole scene."""
     found = replace(solved, left_out=posed.left_out, at_least_s=None)
     if solved.optimal != "proven":
-        return found
+        return replace(found, optimal="best found")
     bound = _bound(posed, means, state, end)
-    if not isinstance(bound, Solved) or bound.optimal != "proven":
-        return replace(found, optimal="optimal for the filtered problem")
-    if bound.plan.duration_s >= solved.plan.duration_s - TOLERANCE_S:
+    least_s = bound.bound_s if isinstance(bound, Solved) else 0.0
+    if least_s >= solved.plan.duration_s:
         return found
-    return replace(found, optimal="optimal for the filtered problem", at_least_s=bound.plan.duration_s)
+    return replace(found, optimal="optimal for the filtered problem", at_least_s=least_s or None)
 
 
 def _out_of_reach(posed: Posed, means: Means, state: WorldState, end: float) -> str | None:

@@ -13,7 +13,7 @@ from skillc_runtime.planning.plan import Planner, Solved
 from skillc_runtime.planning.problem import Posed
 from skillc_runtime.planning.schedule import Schedule
 
-TOLERANCE_S = 1e-6
+TOLERANCE_S = 1e-9
 SHARE = 0.5
 """The critical path gets this share of the time, the devices what is left."""
 
@@ -21,9 +21,9 @@ SHARE = 0.5
 def at_least_s(posed: Posed, schedule: Schedule, planner: Planner, deadline_s: float) -> float:
     """Return a time in seconds that every plan takes; looking for a better bound ends where a schedule meets it.
 
-    Of a problem that leaves out what may make a difference nothing is known: 0.
+    Of a problem that leaves out what may make a difference, or whose durations are not known, nothing is known: 0.
     """
-    if posed.narrowed:
+    if posed.narrowed or posed.assumptions:
         return 0.0
     end, problem = time.monotonic() + deadline_s, posed.problem
     bound = critical_path_s(problem, SHARE * deadline_s)
@@ -33,8 +33,7 @@ def at_least_s(posed: Posed, schedule: Schedule, planner: Planner, deadline_s: f
             break  # no device need work longer than it does here
         answer = planner.plan(work_of(problem, names[device]), max(end - time.monotonic(), 0.0))
         if isinstance(answer, Solved):
-            known = answer.plan.duration_s if answer.optimal == "proven" else answer.at_least_s
-            bound = max(bound, known or 0.0)
+            bound = max(bound, answer.bound_s)
     return bound
 
 

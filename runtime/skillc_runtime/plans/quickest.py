@@ -16,13 +16,13 @@ from skillc_runtime.planning.plan import GaveUp, Plan, Solved, Step, Unsolvable
 from skillc_runtime.planning.problem import Posed, pose_problem
 from skillc_runtime.planning.schedule import Schedule, Scheduled, Scheduler
 from skillc_runtime.planning.solve import DEADLINE_S, solve
-from skillc_runtime.planning.validate import PlanError, validate
+from skillc_runtime.planning.validate import PlanError, validate, work_of_s
 from skillc_runtime.plans.least import TOLERANCE_S, at_least_s
 from skillc_runtime.plans.rehearsal import rehearse
 from skillc_runtime.plans.scheduling import scheduled
 from skillc_runtime.world.state import WorldState
 
-BY_LINKS = "each step begins as soon as those are over that it waits for"
+BY_LINKS = "each step begins when the part of the plan before it is over"
 SHARE = 0.5
 """The plan with the least work gets this share of the time, one that is over earlier what is left."""
 BOUND_S = 4.0
@@ -73,7 +73,7 @@ def quickest(
     if isinstance(first, Scheduled):
         seconds = min(BOUND_S, question.left_s)
         least_s = at_least_s(posed, first.schedule, planners.for_work[0], seconds)
-        first = _rated(replace(first, left_out=posed.left_out), least_s)
+        first = _rated(replace(first, left_out=posed.left_out, assumptions=posed.assumptions), least_s)
         if first.optimal == "proven":
             return first
     return _better(first, planners.for_makespan, posed, question)
@@ -98,14 +98,14 @@ def _better(
     if isinstance(answer, GaveUp):
         return _noted(first, answer.why)
     try:
-        rehearse(answer, question.library, question.state, question.goal)
         plan, tight = _tightened(answer, question)
     except PlanError as error:
         return _noted(first, f"{scheduler.name} returned a schedule that does not work: {error}")
     if isinstance(first, Scheduled) and tight.makespan_s >= first.schedule.makespan_s - TOLERANCE_S:
         return _noted(first, f"{scheduler.name} found none that is over earlier")
     least_s = first.at_least_s if isinstance(first, Scheduled) else None
-    found = Scheduled(tight, plan, "best found", scheduler.name, scheduler.name, left_out=posed.left_out)
+    found = Scheduled(tight, plan, "best found", scheduler.name, scheduler.name)
+    found = replace(found, left_out=posed.left_out, assumptions=posed.assumptions)
     return _rated(found, least_s or 0.0)
 
 
@@ -121,15 +121,15 @@ def _tightened(schedule: Schedule, question: Question) -> tuple[Plan, Schedule]:
     A temporal planner leaves gaps between steps, and times that meet in other ways than steps that run can.
     """
     library, state, goal = question.library, question.state, question.goal
-    work_s = sum(each.duration_s for each in schedule.steps)
     by_begin = tuple(each.step for each in schedule.steps)
     by_end = tuple(each.step for each in sorted(schedule.steps, key=lambda each: each.end_s))
     try:
-        plan = Plan(by_begin, work_s)
-        validate(plan, library, state, goal)
+        validate(Plan(by_begin, 0.0), library, state, goal)
+        steps = by_begin
     except PlanError:
-        plan = Plan(by_end, work_s)
-        validate(plan, library, state, goal)
+        validate(Plan(by_end, 0.0), library, state, goal)
+        steps = by_end
+    plan = Plan(steps, work_of_s(Plan(steps, 0.0), library, state))
     tight = scheduled(plan, library, state)
     rehearse(tight, library, state, goal)
     return plan, tight

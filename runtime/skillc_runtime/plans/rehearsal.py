@@ -15,9 +15,15 @@ from skillc_compiler.library.pddl.devices import devices
 from skillc_compiler.library.skills import Implementation, SkillLibrary
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.schedule import Schedule, TimedStep
-from skillc_runtime.planning.validate import PlanError, fitting, reached, still_held, with_effects
+from skillc_runtime.planning.validate import (
+    PlanError,
+    duration_of_step,
+    fitting,
+    reached,
+    still_held,
+    with_effects,
+)
 from skillc_runtime.plans.order import touched_by
-from skillc_runtime.plans.scheduling import expected_s
 from skillc_runtime.plans.touched import Touched
 from skillc_runtime.world.expressions import EvaluationError
 from skillc_runtime.world.model import WorldError
@@ -49,7 +55,7 @@ def rehearse(schedule: Schedule, library: SkillLibrary, state: WorldState, goal:
 class _Rehearsal:
     def __init__(self, schedule: Schedule, library: SkillLibrary, state: WorldState) -> None:
         self._steps, self._library, self._state = schedule.steps, library, state
-        self._locked = devices(library)
+        self._before, self._locked = state, devices(library)
         self._active: dict[int, _Active] = {}
 
     def play(self, goal: Condition) -> WorldState:
@@ -61,27 +67,32 @@ class _Rehearsal:
             _by_instant(each.end_s for each in self._steps),
         )
         for instant in sorted(begins.keys() | ends.keys()):
-            for number in ends.get(instant, ()):
-                self._end(number)
+            beginning, ending = begins.get(instant, ()), ends.get(instant, ())
+            for number in ending:
+                if number in self._active:
+                    self._end(number)
             self._check_holds()
-            for number in begins.get(instant, ()):
+            for number in beginning:
                 self._begin(number)
+                if number in ending:
+                    self._end(number)
+                    self._check_holds()
         return reached(goal, self._state)
 
     def _check_times(self, number: int, timed: TimedStep) -> None:
         with _blaming(number, timed.step):
             if timed.step.skill not in self._library.skills:
                 raise PlanError("there is no such skill")
-            expected = expected_s(timed.step, self._library, self._state)
             if timed.start_s < -INSTANT_S:
                 raise PlanError("it begins before the plan does")
-            if abs(timed.duration_s - expected) > INSTANT_S:
-                raise PlanError(f"it takes {expected:g} s, not {timed.duration_s:g}")
 
     def _begin(self, number: int) -> None:
         step, library, state = self._steps[number - 1].step, self._library, self._state
         with _blaming(number, step):
             implementations = fitting(step, library, state)
+            expected_s = float(duration_of_step(step, library, state, self._before))
+            if abs(self._steps[number - 1].duration_s - expected_s) > INSTANT_S:
+                raise PlanError(f"it takes {expected_s:g} s, not {self._steps[number - 1].duration_s:g}")
             touched = touched_by(step, library, self._locked, state, with_effects(step, library, state))
             for other, active in self._active.items():
                 shared = active.touched.shares_with(touched)

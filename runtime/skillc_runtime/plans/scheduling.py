@@ -2,36 +2,51 @@
 
 from __future__ import annotations
 
-from skillc_compiler.library.pddl.costs import ASSUMED_SECONDS, UNITS_PER_SECOND, units
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from typing import assert_never
+
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.planning.plan import Plan, Step
+from skillc_runtime.planning.plan import Plan
 from skillc_runtime.planning.schedule import Schedule, TimedStep
-from skillc_runtime.planning.validate import bindings_of
-from skillc_runtime.plans.order import waited_for
-from skillc_runtime.world.expressions import EvaluationError, value_of
+from skillc_runtime.planning.validate import after_step, duration_of_step
+from skillc_runtime.plans.order import Arrangement, InOrder, Together, arranged
 from skillc_runtime.world.state import WorldState
 
 
 def scheduled(plan: Plan, library: SkillLibrary, state: WorldState) -> Schedule:
     """Return the earliest times for the steps of a plan; PlanError when it does not work from this world.
 
-    A step waits for those that change what it reads, read what it changes, settle the same facts or lock the same
-    device. Which steps these are is part of the plan; with other steps all may be over earlier.
+    They are those of the body that runs the plan: its parts begin when the part before them is over.
     """
-    timed: list[TimedStep] = []
-    for step, earlier in zip(plan.steps, waited_for(plan, library, state), strict=True):
-        start_s = max((timed[each].end_s for each in earlier), default=0.0)
-        timed.append(TimedStep(step, start_s, expected_s(step, library, state)))
-    return Schedule(tuple(sorted(timed, key=lambda each: each.start_s)))
+    lasting = durations_s(plan, library, state)
+    times = sorted(_begins(arranged(plan, library, state), Fraction(0), lasting), key=lambda each: each[::-1])
+    return Schedule(
+        tuple(TimedStep(plan.steps[number], float(start), float(lasting[number])) for number, start in times)
+    )
 
 
-def expected_s(step: Step, library: SkillLibrary, state: WorldState) -> float:
-    """Return how long a step is expected to last, in whole tenths of a second, by the world before the plan."""
-    duration = library.skills[step.skill].duration
-    if duration is None:
-        return ASSUMED_SECONDS
-    try:
-        seconds = value_of(duration, state, bindings_of(step, library, state))
-    except EvaluationError:
-        return ASSUMED_SECONDS
-    return (units(seconds) if isinstance(seconds, int | float) else units(ASSUMED_SECONDS)) / UNITS_PER_SECOND
+def durations_s(plan: Plan, library: SkillLibrary, state: WorldState) -> tuple[Fraction, ...]:
+    """Return how long the steps of a plan are expected to last, in seconds; PlanError when it does not work."""
+    before, found = state, []
+    for step in plan.steps:
+        found.append(duration_of_step(step, library, state, before))
+        state = after_step(step, library, state)
+    return tuple(found)
+
+
+def _begins(part: Arrangement, start: Fraction, lasting: Sequence[Fraction]) -> Iterator[tuple[int, Fraction]]:
+    """Yield the steps of a part that begins at a time, each with the time at which it begins, in seconds."""
+    match part:
+        case int():
+            yield part, start
+        case InOrder(parts):
+            for each in parts:
+                begins = tuple(_begins(each, start, lasting))
+                yield from begins
+                start = max((begin + lasting[number] for number, begin in begins), default=start)
+        case Together(parts):
+            for each in parts:
+                yield from _begins(each, start, lasting)
+        case _:
+            assert_never(part)

@@ -4,33 +4,59 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
-from skillc_compiler.library.pddl.costs import action_cost
-from skillc_compiler.library.pddl.domain import Action, CostFunction, Predicate
+from skillc_compiler.library.conditions import Expression
+from skillc_compiler.library.pddl.costs import action_cost, duration_of
+from skillc_compiler.library.pddl.domain import Action, Cost, CostFunction, Predicate
 from skillc_compiler.library.pddl.effects import Effects
 from skillc_compiler.library.pddl.formulas import FALSE, Change, Formula, conjunction, conjuncts, disjunction
 from skillc_compiler.library.pddl.guards import Guards
+from skillc_compiler.library.pddl.names import fresh, kebab
 from skillc_compiler.library.pddl.parameters import Defaults, defaults, planned_parameters
 from skillc_compiler.library.pddl.symbols import Symbols
-from skillc_compiler.library.pddl.translate import Scope, Translator, Untranslatable
+from skillc_compiler.library.pddl.translate import Scope, Translator, Untranslatable, negated
 from skillc_compiler.library.skills import Implementation, Requirement, Skill
 from skillc_compiler.library.vocabulary import ClassType
 
 
 @dataclass(frozen=True)
 class Planned:
-    """An action with the static predicates and functions that it alone uses."""
+    """The actions of a skill with the static predicates and functions that they alone use."""
 
-    action: Action
+    actions: tuple[Action, ...]
     guards: tuple[Predicate, ...]
-    cost: CostFunction | None
+    costs: tuple[CostFunction, ...]
+
+    @property
+    def names(self) -> frozenset[str]:
+        """The names that no other skill's actions, predicates and functions may have."""
+        named: tuple[Action | Predicate | CostFunction, ...] = (*self.actions, *self.guards, *self.costs)
+        return frozenset(each.name for each in named)
 
 
-def planned_action(
-    name: str, skill: Skill, implementations: Sequence[Implementation], symbols: Symbols, locks: Collection[str]
+@dataclass(frozen=True)
+class _Case:
+    """Implementations that take equally long, one after the other in rank order, and when one of them is taken."""
+
+    first: Implementation
+    duration: Expression | None
+    chosen: Formula
+
+
+def planned_actions(
+    name: str,
+    skill: Skill,
+    implementations: Sequence[Implementation],
+    symbols: Symbols,
+    locks: Collection[str],
+    taken: Collection[str],
 ) -> Planned:
-    """Return the action of a skill that locks these parameters; Untranslatable says why a planner cannot reason so."""
-    taken = symbols.names.keys()
+    """Return the actions of a skill that locks these parameters; Untranslatable says why a planner cannot reason so.
+
+    The first implementation that fits is taken: for each duration there is an action, which demands that one of its
+    implementations fits and none that comes before them does. `taken` are names that nothing else may have.
+    """
     guards = Guards(skill.name, symbols, taken)
     return _Builder(name, skill, tuple(implementations), symbols, guards, taken, locks).planned()
 
@@ -46,14 +72,32 @@ class _Builder:
     locks: Collection[str]
 
     def planned(self) -> Planned:
+        if not self.implementations:
+            raise Untranslatable("it has no implementation")
         scope = planned_parameters(self.skill.parameters, self.symbols.hierarchy)
         given = defaults(self.skill.parameters)
         hold = self._requirements(self.skill.hold, "hold condition", given, scope)
-        precondition = conjunction(self._preconditions(given, scope))
+        described = conjunction(self._described(given, scope))
+        actions: list[Action] = []
+        costs: list[CostFunction] = []
+        for case in self._cases(scope):
+            precondition = conjunction((described, case.chosen))
+            if conjunction((precondition, hold)) != FALSE:
+                taken = {*self.taken, *(each.name for each in actions), *(each.name for each in costs)}
+                name = fresh(f"{self.name}-{kebab(case.first.name)}", taken) if actions else self.name
+                cost, function = action_cost(
+                    self.skill.name, case.duration, defaults(case.first.parameters), scope, self.symbols, taken
+                )
+                actions.append(self._action(name, precondition, hold, cost, scope))
+                costs += [function] if function else []
+        if not actions:
+            raise Untranslatable("its conditions can never hold")
+        return Planned(tuple(actions), tuple(self.guards.found.values()), tuple(costs))
+
+    def _action(self, name: str, precondition: Formula, hold: Formula, cost: Cost, scope: Scope) -> Action:
         effects = self._effects(conjunction((precondition, hold)), hold, scope)
-        cost, function = action_cost(self.skill, given, scope, self.taken)
-        action = Action(
-            name=self.name,
+        return Action(
+            name=name,
             skill=self.skill.name,
             parameters=tuple(place.variable for place in scope.values()),
             binds=tuple(scope),
@@ -65,13 +109,20 @@ class _Builder:
             doc=self.skill.doc,
             source=self.skill.source,
         )
-        return Planned(action, tuple(self.guards.found.values()), function)
 
-    def _preconditions(self, given: Defaults, scope: Scope) -> Iterator[Formula]:
+    def _described(self, given: Defaults, scope: Scope) -> Iterator[Formula]:
         translator = self._translator()
         yield from (translator.membership(place.cls, place) for place in scope.values())
         yield self._requirements(self.skill.pre, "precondition", given, scope)
-        yield disjunction(self._alternative(each, scope) for each in self.implementations)
+
+    def _cases(self, scope: Scope) -> Iterator[_Case]:
+        """Yield when an implementation of each duration is the first that fits."""
+        earlier: list[Formula] = []
+        for duration, group in groupby(self.implementations, lambda each: duration_of(self.skill, each)):
+            members = tuple(group)
+            fits = disjunction(self._alternative(each, scope) for each in members)
+            yield _Case(members[0], duration, conjunction((fits, *map(negated, earlier))))
+            earlier.append(fits)
 
     def _alternative(self, implementation: Implementation, scope: Scope) -> Formula:
         """Return what an implementation demands beyond the description: narrower types and conditions of its own."""
@@ -109,10 +160,6 @@ class _Builder:
         return Translator(self.symbols, self.guards.labelled(label, text), {})
 
     def _effects(self, known: Formula, hold: Formula, scope: Scope) -> tuple[Change, ...]:
-        if not self.implementations:
-            raise Untranslatable("it has no implementation")
-        if known == FALSE:
-            raise Untranslatable("its conditions can never hold")
         changes = Effects(self._translator(), scope, known).changes(self.skill.post)
         if not changes:
             raise Untranslatable("it changes nothing that a planner can see")

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
+from math import floor
 from typing import TypeAlias
 
 from skillc_compiler.library.conditions import Condition, Expression
@@ -86,9 +88,9 @@ class Predicate:
 
 @dataclass(frozen=True)
 class FixedCost:
-    """A cost in units of 1 / scale seconds."""
+    """The same duration for all things, in seconds."""
 
-    units: int
+    seconds: Fraction
 
 
 @dataclass(frozen=True)
@@ -104,18 +106,24 @@ Cost: TypeAlias = FixedCost | ComputedCost
 
 @dataclass(frozen=True)
 class CostFunction:
-    """A static function: the seconds are `expression` with `variables` bound to the arguments, in the initial world."""
+    """A static function: the seconds are `expression` with `variables` bound to the arguments, in the initial world.
+
+    `moving` is a property or relation (IRI) that the expression reads and skills change: the value is an estimate.
+    """
 
     name: str
     parameters: tuple[Typed, ...]
     variables: tuple[str, ...]
     expression: Expression
     skill: str
+    moving: str | None = None
 
 
 @dataclass(frozen=True)
 class Action:
-    """A skill as a planner sees it; `binds` names the skill's parameter behind each action parameter.
+    """A skill as a planner sees it, by implementations that take equally long.
+
+    `binds` names the skill's parameter behind each action parameter.
 
     A goal action (`skill` is None) costs nothing and is no step of a plan. `uses` are variables of locked devices.
     """
@@ -144,7 +152,10 @@ class Excluded:
 
 @dataclass(frozen=True)
 class PlanningDomain:
-    """A planning domain; `names` leads from PDDL names back to IRIs and skills, `scale` is cost units per second."""
+    """A planning domain; `names` leads from PDDL names back to IRIs and skills, `scale` is cost units per second.
+
+    Costs are exact; planners get whole units, which are exact as long as the scale is a multiple of all denominators.
+    """
 
     name: str
     types: tuple[PlanningType, ...]
@@ -153,7 +164,7 @@ class PlanningDomain:
     actions: tuple[Action, ...]
     excluded: tuple[Excluded, ...]
     names: dict[str, str]
-    scale: float
+    scale: Fraction
     constants: tuple[Typed, ...] = ()
 
     @cached_property
@@ -173,6 +184,10 @@ class PlanningDomain:
     def action(self) -> dict[str, Action]:
         """The actions by name."""
         return {each.name: each for each in self.actions}
+
+    def units(self, seconds: Fraction) -> int:
+        """Return a duration in whole units, rounded down where the scale cannot tell it."""
+        return floor(seconds * self.scale)
 
     def type_of(self, classes: Iterable[str]) -> str:
         """Return the most specific type for an individual of these classes (IRIs); `thing` when none is known."""

@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
-from skillc_compiler.library.pddl.actions import Planned, planned_action
-from skillc_compiler.library.pddl.costs import UNITS_PER_SECOND
+from skillc_compiler.library.pddl.actions import Planned, planned_actions
+from skillc_compiler.library.pddl.costs import common_scale
 from skillc_compiler.library.pddl.devices import devices
-from skillc_compiler.library.pddl.domain import Excluded, PlanningDomain, Predicate
+from skillc_compiler.library.pddl.domain import Excluded, FixedCost, PlanningDomain, Predicate
 from skillc_compiler.library.pddl.effects import changed_terms
 from skillc_compiler.library.pddl.formulas import atoms
 from skillc_compiler.library.pddl.hierarchy import Hierarchy
@@ -58,12 +58,14 @@ def planning_domain(library: SkillLibrary, combined: Collection[frozenset[str]] 
 def _try(skills: Sequence[Skill], library: SkillLibrary, symbols: Symbols) -> _Round:
     action_names = {term: name for name, term in symbols.names.items()}
     locked = devices(library)
-    planned, excluded = [], []
+    planned, excluded, taken = [], [], set(symbols.names)
     for skill in skills:
         implementations = library.implementations_of(skill.name)
         try:
             name = action_names[skill.name]
-            planned.append(planned_action(name, skill, implementations, symbols, locked[skill.name]))
+            made = planned_actions(name, skill, implementations, symbols, locked[skill.name], taken)
+            planned.append(made)
+            taken |= made.names
         except Untranslatable as reason:
             excluded.append(Excluded(skill.name, str(reason), skill.source))
     return _Round(symbols, tuple(planned), tuple(excluded))
@@ -71,21 +73,22 @@ def _try(skills: Sequence[Skill], library: SkillLibrary, symbols: Symbols) -> _R
 
 def _domain(name: str, last: _Round, excluded: Iterable[Excluded]) -> PlanningDomain:
     guards = [guard for each in last.planned for guard in each.guards]
+    actions = tuple(action for each in last.planned for action in each.actions)
     return PlanningDomain(
         name=kebab(name),
         types=last.symbols.hierarchy.types,
         predicates=tuple(sorted((*_facts(last, {each.name for each in guards}), *guards), key=lambda each: each.name)),
-        costs=tuple(each.cost for each in last.planned if each.cost),
-        actions=tuple(each.action for each in last.planned),
+        costs=tuple(cost for each in last.planned for cost in each.costs),
+        actions=actions,
         excluded=tuple(sorted(excluded, key=lambda each: each.skill)),
         names=last.symbols.names,
-        scale=UNITS_PER_SECOND,
+        scale=common_scale(each.cost.seconds for each in actions if isinstance(each.cost, FixedCost)),
     )
 
 
 def _facts(last: _Round, guards: Collection[str]) -> list[Predicate]:
     used: set[str] = set()
-    for each in last.planned:
-        formulas = (each.action.precondition, each.action.hold, *(change.atom for change in each.action.effects))
+    for action in (action for each in last.planned for action in each.actions):
+        formulas = (action.precondition, action.hold, *(change.atom for change in action.effects))
         used |= {atom.predicate for formula in formulas for atom in atoms(formula)}
     return [last.symbols.predicate(name) for name in used if name not in guards]

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from fractions import Fraction
 from typing import assert_never
 
 from skillc_compiler.library.pddl.domain import Action, FixedCost, GoalFact, PlanningDomain, Predicate
@@ -62,7 +63,7 @@ def _with_goal_action(problem: Problem) -> Problem:
         precondition=problem.goal,
         hold=Conjunction(()),
         effects=(Change(reached, True),),
-        cost=FixedCost(0),
+        cost=FixedCost(Fraction(0)),
     )
     extended = replace(
         domain,

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 
-from skillc_compiler.library.pddl.domain import PlanningDomain
+from skillc_compiler.library.pddl.domain import FixedCost, PlanningDomain
 from skillc_compiler.library.pddl.formulas import Atom, Formula, Typed
 
 
 @dataclass(frozen=True)
 class CostValue:
-    """The cost of one tuple of objects, in the domain's units (an integer of at least 1)."""
+    """The cost of one tuple of objects, in seconds."""
 
     function: str
     arguments: tuple[str, ...]
-    units: int
+    seconds: Fraction
 
 
 @dataclass(frozen=True)
@@ -32,3 +33,14 @@ class Problem:
     init: tuple[Atom, ...]
     costs: tuple[CostValue, ...]
     goal: Formula
+
+    @property
+    def rounds_down(self) -> bool:
+        """Whether some duration is not a whole number of units."""
+        return any((each * self.domain.scale).denominator != 1 for each in durations(self))
+
+
+def durations(problem: Problem) -> frozenset[Fraction]:
+    """Return how long actions of a problem take, in seconds."""
+    fixed = {each.cost.seconds for each in problem.domain.actions if isinstance(each.cost, FixedCost)}
+    return frozenset(fixed | {each.seconds for each in problem.costs})

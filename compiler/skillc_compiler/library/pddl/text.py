@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from fractions import Fraction
 from functools import cache
 from itertools import groupby
 from typing import assert_never
@@ -91,6 +92,7 @@ def _template(name: str) -> Template:
         "formula": formula_text,
         "lines": str.splitlines,
         "meaning": _meaning_lines,
+        "scale": _scale_text,
         "precondition": lambda action: formula_text(_classical(action), 4),
         "start": lambda action: conjuncts(_classical(action)),
         "conjuncts": conjuncts,
@@ -109,11 +111,11 @@ def declared_text(typed: Iterable[Typed]) -> str:
     return " ".join(f"{each.name} - {each.type}" for each in typed)
 
 
-def cost_text(cost: Cost) -> str:
-    """Return the number or the function that an action costs."""
+def cost_text(cost: Cost, domain: PlanningDomain) -> str:
+    """Return the number, in units of the domain, or the function that an action costs."""
     match cost:
-        case FixedCost(units=units):
-            return str(units)
+        case FixedCost(seconds=seconds):
+            return str(domain.units(seconds))
         case ComputedCost(function=function, arguments=arguments):
             return _list(function, arguments)
         case _:
@@ -185,6 +187,14 @@ def _block(word: str, parts: Sequence[Formula], indent: int) -> str:
     inner = " " * (indent + 2)
     lines = "".join(f"\n{inner}{formula_text(part, indent + 2)}" for part in parts)
     return f"({word}{lines}\n{' ' * indent})"
+
+
+def _scale_text(scale: Fraction) -> str:
+    if scale == 1:
+        return "a unit is a second"
+    if scale.numerator == 1:
+        return f"a unit is {scale.denominator} seconds"
+    return f"{scale} units are a second"
 
 
 def _meaning_lines(predicate: Predicate) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import assert_never
 
-from skillc_compiler.library.pddl.domain import ROOT, ComputedCost, Cost, FixedCost
+from skillc_compiler.library.pddl.domain import ROOT, ComputedCost, Cost, FixedCost, PlanningDomain
 from skillc_compiler.library.pddl.formulas import Atom, Change, Equal, Negation, Typed
 from skillc_compiler.library.pddl.problem import Problem
 from skillc_runtime.planning.aries.flat import FlatAction, FlatProblem, Literal
@@ -36,7 +36,7 @@ def problem_message(flat: FlatProblem) -> bytes:
         *(nested(3, each) for each in _types(problem)),
         *(nested(4, each) for each in _fluents(problem)),
         *(nested(5, message(text(1, each.name), text(2, each.type))) for each in problem.objects),
-        *(nested(6, _action(index, each, types)) for index, each in enumerate(flat.actions)),
+        *(nested(6, _action(index, each, types, problem.domain)) for index, each in enumerate(flat.actions)),
         *(nested(7, each) for each in _initial(problem, types)),
         *(nested(9, message(nested(1, _literal(each, types)))) for each in flat.goal),
         *(number(10, each) for each in _FEATURES),
@@ -64,9 +64,9 @@ def _parameter(parameter: Typed, field: int = 3) -> bytes:
     return nested(field, message(text(1, parameter.name), text(2, parameter.type)))
 
 
-def _action(index: int, flat: FlatAction, objects: Mapping[str, str]) -> bytes:
+def _action(index: int, flat: FlatAction, objects: Mapping[str, str], domain: PlanningDomain) -> bytes:
     types = {**objects, **{each.name: each.type for each in flat.parameters}}
-    seconds = _duration(flat.action.cost, types)
+    seconds = _duration(flat.action.cost, types, domain)
     idle = tuple(_state(IDLE, (each,), types) for each in flat.action.uses)
     return message(
         text(1, action_name(index)),
@@ -82,10 +82,10 @@ def _action(index: int, flat: FlatAction, objects: Mapping[str, str]) -> bytes:
     )
 
 
-def _duration(cost: Cost, types: Mapping[str, str]) -> bytes:
+def _duration(cost: Cost, types: Mapping[str, str], domain: PlanningDomain) -> bytes:
     match cost:
-        case FixedCost(units):
-            return _integer(units)
+        case FixedCost(seconds):
+            return _integer(domain.units(seconds))
         case ComputedCost(function, arguments):
             return _state(function, arguments, types, _INT)
         case _:
@@ -118,7 +118,10 @@ def _initial(problem: Problem, types: Mapping[str, str]) -> Iterator[bytes]:
     for device in devices(problem):
         yield message(nested(1, _state(IDLE, (device,), types)), nested(2, _truth(True)))
     for cost in problem.costs:
-        yield message(nested(1, _state(cost.function, cost.arguments, types, _INT)), nested(2, _integer(cost.units)))
+        yield message(
+            nested(1, _state(cost.function, cost.arguments, types, _INT)),
+            nested(2, _integer(problem.domain.units(cost.seconds))),
+        )
 
 
 def devices(problem: Problem) -> tuple[str, ...]:

@@ -5,12 +5,13 @@ from __future__ import annotations
 import platform
 import re
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from itertools import count
 from pathlib import Path
 
-from skillc_compiler.library.pddl.problem import Problem
+from skillc_compiler.library.pddl.costs import MOST_UNITS
+from skillc_compiler.library.pddl.problem import Problem, durations
 from skillc_runtime.planning.aries.flat import FlatProblem, NotTemporal, flattened
 from skillc_runtime.planning.aries.messages import action_name, problem_message
 from skillc_runtime.planning.plan import GaveUp
@@ -70,7 +71,7 @@ class Aries:
         """Return the best schedule found within so many seconds; searching ends when one more instance is no help."""
         end = time.monotonic() + deadline_s
         try:
-            flat = flattened(problem)
+            flat = flattened(_with_finer_units(problem))
             with workplace() as folder:
                 (Path(folder) / "problem.upp").write_bytes(problem_message(flat))
                 return self._deeper_and_deeper(flat, Path(folder), end)
@@ -102,6 +103,14 @@ class Aries:
             return _understood(search.outcome(), flat)
 
 
+def _with_finer_units(problem: Problem) -> Problem:
+    """Return the problem in units beside which the gaps that aries leaves between steps, .1 of one, are short."""
+    domain = problem.domain
+    longest = max(map(domain.units, durations(problem)), default=0)
+    finer = 10 if 10 * longest <= MOST_UNITS else 1
+    return replace(problem, domain=replace(domain, scale=finer * domain.scale))
+
+
 def _understood(outcome: Run, flat: FlatProblem) -> Schedule | _Nothing | GaveUp:
     match outcome:
         case Ended(0, said) if _LINE.search(said):
@@ -125,7 +134,7 @@ def _schedule(said: str, flat: FlatProblem) -> Schedule | GaveUp:
     for start, name, words, duration in _LINE.findall(said):
         if name not in actions:
             return GaveUp(f"aries wrote something that is no plan: `{name}` is no action of the problem")
-        action, scale = actions[name], flat.problem.domain.scale
+        action, scale = actions[name], float(flat.problem.domain.scale)
         try:
             step = step_of(flat.problem, (action.name, *words.split()[: len(action.parameters)]))
         except PlanTextError as error:

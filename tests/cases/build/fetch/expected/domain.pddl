@@ -1,5 +1,5 @@
 ; Made by skillc from the library fetch, sha256 952b04bf61c3d4a2a4b0dcccbdeb4aedae8c30da58856cab40a85661a767039a. Change the .skill files and compile again.
-; costs are durations: 10 units are a second
+; costs are durations: a unit is a second
 (define (domain fetch)
   (:requirements :strips :typing :negative-preconditions :disjunctive-preconditions :universal-preconditions :action-costs)
   (:types
@@ -33,7 +33,7 @@
     :effect (and
       (base-at ?robot ?to)
       (not (base-at ?robot ?from))
-      (increase (total-cost) 120)
+      (increase (total-cost) 12)
     )
   )
 
@@ -44,7 +44,7 @@
     :precondition (or (is-hard-gripper ?gripper) (is-soft-gripper ?gripper))
     :effect (and
       (is-open ?gripper)
-      (increase (total-cost) 10)
+      (increase (total-cost) 1)
     )
   )
 
@@ -65,7 +65,7 @@
       (contain ?gripper ?item)
       (not (contain ?from ?item))
       (not (is-open ?gripper))
-      (increase (total-cost) 80)
+      (increase (total-cost) 8)
     )
   )
 )

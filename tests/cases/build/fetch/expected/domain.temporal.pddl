@@ -1,5 +1,5 @@
 ; Made by skillc from the library fetch, sha256 952b04bf61c3d4a2a4b0dcccbdeb4aedae8c30da58856cab40a85661a767039a. Change the .skill files and compile again.
-; durations: 10 units are a second
+; durations: a unit is a second
 (define (domain fetch-temporal)
   (:requirements :strips :typing :negative-preconditions :disjunctive-preconditions :universal-preconditions :durative-actions)
   (:types
@@ -28,7 +28,7 @@
   ; Drive, fetch.skill:7
   (:durative-action drive
     :parameters (?robot - robot ?to - place ?from - place)
-    :duration (= ?duration 120)
+    :duration (= ?duration 12)
     :condition (and
       (at start (idle ?robot))
       (at start (base-at ?robot ?from))
@@ -45,7 +45,7 @@
   ; Open, fetch.skill:23
   (:durative-action open
     :parameters (?gripper - gripper)
-    :duration (= ?duration 10)
+    :duration (= ?duration 1)
     :condition (and
       (at start (or (is-hard-gripper ?gripper) (is-soft-gripper ?gripper)))
     )
@@ -58,7 +58,7 @@
   ; Pick, fetch.skill:41
   (:durative-action pick
     :parameters (?robot - robot ?item - item ?gripper - gripper ?from - place)
-    :duration (= ?duration 80)
+    :duration (= ?duration 8)
     :condition (and
       (at start (has-gripper ?robot ?gripper))
       (at start (base-at ?robot ?from))

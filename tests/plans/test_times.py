@@ -1,0 +1,72 @@
+"""The times of a plan are those of the body that runs it, where a step also waits for some that it does not need."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import pytest
+
+from plans.depot import SKIROS, Depot, contain, goal, iri, library, world
+from skillc_compiler.library.pddl.problem import Problem
+from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare
+from skillc_runtime.planning.choose import Planners
+from skillc_runtime.planning.plan import Plan, PlanResult, Solved, Step
+from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.plans.quickest import quickest
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.task import execute
+from skillc_runtime.world.changes import AddIndividual
+from skillc_runtime.world.model import WorldModel
+
+PRODUCT = SKIROS + "Product"
+
+
+@dataclass(frozen=True)
+class Always:
+    """A planner that knows one plan."""
+
+    answer: Plan
+    name: str = "somebody"
+
+    def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
+        """Return the plan."""
+        return Solved(self.answer, "best found", self.name)
+
+
+def step(skill: str, **arguments: str) -> Step:
+    return Step(skill, {name.rstrip("_"): iri(value) for name, value in arguments.items()})
+
+
+UNLOAD = step("Unload", robot="dora", crate="box", to="b")
+COME = step("Go", robot="carl", to="b", from_="a")
+LEAVE = step("Go", robot="dora", to="c", from_="b")
+TAKE = step("Load", robot="carl", crate="box", from_="b")
+"""Dora leaves once she has unloaded; Carl takes the box once it is there, and he is."""
+
+PLANS = {
+    "who leaves waits for who comes, though only the next step needs it": (
+        (UNLOAD, COME, LEAVE, TAKE),
+        "lab:dora at lab:c and lab:carl contain lab:box",
+        10.0,
+    ),
+    "one after the other": ((UNLOAD, LEAVE), "lab:dora at lab:c and lab:b contain lab:box", 7.0),
+    "side by side": ((COME, UNLOAD), "lab:carl at lab:b and lab:b contain lab:box", 5.0),
+}
+
+
+@pytest.mark.parametrize("name", PLANS)
+def test_a_plan_is_over_when_its_times_say(name: str) -> None:
+    steps, text, expected_s = PLANS[name]
+    state = world({"carl": "a", "dora": "b"}, {}, "a b c")
+    state = state.changed([AddIndividual(iri("box"), (PRODUCT,)), contain("dora", "box")])
+    aim = goal(text, state)
+    plan = Plan(steps, sum(5.0 if each.skill == "Go" else 2.0 for each in steps))
+    planners = Planners((Always(plan),), None)
+    answer = quickest(library(), state, aim, planners)
+    assert isinstance(answer, Scheduled) and answer.schedule.makespan_s == expected_s, answer
+    prepared = prepare(Assignment("hand over", state, Reach(aim, "makespan")), library(), planners=planners)
+    assert isinstance(prepared, Prepared), prepared
+    depot = Depot(WorldModel(state))
+    execution = execute(prepared, library(), depot, [])  # type: ignore[arg-type]
+    assert execution.status is Status.SUCCESS, execution.failure
+    assert depot.now == pytest.approx(expected_s, abs=0.2), "as long as it was said to take"
