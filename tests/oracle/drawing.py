@@ -75,7 +75,10 @@ CROWD = {**INDIVIDUALS, "p3": "Place", "o3": "Thing1", "o4": "Tool"}
 class Dice:
     """Draws domains, scenes and goals."""
 
-    def __init__(self, seed: int, individuals: Mapping[str, str] = INDIVIDUALS) -> None:
+    vocabulary = VOCABULARY
+    relations = RELATIONS
+
+    def __init__(self, seed: int | str, individuals: Mapping[str, str] = INDIVIDUALS) -> None:
         self._random = random.Random(seed)
         self._individuals = individuals
 
@@ -88,8 +91,8 @@ class Dice:
         if self._random.random() < 0.7:
             sides = [Variable(self._random.choice(names)) for _ in range(2)]
             if anything and self._random.random() < 0.2:
-                return Holds(sides[0], iri(self._random.choice(RELATIONS)), Anything())
-            return Holds(sides[0], iri(self._random.choice(RELATIONS)), sides[1])
+                return Holds(sides[0], iri(self._random.choice(self.relations)), Anything())
+            return Holds(sides[0], iri(self._random.choice(self.relations)), sides[1])
         owner = Variable(self._random.choice(names))
         property_, value = self._random.choice([("open", True), ("open", False), ("mode", "a"), ("mode", "b")])
         return Compare(PropertyOf(owner, iri(property_)), "==", Literal(value))
@@ -140,14 +143,16 @@ class Dice:
         names = list(self._individuals)
         facts = [
             AddRelation(
-                iri(self._random.choice(names)), iri(self._random.choice(RELATIONS)), iri(self._random.choice(names))
+                iri(self._random.choice(names)),
+                iri(self._random.choice(self.relations)),
+                iri(self._random.choice(names)),
             )
             for _ in range(self._random.randint(1, 6))
         ]
         values = [SetProperty(iri(name), iri("size"), n) for n, name in enumerate(names) if self._random.random() < 0.7]
         modes = [SetProperty(iri(name), iri("mode"), "c") for name in names if self._random.random() < 0.5]
         individuals = [AddIndividual(iri(name), (iri(cls),)) for name, cls in self._individuals.items()]
-        return WorldState.empty(VOCABULARY).changed([*individuals, *facts, *values, *modes])
+        return WorldState.empty(self.vocabulary).changed([*individuals, *facts, *values, *modes])
 
     def goal(self, skills: SkillLibrary, start: WorldState) -> Condition:
         """Draw a goal, which is written as text and read back."""
@@ -160,7 +165,7 @@ class Dice:
             return Exists("u", iri("Item"), Exists("v", iri("Tool"), goal))
         state = start
         for _ in range(6):
-            working = [after for step, _ in steps(skills, state) if (after := worked(step, skills, state))]
+            working = [after for step in steps(skills, state) if (after := worked(step, skills, state))]
             state = self._random.choice(working) if working else state
         new = sorted(set(relations_of(state)) - set(relations_of(start)))
         gone = sorted(set(relations_of(start)) - set(relations_of(state)))

@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 from heapq import heappop, heappush
 from itertools import count, product
 from typing import TypeAlias
 
-from skillc_compiler.library.conditions import And, Condition, Literal
+from skillc_compiler.library.conditions import And, Condition
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import ClassType
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.planning.validate import PlanError, validate
+from skillc_runtime.selection.fit import Fitted, fit
 from skillc_runtime.world.conditions import evaluate
+from skillc_runtime.world.expressions import EvaluationError, value_of
 from skillc_runtime.world.state import WorldState
 
 LIMIT = 4000
 """So many states are looked at."""
+
+STEPS_EACH = 20
+"""So many steps are tried, for each of them."""
 
 Fact: TypeAlias = tuple[str, str, str]
 
@@ -38,11 +44,12 @@ def worked(step: Step, skills: SkillLibrary, state: WorldState) -> WorldState | 
         return None
 
 
-def cheapest(skills: SkillLibrary, start: WorldState, goal: Condition) -> float | None:
+def cheapest(skills: SkillLibrary, start: WorldState, goal: Condition, limit: int = LIMIT) -> float | None:
     """Return the least cost of a sequence of skills that works in the world model; None when there is none."""
     ticket = count()
-    queue = [(0.0, next(ticket), start)]
+    queue = [(Fraction(0), next(ticket), start)]
     seen: set[frozenset[object]] = set()
+    tried = 0
     while queue:
         cost, _, state = heappop(queue)
         key = frozenset(facts_of(state))
@@ -50,13 +57,16 @@ def cheapest(skills: SkillLibrary, start: WorldState, goal: Condition) -> float 
             continue
         seen.add(key)
         if evaluate(goal, state, {}):
-            return cost
-        if len(seen) > LIMIT:
+            return float(cost)
+        if len(seen) > limit:
             raise TooManyStates
-        for step, seconds in steps(skills, state):
+        for step in steps(skills, state):
+            tried += 1
+            if tried > STEPS_EACH * limit:
+                raise TooManyStates
             after = worked(step, skills, state)
             if after is not None:
-                heappush(queue, (cost + seconds, next(ticket), after))
+                heappush(queue, (cost + seconds(step, skills, state, start), next(ticket), after))
     return None
 
 
@@ -67,11 +77,30 @@ def facts_of(state: WorldState) -> Iterator[object]:
         yield from ((property_, *entry) for entry in table.items())
 
 
-def steps(skills: SkillLibrary, state: WorldState) -> Iterator[tuple[Step, float]]:
-    """Yield every skill with every type-correct choice of individuals."""
+def steps(skills: SkillLibrary, state: WorldState) -> Iterator[Step]:
+    """Yield every skill with every type-correct choice of individuals; optional parameters are not passed."""
     for each in skills.skills.values():
-        names = [one.name for one in each.parameters]
-        types = [one.type.iri for one in each.parameters if isinstance(one.type, ClassType)]
-        seconds = each.duration.value if isinstance(each.duration, Literal) else 0.0
+        passed = [one for one in each.parameters if one.direction in ("in", "infer")]
+        types = [one.type.iri for one in passed if isinstance(one.type, ClassType)]
         for chosen in product(*(sorted(state.instances(cls)) for cls in types)):
-            yield Step(each.name, dict(zip(names, chosen, strict=True))), float(seconds)
+            yield Step(each.name, dict(zip((one.name for one in passed), chosen, strict=True)))
+
+
+def seconds(step: Step, skills: SkillLibrary, state: WorldState, start: WorldState) -> Fraction:
+    """Return how long a step takes that starts in a state, by the implementation that a call would take there.
+
+    One that nobody says or that has no value is taken for a second. Durations were drawn with a few decimals: the
+    nearest such number to a float is what was meant.
+    """
+    for each in skills.implementations_of(step.skill):
+        fitted = fit(each, step.arguments, state)
+        if isinstance(fitted, Fitted) and all(evaluate(one.condition, state, fitted.bindings) for one in each.hold):
+            if each.duration is None:
+                return Fraction(1)
+            try:
+                value = value_of(each.duration, start, fitted.bindings)
+            except EvaluationError:
+                return Fraction(1)
+            assert isinstance(value, int | float)
+            return Fraction(value).limit_denominator(10**5)
+    raise AssertionError(f"no implementation takes {step}")

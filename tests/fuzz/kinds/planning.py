@@ -1,0 +1,101 @@
+"""Random planning domains: what planners claim against trying every step in the world model."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from random import Random
+
+import msgspec
+
+from fuzz.kinds._domains import Domains
+from oracle.forced import TooManyStates, cheapest, seconds
+from skillc_compiler.library.conditions import Condition
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.planning.choose import Planners, at_hand
+from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Unsolvable
+from skillc_runtime.planning.problem import GoalError, pose_problem
+from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.planning.solve import solve
+from skillc_runtime.planning.validate import after_step, reached
+from skillc_runtime.plans.quickest import quickest
+from skillc_runtime.plans.rehearsal import rehearse
+from skillc_runtime.world.state import WorldState
+
+SECONDS = 30.0
+MOST_STATES = 50
+DEADLINE_S = 20.0
+SLACK_S = 1e-9
+
+
+def run_case(random: Random, folder: Path) -> None:
+    """No plan is claimed to be the cheapest that is not, none denied that exists, and every plan works."""
+    domains = Domains(random)
+    text, library, state = domains.domain()
+    (folder / "input.skill").write_text(text, "utf-8")
+    (folder / "scene.txt").write_text("\n".join(map(repr, _facts(state))), "utf-8")
+    goal = domains.goal(library, state)
+    (folder / "goal.txt").write_text(repr(goal), "utf-8")
+    try:
+        excluded = {each.skill for each in pose_problem(library, state, goal).problem.domain.excluded}
+    except GoalError:
+        return  # the goal reads what no planner can follow, and the answer says so
+    skills = {name: each for name, each in library.skills.items() if name not in excluded}
+    known = msgspec.structs.replace(library, skills=skills)
+    try:
+        least_s = cheapest(known, state, goal, MOST_STATES)
+    except TooManyStates:
+        least_s = -1.0
+    planners = at_hand().for_work
+    planner = random.choice(planners)
+    _check(solve(library, state, goal, (planner,), DEADLINE_S), known, state, goal, least_s)
+    if random.random() < 0.1:
+        _check_schedule(known, state, goal, planner, least_s)
+
+
+def _check(
+    answer: PlanResult, library: SkillLibrary, state: WorldState, goal: Condition, least_s: float | None
+) -> None:
+    """`least_s` is what the cheapest plan costs, None where there is none, negative where it is not known."""
+    match answer:
+        case Solved(plan=plan):
+            work_s = _work_s(plan, library, state, goal)
+            assert abs(work_s - plan.duration_s) < SLACK_S, f"{plan} takes {work_s} s"
+            assert least_s is not None, f"there is a plan: {plan}"
+            if least_s >= 0.0:
+                assert work_s >= least_s - SLACK_S, f"the oracle found no better plan than {least_s}: {plan}"
+                assert (answer.at_least_s or 0.0) <= least_s + SLACK_S, f"{least_s} s is less than the bound: {answer}"
+                assert answer.optimal != "proven" or work_s <= least_s + SLACK_S, f"{least_s} s is less: {answer}"
+        case Unsolvable():
+            assert least_s is None or least_s < 0.0, f"there is a plan of {least_s} s: {answer}"
+        case GaveUp(why=why):
+            raise AssertionError(f"{why} (the cheapest takes {least_s} s)")
+
+
+def _check_schedule(
+    library: SkillLibrary, state: WorldState, goal: Condition, planner: Planner, least_s: float | None
+) -> None:
+    answer = quickest(library, state, goal, Planners((planner,), None), DEADLINE_S)
+    if isinstance(answer, Scheduled):
+        rehearse(answer.schedule, library, state, goal)
+        _work_s(answer.plan, library, state, goal)
+        assert answer.schedule.makespan_s <= answer.plan.duration_s + SLACK_S
+        assert (answer.at_least_s or 0.0) <= answer.schedule.makespan_s + SLACK_S
+    else:
+        _check(answer, library, state, goal, least_s)
+
+
+def _work_s(plan: Plan, library: SkillLibrary, start: WorldState, goal: Condition) -> float:
+    state, work = start, 0.0
+    for step in plan.steps:
+        work += float(seconds(step, library, state, start))
+        state = after_step(step, library, state)
+    reached(goal, state)
+    return work
+
+
+def _facts(state: WorldState) -> list[object]:
+    return [
+        *((each, sorted(state.types(each))) for each in sorted(state.individuals)),
+        *((relation, sorted(state.pairs(relation))) for relation in state.facts),
+        *((property_, sorted(table.items())) for property_, table in state.stored.items()),
+    ]
