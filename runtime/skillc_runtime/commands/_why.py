@@ -51,7 +51,7 @@ def _attempt(attempt: Attempt) -> Iterator[str]:
     if attempt.replaces:
         yield f"planned anew: {attempt.replaces}"
     if attempt.planner:
-        proved = {"proven": ", proved optimal"}.get(attempt.optimal, "")
+        proved = f", {attempt.quality}" if attempt.quality else ""
         count = f"{len(attempt.steps)} step{'' if len(attempt.steps) == 1 else 's'}"
         yield f"plan of {count} by {attempt.planner}{proved}, {attempt.cost:g} s expected"
     for step in attempt.steps:

@@ -44,6 +44,10 @@ class Relations:
         """Return all relations that hold when `relation` does, its own included."""
         return self._closure(relation, {iri: self._term(iri).parents for iri in self.vocabulary.relations})
 
+    def is_computed(self, relation: str) -> bool:
+        """Whether a relation follows from other facts by a computation."""
+        return relation in self.vocabulary.relations and self._term(relation).computed_by is not None
+
     def transitive_below(self, relation: str) -> tuple[str, ...]:
         """Return those transitive relations of which a fact makes `relation` hold."""
         reached = {each.relation for each in self._closure(relation, self._narrower)}
