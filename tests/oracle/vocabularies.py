@@ -151,7 +151,9 @@ class Author:
         return msgspec.structs.replace(of, type=ClassType(iri(self._random.choice(narrower))))
 
     def _narrowed(self, signature: Signature) -> Signature:
-        return Signature(*(self._below(each) if self._maybe(0.3) else each for each in (signature.domain, signature.range)))
+        return Signature(
+            *(self._below(each) if self._maybe(0.3) else each for each in (signature.domain, signature.range))
+        )
 
     def _below(self, cls: str) -> str:
         below = [each for each in CLASSES if any(cls == iri(above) for above in (each, *CLASSES[each]))]

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import TypeAlias, Union
+from typing import TypeAlias
 
-Tree: TypeAlias = Union[str, list["Tree"]]
+Tree: TypeAlias = str | list["Tree"]
 
 CONNECTIVES = ("and", "or", "not", "imply", "when", "increase")
 TIMES = (["at", "start"], ["at", "end"], ["over", "all"])
@@ -36,7 +36,7 @@ def mistakes(domain: str, problem: str | None = None) -> list[str]:
     names = [name for name, _ in objects]
     heads = [*whole.get(":predicates", [[]])[0], *whole.get(":functions", [[]])[0]]
     known = Declared(
-        {name: parent for name, parent in _typed(whole[":types"][0])},
+        dict(_typed(whole[":types"][0])),
         dict(objects),
         {str(each[0]): [type_ for _, type_ in _typed(each[1:])] for each in heads if isinstance(each, list)},
     )

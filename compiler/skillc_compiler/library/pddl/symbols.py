@@ -136,12 +136,8 @@ class Symbols:
         pairs = [(iri, value) for iri in self.vocabulary.properties for value in self.values(iri)]
         return {self.value(iri, value): (iri, value) for iri, value in pairs}
 
-    def _is_narrower(self, reading: Reading, relation: str) -> bool:
-        """Whether it is not also the other way round: of relations that say the same, each says it by itself."""
-        return all(each.relation != relation for each in self.relations.below(reading.relation))
-
     def _relation_predicate(self, name: str, iri: str) -> Predicate:
         sides = [self.hierarchy.type_name(self.side_class(iri, side)) for side in (0, 1)]
-        narrower = tuple((each.relation, each.swapped) for each in self.readings(iri) if self._is_narrower(each, iri))
+        narrower = tuple((each.relation, each.swapped) for each in self.readings(iri) if each.relation != iri)
         typed = (Typed("?subject", sides[0]), Typed("?value", sides[1]))
         return Predicate(name, typed, RelationFact(iri, narrower), iri in self.changing)
