@@ -24,7 +24,10 @@ class Mention:
 
 
 def mentions(library: SkillLibrary) -> dict[str, tuple[Mention, ...]]:
-    """Return the individuals that each skill which is planned with names, its implementations included."""
+    """Return the individuals that each skill which is planned with names, its implementations included.
+
+    A library with mistakes may speak of terms that its vocabulary lacks: they ask for no class.
+    """
     return {
         name: tuple(_Mentions(library.vocabulary).of(skill, library.implementations_of(name)))
         for name, skill in sorted(library.skills.items())
@@ -89,14 +92,15 @@ class _Mentions:
                 yield iri, self._owner(property_)
 
     def _sides(self, relation: str, *terms: object) -> Iterator[tuple[str, str | None]]:
-        signatures = self.vocabulary.relations[relation].signatures
+        known = self.vocabulary.relations.get(relation)
+        signatures = known.signatures if known is not None else ()
         for side, term in enumerate(terms):
             if isinstance(term, Individual) and signatures:
                 yield term.iri, common_class([(each.domain, each.range)[side] for each in signatures], self.vocabulary)
 
     def _owner(self, property_: str) -> str | None:
-        domains = self.vocabulary.properties[property_].domains
-        return common_class(domains, self.vocabulary) if domains else None
+        known = self.vocabulary.properties.get(property_)
+        return common_class(known.domains, self.vocabulary) if known is not None and known.domains else None
 
 
 def absent(found: Iterable[Mention], known: Mapping[str, object]) -> Iterator[Mention]:

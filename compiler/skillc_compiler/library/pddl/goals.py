@@ -44,8 +44,8 @@ def ground_goal(
 ) -> Formula:
     """Return the goal over the objects of a problem; TRUE or FALSE when no skill can make a difference.
 
-    `objects` are names with types by IRI, `members` gives the individuals of a class, `holds` says whether a condition holds
-    in the initial world. Untranslatable (as in "the goal reads ..") names what a planner cannot reason about.
+    `objects` are names with types by IRI, `members` gives the individuals of a class, `holds` says whether a condition
+    holds in the initial world. Untranslatable (as in "the goal reads ..") names what a planner cannot reason about.
     """
     symbols = _symbols(library, domain)
 

@@ -50,7 +50,8 @@ def planning_domain(
     if individuals is None:
         individuals = assumed_classes((each for found in named.values() for each in found), library.vocabulary)
         combined = {*combined, *(each for each in individuals.values() if len(each) > 1)}
-    names = library.names or pddl_names(library)
+    names = library.names if individuals.keys() <= set(library.names.values()) else {}
+    names = names or pddl_names(library)
     by_term = {term: name for name, term in names.items()}
     hierarchy = Hierarchy(library.vocabulary, by_term, combined)
     objects = {iri: Named(Typed(by_term[iri], hierarchy.type_of(each)), each) for iri, each in individuals.items()}
