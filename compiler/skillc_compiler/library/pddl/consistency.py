@@ -7,7 +7,7 @@ no step of a plan may do either: what must not be true afterwards is said of the
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import combinations
 from typing import assert_never
@@ -98,8 +98,9 @@ class Consistency:
                     shown = symbols.short(term.iri)
                     raise Untranslatable(f"states `{shown}`, whose opposite may follow over any number of steps")
                 opposite = self.translator.holds(term.iri, self._term(object_), self._term(subject))
-                after = disjunction(self._after(each) for each in opposite)
-                yield disjunction((self._same(subject, object_), negated(after)))
+                same = self._same(subject, object_)
+                differing = replace(self, _apart={*self._apart, same})
+                yield disjunction((same, negated(disjunction(map(differing._after, opposite)))))
 
     def _takes(self, term: RelationTerm, subject: Term, object_: Term) -> bool:
         """Whether a relation may hold, by the classes that it takes."""
