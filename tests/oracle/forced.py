@@ -70,8 +70,9 @@ def facts_of(state: WorldState) -> Iterator[object]:
 def steps(skills: SkillLibrary, state: WorldState) -> Iterator[tuple[Step, float]]:
     """Yield every skill with every type-correct choice of individuals."""
     for each in skills.skills.values():
-        names = [one.name for one in each.parameters]
-        types = [one.type.iri for one in each.parameters if isinstance(one.type, ClassType)]
+        bound = [one for one in each.parameters if one.direction != "opt"]
+        names = [one.name for one in bound]
+        types = [one.type.iri for one in bound if isinstance(one.type, ClassType)]
         seconds = each.duration.value if isinstance(each.duration, Literal) else 0.0
         for chosen in product(*(sorted(state.instances(cls)) for cls in types)):
             yield Step(each.name, dict(zip(names, chosen, strict=True))), float(seconds)

@@ -52,7 +52,7 @@ class Binding:
 
     def effect(self, effect: Effect) -> Effect:
         """Return what an effect changes, as the caller sees it."""
-        return replaced(effect, self.after)  # type: ignore[type-var]
+        return replaced(effect, self.after)
 
 
 def candidates(program: Program, call: Call) -> tuple[Implementation, ...]:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 import msgspec
 
 from skillc_compiler.library.conditions import Anything, Condition, Exists, Forall, Holds, Individual
+from skillc_compiler.library.pddl.constants import lowest
 from skillc_compiler.library.pddl.domain import PlanningDomain
 from skillc_compiler.library.pddl.formulas import TRUE, Formula, Typed, renamed
 from skillc_compiler.library.pddl.goals import ground_goal, with_predicates_of
@@ -24,7 +25,8 @@ from skillc_runtime.planning.left_out import LeftOut
 from skillc_runtime.planning.narrowing import Breadth
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.relevance import Helpful, helpful
-from skillc_runtime.planning.selecting import Kinds, kinds_of, lowest_of, select
+from skillc_runtime.planning.selecting import Kinds, kinds_of, select
+from skillc_runtime.planning.unplanned import may_matter
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.expressions import EvaluationError
 from skillc_runtime.world.state import WorldState
@@ -51,8 +53,13 @@ class Posed:
 
     @property
     def narrowed(self) -> bool:
-        """Whether a cheaper plan or any plan at all may need something that was left out."""
+        """Whether a cheaper plan or any plan at all may need an individual that was left out."""
         return bool(self.others)
+
+    @property
+    def restricted(self) -> tuple[LeftOut, ...]:
+        """The skills and steps that were left out and that a cheaper plan or any plan at all may need."""
+        return tuple(each for each in self.left_out if each.kind != "individuals" and not each.harmless)
 
     @property
     def things(self) -> int:
@@ -69,19 +76,23 @@ def pose_problem(
 ) -> Posed:
     """Return the problem of reaching the goal from a version of the world, by other steps than those of `without`.
 
-    Skills and individuals are left out that can make no difference; with a `breadth` also those that are far from what
-    the goal speaks of. GoalError when the goal names an unknown individual or says what a planner cannot reason about.
+    Skills and individuals are left out that can make no difference; with a `breadth` also individuals that are far from
+    what the goal speaks of. Skills that cannot be planned with are left out too. GoalError when the goal names an
+    unknown individual or says what a planner cannot reason about.
     """
     library = _in_the_words_of(state.vocabulary, library)
     named = _named(goal, state)
     kinds = kinds_of(state)
-    domain = domain_of(library, _combined(kinds, state.vocabulary))
+    domain = domain_of(library, _combined(kinds, state.vocabulary), lambda iri: _lowest(iri, state))
     wanted = _ground(goal, library, domain, named, state)
     domain = with_predicates_of(wanted, library, domain)
     useful = Helpful(domain, ()) if wanted == TRUE else helpful(domain, wanted)
-    selection = select(useful.domain, state, kinds, named, breadth)
+    constants = {each.name: domain.names[each.name] for each in useful.domain.constants}
+    selection = select(useful.domain, state, kinds, named.union(constants.values()), breadth)
     types = selection.kept
-    names = object_names(types, state.vocabulary, domain.names.keys() | {each.name for each in domain.predicates})
+    others = types.keys() - set(constants.values())
+    taken = domain.names.keys() | {each.name for each in domain.predicates}
+    names = {**constants, **object_names(others, state.vocabulary, taken)}
     by_iri = {iri: name for name, iri in names.items()}
     objects = tuple(Typed(name, types[iri]) for name, iri in sorted(names.items()))
     domain = excluding(without, useful.domain, by_iri, types)
@@ -95,9 +106,27 @@ def pose_problem(
         costs=tuple(initial.costs()),
         goal=renamed(wanted, by_iri),
     )
-    unhelpful = LeftOut(useful.unhelpful, "nothing that the goal depends on is changed by them", harmless=True)
-    left_out = (*((unhelpful,) if useful.unhelpful else ()), *selection.left_out)
+    left_out = (*_skills_left_out(useful, goal, library), *_steps_left_out(without, state), *selection.left_out)
     return Posed(problem, library, tuple(initial.undecided), left_out, selection.others)
+
+
+def _skills_left_out(useful: Helpful, goal: Condition, library: SkillLibrary) -> Iterator[LeftOut]:
+    """Yield the skills that are not planned with, which authors did not want kept out."""
+    if useful.unhelpful:
+        why = "nothing that the goal depends on is changed by them"
+        yield LeftOut(useful.unhelpful, why, harmless=True, kind="skills")
+    excluded = useful.domain.excluded
+    helpful = (each.skill for each in useful.domain.actions if each.skill is not None)
+    matter = may_matter(excluded, helpful, goal, library) if excluded else frozenset()
+    for each in excluded:
+        yield LeftOut((each.skill,), each.reason, harmless=each.skill not in matter, kind="skills")
+
+
+def _steps_left_out(steps: Sequence[Step], state: WorldState) -> Iterator[LeftOut]:
+    if steps:
+        short = state.vocabulary.short
+        shown = (f"{each.skill}({', '.join(map(short, each.arguments.values()))})" for each in steps)
+        yield LeftOut(tuple(shown), "they failed before", harmless=False, kind="steps")
 
 
 def _in_the_words_of(vocabulary: Vocabulary, library: SkillLibrary) -> SkillLibrary:
@@ -122,8 +151,11 @@ def _named(goal: Condition, state: WorldState) -> frozenset[str]:
 
 
 def _combined(kinds: Kinds, vocabulary: Vocabulary) -> frozenset[frozenset[str]]:
-    lowest = {lowest_of(each, vocabulary) for each in kinds}
-    return frozenset(each for each in lowest if len(each) > 1)
+    return frozenset(each for each in (lowest(kind, vocabulary) for kind in kinds) if len(each) > 1)
+
+
+def _lowest(individual: str, state: WorldState) -> frozenset[str]:
+    return lowest(state.types(individual), state.vocabulary)
 
 
 def _ground(
@@ -138,7 +170,8 @@ def _ground(
         return evaluate(condition, state, {})
 
     try:
-        return ground_goal(goal, library, domain, {iri: iri for iri in named}, members, holds)
+        objects = {iri: Typed(iri, domain.type_of(_lowest(iri, state))) for iri in named}
+        return ground_goal(goal, library, domain, objects, members, holds)
     except Untranslatable as reason:
         raise GoalError(f"the goal {reason}") from reason
     except EvaluationError as error:

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from skillc_compiler.library.conditions import Effect, Individual
+from skillc_compiler.library.pddl.consistency import Consistency
 from skillc_compiler.library.pddl.costs import action_cost
 from skillc_compiler.library.pddl.domain import Action, CostFunction, Predicate
 from skillc_compiler.library.pddl.effects import Effects
 from skillc_compiler.library.pddl.formulas import FALSE, Change, Formula, conjunction, conjuncts, disjunction
 from skillc_compiler.library.pddl.guards import Guards
 from skillc_compiler.library.pddl.parameters import Defaults, defaults, planned_parameters
+from skillc_compiler.library.pddl.rewriting import replaced
 from skillc_compiler.library.pddl.symbols import Symbols
-from skillc_compiler.library.pddl.translate import Scope, Translator, Untranslatable
-from skillc_compiler.library.skills import Implementation, Requirement, Skill
+from skillc_compiler.library.pddl.translate import Impossible, Named, Scope, Translator, Untranslatable
+from skillc_compiler.library.reading import free_variables_in_order
+from skillc_compiler.library.skills import Implementation, Parameter, Requirement, Skill
 from skillc_compiler.library.vocabulary import ClassType
 
 
@@ -27,12 +31,20 @@ class Planned:
 
 
 def planned_action(
-    name: str, skill: Skill, implementations: Sequence[Implementation], symbols: Symbols, locks: Collection[str]
+    name: str,
+    skill: Skill,
+    implementations: Sequence[Implementation],
+    symbols: Symbols,
+    objects: Mapping[str, Named],
+    locks: Collection[str],
 ) -> Planned:
-    """Return the action of a skill that locks these parameters; Untranslatable says why a planner cannot reason so."""
+    """Return the action of a skill that locks these parameters; Untranslatable says why a planner cannot reason so.
+
+    `objects` are the individuals that it may name, by IRI.
+    """
     taken = symbols.names.keys()
     guards = Guards(skill.name, symbols, taken)
-    return _Builder(name, skill, tuple(implementations), symbols, guards, taken, locks).planned()
+    return _Builder(name, skill, tuple(implementations), symbols, objects, guards, taken, locks).planned()
 
 
 @dataclass(frozen=True)
@@ -41,6 +53,7 @@ class _Builder:
     skill: Skill
     implementations: tuple[Implementation, ...]
     symbols: Symbols
+    objects: Mapping[str, Named]
     guards: Guards
     taken: Collection[str]
     locks: Collection[str]
@@ -50,16 +63,16 @@ class _Builder:
         given = defaults(self.skill.parameters)
         hold = self._requirements(self.skill.hold, "hold condition", given, scope)
         precondition = conjunction(self._preconditions(given, scope))
-        effects = self._effects(conjunction((precondition, hold)), hold, scope)
+        changes, consistent = self._effects(conjunction((precondition, hold)), hold, given, scope)
         cost, function = action_cost(self.skill, given, scope, self.taken)
         action = Action(
             name=self.name,
             skill=self.skill.name,
             parameters=tuple(place.variable for place in scope.values()),
             binds=tuple(scope),
-            precondition=precondition,
+            precondition=conjunction((precondition, consistent)),
             hold=hold,
-            effects=effects,
+            effects=changes,
             cost=cost,
             uses=tuple(scope[each].variable.name for each in self.locks if each in scope),
             doc=self.skill.doc,
@@ -70,22 +83,29 @@ class _Builder:
     def _preconditions(self, given: Defaults, scope: Scope) -> Iterator[Formula]:
         translator = self._translator()
         yield from (translator.membership(place.cls, place) for place in scope.values())
+        yield from self._defaults(self.skill.parameters, scope)
         yield self._requirements(self.skill.pre, "precondition", given, scope)
-        yield disjunction(self._alternative(each, scope) for each in self.implementations)
+        yield disjunction(self._alternative(each, given, scope) for each in self.implementations)
 
-    def _alternative(self, implementation: Implementation, scope: Scope) -> Formula:
+    def _defaults(self, parameters: Iterable[Parameter], scope: Scope) -> Iterator[Formula]:
+        """Yield that the individuals which optional parameters are by default are of the parameters' classes."""
+        for each in parameters:
+            if isinstance(each.default, Individual) and isinstance(each.type, ClassType):
+                yield self._translator().is_a(each.default, each.type.iri, scope)
+
+    def _alternative(self, implementation: Implementation, described: Defaults, scope: Scope) -> Formula:
         """Return what an implementation demands beyond the description: narrower types and conditions of its own."""
         given = defaults(implementation.parameters)
-        own = [each for each in (*implementation.pre, *implementation.hold) if not self._is_described(each)]
+        known = {described.applied(each.condition) for each in (*self.skill.pre, *self.skill.hold)}
+        both = (*implementation.pre, *implementation.hold)
+        own = [each for each in both if given.applied(each.condition) not in known]
         return conjunction(
             (
                 *self._narrower(implementation, scope),
+                *self._defaults(implementation.parameters, scope),
                 self._requirements(own, f"implementation `{implementation.name}`, whose condition", given, scope),
             )
         )
-
-    def _is_described(self, requirement: Requirement) -> bool:
-        return any(requirement.condition == each.condition for each in (*self.skill.pre, *self.skill.hold))
 
     def _narrower(self, implementation: Implementation, scope: Scope) -> Iterator[Formula]:
         translator = self._translator()
@@ -106,17 +126,36 @@ class _Builder:
             raise Untranslatable(f"its {kind} `{requirement.text}` {reason}") from reason
 
     def _translator(self, label: str = "", text: str = "") -> Translator:
-        return Translator(self.symbols, self.guards.labelled(label, text), {})
+        return Translator(self.symbols, self.guards.labelled(label, text), self.objects)
 
-    def _effects(self, known: Formula, hold: Formula, scope: Scope) -> tuple[Change, ...]:
+    def _effects(
+        self, known: Formula, hold: Formula, given: Defaults, scope: Scope
+    ) -> tuple[tuple[Change, ...], Formula]:
+        """Return what the action changes, and what must hold before for the world to be consistent after it."""
         if not self.implementations:
-            raise Untranslatable("it has no implementation")
+            raise Impossible("it has no implementation")
         if known == FALSE:
-            raise Untranslatable("its conditions can never hold")
-        changes = Effects(self._translator(), scope, known).changes(self.skill.post)
+            raise Impossible("its conditions can never hold")
+        effects = self._stated(given)
+        changes = Effects(self._translator(), scope, known).changes(effects)
         if not changes:
             raise Untranslatable("it changes nothing that a planner can see")
         for change in changes:
             if not change.positive and not change.variables and change.atom in conjuncts(hold):
                 raise Untranslatable("its postconditions undo what its hold conditions keep")
-        return changes
+        consistent = Consistency(self._translator(), scope, changes, known).required(effects)
+        if consistent == FALSE:
+            raise Impossible("its postconditions contradict each other or an axiom")
+        return changes, consistent
+
+    def _stated(self, given: Defaults) -> tuple[Effect, ...]:
+        """Return the effects with the values of optional parameters put in, which no implementation may change."""
+        effects = [effect for post in self.skill.post for effect in post.effects]
+        read = {name for effect in effects for name in free_variables_in_order(effect)} & given.given.keys()
+        for implementation in self.implementations:
+            own = defaults(implementation.parameters).values
+            changed = sorted(name for name in read if own.get(name) != given.values.get(name))
+            if changed:
+                said = f"`{changed[0]}`, which its postconditions speak of"
+                raise Untranslatable(f"its implementation `{implementation.name}` has another default for {said}")
+        return tuple(replaced(effect, given.values) for effect in effects)

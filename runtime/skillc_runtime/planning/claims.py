@@ -1,0 +1,28 @@
+"""What is claimed of a plan, in words: of the whole problem, or of which part of it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import Literal, TypeAlias
+
+from skillc_runtime.planning.left_out import Kind, LeftOut
+
+Optimal: TypeAlias = Literal["proven", "optimal for the filtered problem", "best found"]
+
+PARTS: dict[Kind, str] = {
+    "individuals": "the part of the scene that was planned with",
+    "skills": "the skills that can be planned with",
+    "steps": "the steps that have not failed",
+}
+
+
+def quality(optimal: Optimal, left_out: Collection[LeftOut], at_least_s: float | None) -> str:
+    """Say how good a plan is known to be, and for what: `proved optimal` speaks of the whole problem."""
+    if optimal == "proven":
+        return "proved optimal"
+    known = "" if at_least_s is None else f", any plan takes at least {at_least_s:g} s"
+    if optimal == "optimal for the filtered problem":
+        missing = {each.kind for each in left_out if not each.harmless}
+        parts = " and ".join(words for kind, words in PARTS.items() if kind in missing)
+        return f"optimal for {parts}{known}"
+    return f"best found, not proved optimal{known}"
