@@ -7,6 +7,8 @@ from skillc_dsl.source import Source, Span
 
 REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
 """What decoding puts in the place of each byte that is not UTF-8."""
+MOST_CHARACTERS = 500_000
+"""What is longer is no file that somebody wrote."""
 _BYTE_ORDER_MARK = 2 * REPLACEMENT
 _NUL = "\0"
 
@@ -24,6 +26,18 @@ def not_text(source: Source) -> Diagnostic | None:
     if source.text.startswith(_BYTE_ORDER_MARK) or source.text[1:2] == _NUL or source.text.startswith(_NUL):
         return _problem(source, 0, "the file is UTF-16 or UTF-32, not UTF-8")
     return _problem(source, source.text.index(_NUL), "the file is no text: it has NUL bytes")
+
+
+def too_large(source: Source) -> Diagnostic | None:
+    """Return the problem of a file that is too long to be read."""
+    if len(source.text) <= MOST_CHARACTERS:
+        return None
+    return Diagnostic(
+        "file-too-large",
+        Span(source.path, 1, 1, 1, 2),
+        f"the file has {len(source.text):,} characters, and {MOST_CHARACTERS:,} are read at most",
+        "split it into several files, which import each other",
+    )
 
 
 def wrong_bytes(source: Source) -> Diagnostic | None:
