@@ -48,4 +48,7 @@ def _first(problems: list[Diagnostic]) -> tuple[Diagnostic, ...]:
         return tuple(problems)
     shown, place = problems[:MOST_PROBLEMS], problems[MOST_PROBLEMS].span
     help_ = "correct those above first; if they make no sense, this is no file of skills"
-    return (*shown, Diagnostic("syntax", place, f"more than {MOST_PROBLEMS} syntax errors; the rest is not shown", help_))
+    return (
+        *shown,
+        Diagnostic("syntax", place, f"more than {MOST_PROBLEMS} syntax errors; the rest is not shown", help_),
+    )

@@ -16,7 +16,7 @@ from skillc_dsl.nesting import DEEPEST, too_deep
 from skillc_dsl.repairs import Fault, repair
 
 _LISTS = ("__start_star", "__skill_star", "__impl_star", "__task_star", "___nodes_star")
-_MOST_STATES = 8 * DEEPEST
+_MOST_STATES = 10 * DEEPEST
 """So many states of the parser are on its stack at most, so that what follows a fault is found quickly."""
 MOST_FAULTS = 200
 """After so many faults a text is none of this language, and what is left of it is not read."""
@@ -77,8 +77,17 @@ class Recovery:
         last = len(self.tokens) - 1
         begins = (at for at in range(index, last) if self.tokens[at].type in DECLARATIONS)
         position = next((at for at in begins if first_on_line(self.tokens, at)), last)
+        self._drop_member(self._level(self.tokens[position].type) or 0)
         self._close(self.tokens[position].type)
         return position
+
+    def _drop_member(self, outer: int) -> None:
+        """Drop the unfinished member of the declaration that begins at the level `outer`."""
+        states, values = self._state.state_stack, self._state.value_stack
+        levels = (level for level in range(outer + 1, len(values)) if _is_list(values[level - 1]))
+        level = next((level for level in levels if fits(states[: level + 1], "RBRACE")), None)
+        if level is not None:
+            self._drop(level)
 
     def _give_up(self, index: int) -> int:
         """Report that the rest is not read, and return the index of the end."""
