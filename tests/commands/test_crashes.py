@@ -77,7 +77,7 @@ def test_a_reader_that_goes_is_no_failure(library: Path) -> None:
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         env=environment,
-        preexec_fn=lambda: signal.signal(signal.SIGPIPE, signal.SIG_IGN),  # noqa: PLW1509
+        preexec_fn=lambda: signal.signal(signal.SIGPIPE, signal.SIG_IGN),
     ) as process:
         assert process.stdout is not None and process.stderr is not None
         process.stdout.close()

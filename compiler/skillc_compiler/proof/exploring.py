@@ -21,7 +21,6 @@ from skillc_compiler.proof.writing import applied
 from skillc_compiler.walk import within
 from skillc_dsl import syntax as s
 
-
 MOST_STEPS = 5_000
 """So often nodes of one body are followed from a state; what is then left is only taken for what it may write."""
 

@@ -31,7 +31,7 @@ class Commands(click.Group):
         except BrokenPipeError:
             _crashes.close_stdout()
             sys.exit(_crashes.NOBODY_READS)
-        except Exception as error:
+        except Exception as error:  # noqa: BLE001 - the boundary of the process
             click.echo(_crashes.message(error, sys.argv[1:]), err=True)
             sys.exit(_crashes.INTERNAL)
 

@@ -106,7 +106,7 @@ class Session:
             if before is not None and before.analysis is analysis:
                 return
             by_uri = problems.by_uri(self.libraries, root, analysis, self.encoding)
-        except Exception as error:
+        except Exception as error:  # noqa: BLE001 - the boundary of a task
             analysis, by_uri = None, problems.after_failure(self.libraries, root, self._report(error), self.encoding)
         self._take_back(before.uris - by_uri.keys() if before else frozenset())
         for uri, found in by_uri.items():
