@@ -9,8 +9,8 @@ REST = "more"
 FAMILIES: tuple[tuple[str, str], ...] = (
     (
         "text",
-        "syntax un*-brace unterminated-* unknown-character encoding file-* nesting-* empty-file empty-block duplicate-member repeated-member"
-        " missing-space-* not-formatted *-allow allow-*",
+        "syntax un*-brace unterminated-* unknown-character encoding empty-file duplicate-member repeated-member"
+        " file-* nesting-* empty-block missing-space-* not-formatted *-allow allow-*",
     ),
     ("quantities", "*dimension* *-unit empty-range out-of-range *-angle *-count *-operands numeric-*"),
     (

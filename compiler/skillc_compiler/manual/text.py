@@ -208,10 +208,10 @@ It is not read at all. The bad example stands for a file in which it is repeated
 
 Bad:
 
-    # This is line after line after line of text that no program for a robot needs in one file, and nobody ever reads it.
-    # There is some more of it here, and below, and so on, and so on, until more than half a million letters are written.
+    # This is line after line after line of text that no program for a robot needs in a file, and nobody reads it.
+    # There is some more of it here, and below, and so on, and so on, until over half a million letters are there.
     # Nobody writes so much by hand: some program has made it, or it is a recording that has got the name of a library.
-    # Those who do have so many skills put them into several files, each about one thing, and import what they need of it.
+    # Those who do have so many skills put them into several files, each about one thing, and import what they need.
     # Then the editor stays fast, too, and so do those who have to find something in it: they see what belongs together.
 
 Good:

@@ -97,8 +97,9 @@ class Effected:
 class Run:
     """`leaks` tells what an implementation changes without saying so; `outputs` are names that calls assign.
 
-    While `quiet` is not 0, ends are worked out and nothing is noted. `steps` counts how often a node was followed from a
-    state; `known` holds how nodes end that were followed already, by node, states and place, and whether that was noted.
+    While `quiet` is not 0, ends are worked out and nothing is noted. `steps` counts how often a node was followed from
+    a state; `known` holds how nodes end that were followed already, by node, states and place, and whether that was
+    noted.
     """
 
     program: Program
