@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.assignment import Assignment, Planned, Prepared, Reach
-from skillc_runtime.plans.failures import Failures
 from skillc_runtime.planning.claims import quality
+from skillc_runtime.plans.failures import Failures
 from skillc_runtime.plans.progress import doubt, progress
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.simulation.cell import SimulatedCell
