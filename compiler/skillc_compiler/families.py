@@ -10,7 +10,7 @@ FAMILIES: tuple[tuple[str, str], ...] = (
     (
         "text",
         "syntax un*-brace unterminated-* unknown-character encoding empty-file duplicate-member repeated-member"
-        " missing-space-* not-formatted *-allow allow-*",
+        " file-* nesting-* empty-block missing-space-* not-formatted *-allow allow-*",
     ),
     ("quantities", "*dimension* *-unit empty-range out-of-range *-angle *-count *-operands numeric-*"),
     (

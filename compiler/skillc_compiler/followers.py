@@ -18,6 +18,7 @@ IN_DECLARATION = frozenset(
         "unknown-implementation",
         "unknown-label",
         "missing-argument",
+        "empty-block",
         "missing-body",
         "no-implementation",
         "no-output",
@@ -95,7 +96,7 @@ def _speaking_of(syntax: Sequence[Diagnostic], files: Sequence[ReadFile]) -> Ite
     if not names:
         return
     for unit in files:
-        text = unit.text.splitlines()
+        text = unit.text.split("\n")
         for declaration in unit.file.declarations:
             said = text[declaration.span.line - 1 : declaration.span.end_line]
             if not names.isdisjoint(WORD.findall("\n".join(said))):

@@ -73,7 +73,7 @@ def _slip(problem: Diagnostic, files: Sequence[ReadFile]) -> _Slip | None:
 
 def _written(text: str, span: Span) -> str:
     """Return what stands at a place within a line."""
-    return text.splitlines()[span.line - 1][span.column - 1 : span.end_column - 1] if span.line == span.end_line else ""
+    return text.split("\n")[span.line - 1][span.column - 1 : span.end_column - 1] if span.line == span.end_line else ""
 
 
 def _times(files: Sequence[ReadFile]) -> Mapping[str, int]:

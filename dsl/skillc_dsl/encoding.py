@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+import errno
+from pathlib import Path
+
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source, Span
 
 REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
 """What decoding puts in the place of each byte that is not UTF-8."""
+MOST_CHARACTERS = 500_000
+"""What is longer is no file that somebody wrote."""
+MOST_BYTES = 4 * MOST_CHARACTERS + 4
+"""What holds more characters than are read, whichever they are."""
 _BYTE_ORDER_MARK = 2 * REPLACEMENT
 _NUL = "\0"
 
@@ -14,7 +21,30 @@ _NUL = "\0"
 def decode(path: str, data: bytes) -> Source:
     """Return the text of a file; bytes that are not UTF-8 become U+FFFD, which `parse` reports as `encoding`."""
     text = data.decode("utf-8-sig", errors="replace")
-    return Source(path, text.replace("\r\n", "\n"))
+    return Source(path, unix_lines(text))
+
+
+def unix_lines(text: str) -> str:
+    """Return a text whose lines end as editors see it, at CR LF, CR and LF, with LF at the end of each.
+
+    Form feeds, U+0085 and U+2028 end no line: neither here nor in editors and the Language Server Protocol.
+    """
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def lines_of(text: str) -> list[str]:
+    """Return the lines of a text, each with its end."""
+    lines = text.split("\n")
+    return [*(f"{line}\n" for line in lines[:-1]), *([lines[-1]] if lines[-1] else [])]
+
+
+def read_file(path: Path, most: int = -1) -> bytes:
+    """Return the content of a file, `most` bytes of it at most; OSError for a pipe, a device or a folder."""
+    if not path.is_file():
+        path.stat()
+        raise OSError(errno.EINVAL, "it is not a regular file", str(path))
+    with path.open("rb") as file:
+        return file.read(most)
 
 
 def not_text(source: Source) -> Diagnostic | None:
@@ -24,6 +54,18 @@ def not_text(source: Source) -> Diagnostic | None:
     if source.text.startswith(_BYTE_ORDER_MARK) or source.text[1:2] == _NUL or source.text.startswith(_NUL):
         return _problem(source, 0, "the file is UTF-16 or UTF-32, not UTF-8")
     return _problem(source, source.text.index(_NUL), "the file is no text: it has NUL bytes")
+
+
+def too_large(source: Source) -> Diagnostic | None:
+    """Return the problem of a file that is too long to be read."""
+    if len(source.text) <= MOST_CHARACTERS:
+        return None
+    return Diagnostic(
+        "file-too-large",
+        Span(source.path, 1, 1, 1, 2),
+        f"the file is longer than {MOST_CHARACTERS:,} characters, so it is not read",
+        "split it into several files, which import each other",
+    )
 
 
 def wrong_bytes(source: Source) -> Diagnostic | None:

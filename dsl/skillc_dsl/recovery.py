@@ -12,9 +12,14 @@ from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.expectations import advice, described, home, shown
 from skillc_dsl.grammar import DECLARATIONS, END, first_on_line, fits, fitting, machine
 from skillc_dsl.lexing import after, span_of
+from skillc_dsl.nesting import DEEPEST, too_deep
 from skillc_dsl.repairs import Fault, repair
 
 _LISTS = ("__start_star", "__skill_star", "__impl_star", "__task_star", "___nodes_star")
+_MOST_STATES = 10 * DEEPEST
+"""So many states of the parser are on its stack at most, so that what follows a fault is found quickly."""
+MOST_FAULTS = 200
+"""After so many faults a text is none of this language, and what is left of it is not read."""
 _CALM = 2
 """So many tokens must fit after a fault before the next one is told."""
 
@@ -29,12 +34,16 @@ class Recovery:
         self.problems: list[Diagnostic] = []
         self._state: ParserState[int] = machine().parse_interactive("").parser_state
         self._since = _CALM
+        self._faults = 0
 
     def run(self) -> Tree[Token]:
         """Return the tree of everything understood."""
         index, feed = 0, self._state.feed_token
         while self.tokens[index].type != END or not fits(self._state.state_stack, END):
             before = self._state.state_stack.copy()
+            if len(before) > _MOST_STATES:
+                index = self._leave_too_deep(index)
+                continue
             try:
                 feed(self.tokens[index])
                 self._since = 0 if _is_inserted(self.tokens[index]) else self._since + 1
@@ -46,6 +55,9 @@ class Recovery:
 
     def _recover(self, before: list[int], index: int) -> int:
         """Report the fault at `index` and return the index to go on from."""
+        self._faults += 1
+        if self._faults > MOST_FAULTS:
+            return self._give_up(index)
         found = repair(Fault(self._state.state_stack, self.tokens, index, self.path))
         if found is not None:
             self._report(found.problem)
@@ -58,6 +70,33 @@ class Recovery:
         position = self._resume(index)
         self._since = _CALM if first_on_line(self.tokens, position) else 0
         return position
+
+    def _leave_too_deep(self, index: int) -> int:
+        """Report what is nested too deep, and return the index of the next declaration, or the end."""
+        self.problems.append(too_deep(span_of(self.tokens[index], self.path)))
+        last = len(self.tokens) - 1
+        begins = (at for at in range(index, last) if self.tokens[at].type in DECLARATIONS)
+        position = next((at for at in begins if first_on_line(self.tokens, at)), last)
+        self._drop_member(self._level(self.tokens[position].type) or 0)
+        self._close(self.tokens[position].type)
+        return position
+
+    def _drop_member(self, outer: int) -> None:
+        """Drop the unfinished member of the declaration that begins at the level `outer`."""
+        states, values = self._state.state_stack, self._state.value_stack
+        levels = (level for level in range(outer + 1, len(values)) if _is_list(values[level - 1]))
+        level = next((level for level in levels if fits(states[: level + 1], "RBRACE")), None)
+        if level is not None:
+            self._drop(level)
+
+    def _give_up(self, index: int) -> int:
+        """Report that the rest is not read, and return the index of the end."""
+        span = span_of(self.tokens[index], self.path)
+        help_ = "correct the errors above first; if there are none to see, this is no file of skills"
+        message = f"this file has more than {MOST_FAULTS} syntax errors; the rest is not read"
+        self.problems.append(Diagnostic("syntax", span, message, help_))
+        self._close(END)
+        return len(self.tokens) - 1
 
     def _report(self, problem: Diagnostic) -> None:
         """Keep `problem` unless its line has one already or the last is hardly over: it would follow from that one."""

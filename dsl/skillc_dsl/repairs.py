@@ -132,9 +132,9 @@ def _missing(fault: Fault) -> Iterator[Repair]:
         return
     span = span_of(fault.tokens[fault.index - 1], fault.path) if new_line and fault.index else fault.span
     for terminal in _INSERTED:
-        if (new_line and terminal == "LPAR") or (terminal == "LBRACE" and not _has_unopened(fault)):
+        if (new_line and terminal == "LPAR") or (name_fits and terminal in _WORDS):
             continue
-        if fault.mended_by(terminal, skip=0) and not (name_fits and terminal in _WORDS):
+        if fault.mended_by(terminal, skip=0) and (terminal != "LBRACE" or _has_unopened(fault)):
             text, gap = words()[terminal], fault.gap
             before = fault.tokens[fault.index - 1] if fault.index else ""
             padded = f" {text}" if text.isalpha() or terminal in _SPACED else text

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.assignment import Assignment, Planned, Prepared, Reach
+from skillc_runtime.planning.claims import quality
 from skillc_runtime.plans.failures import Failures
 from skillc_runtime.plans.progress import doubt, progress
 from skillc_runtime.primitives.primitive import Status
@@ -114,7 +115,15 @@ def _tell_plan(prepared: Prepared, setting: Setting) -> None:
     now, cost = setting.cell.now, solved.plan.duration_s
     short = setting.library.vocabulary.short
     names = {iri: short(iri) for step in steps for iri in step.arguments.values()}
-    made = PlanMade(time=now, planner=solved.planner, optimal=solved.optimal, cost=cost, steps=steps, names=names)
+    made = PlanMade(
+        time=now,
+        planner=solved.planner,
+        optimal=solved.optimal,
+        cost=cost,
+        steps=steps,
+        names=names,
+        quality=quality(solved.optimal, solved.left_out, solved.at_least_s),
+    )
     Listeners(setting.listeners)(made)
 
 

@@ -56,6 +56,8 @@ def problems(page: Page, text: str) -> list[str]:
     if page.name == "not-formatted":
         warning = not_formatted(Source("example.skill", text))
         return [warning.name] if warning else []
+    if page.name == "file-too-large":
+        return [d.name for d in parse(Source("example.skill", text * 1000)).diagnostics]
     if page.name == "encoding":
         return [d.name for d in parse(decode("example.skill", text.encode("latin-1"))).diagnostics]
     if page.name == "missing-prefix":

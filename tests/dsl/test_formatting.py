@@ -110,4 +110,4 @@ def test_a_file_with_errors_stays_as_it_is() -> None:
 def test_what_nests_too_deeply_stays_as_it_is() -> None:
     text = f"impl x of Y {{\npre {'(' * 5000}a{')' * 5000}\n}}\n"
     outcome = formatted(Source("a.skill", text))
-    assert (outcome.value, [d.name for d in outcome.diagnostics]) == (text, ["not-formatted"])
+    assert (outcome.value, [d.name for d in outcome.diagnostics]) == (text, ["nesting-too-deep"])

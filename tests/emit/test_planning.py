@@ -11,6 +11,7 @@ from emit import samples
 from emit.planner import search_binary, solve
 from emit.samples import DRIVE, PICK, WIPE, assign, holds, iri, library, need, number, parameter, post, read
 from skillc_compiler.library.conditions import (
+    And,
     Compare,
     Condition,
     Exists,
@@ -27,7 +28,18 @@ from skillc_compiler.library.conditions import (
     Variable,
 )
 from skillc_compiler.library.pddl.domain import Action, GuardFact, PlanningDomain, RelationFact
-from skillc_compiler.library.pddl.formulas import FALSE, TRUE, Atom, Change, Formula, Negation, Typed, conjuncts
+from skillc_compiler.library.pddl.formulas import (
+    FALSE,
+    TRUE,
+    Atom,
+    Change,
+    Equal,
+    Formula,
+    Negation,
+    Typed,
+    conjunction,
+    conjuncts,
+)
 from skillc_compiler.library.pddl.goals import ground_goal
 from skillc_compiler.library.pddl.planning import planning_domain
 from skillc_compiler.library.pddl.prepare import prepared
@@ -94,7 +106,8 @@ def test_a_disjunctive_goal_is_reached_by_its_cheapest_case(tmp_path: Path) -> N
             Compare(PropertyOf(Individual(iri("board")), iri("isClean")), "==", Literal(True)),
         )
     )
-    goal = ground_goal(wanted, made, domain, {iri(n): n for n in OBJECTS}, lambda _: (), lambda _: False)
+    objects = {iri(name): Typed(name, type_) for name, type_ in OBJECTS.items()}
+    goal = ground_goal(wanted, made, domain, objects, lambda _: (), lambda _: False)
     assert solve(prepared(problem(domain, goal)), tmp_path) == ["drive ur wall dock", "reach-goal"]
 
 
@@ -133,8 +146,11 @@ def test_a_condition_on_a_relation_reads_its_changing_subrelations() -> None:
         implementations=("screws",),
         source=samples.HERE,
     )
-    reads = conjuncts(action(with_pre(DRIVE, holds("robot hasA to")), mount).precondition)
+    take = varied(PICK, name="Take", pre=(need("tested", holds("arm hasA gripper")),))
+    reads = conjuncts(action(take, mount).precondition)
     assert {each.predicate for each in reads[0].parts} == {"has-a", "has-gripper"}  # type: ignore[union-attr]
+    no_arm = conjuncts(action(with_pre(DRIVE, holds("robot hasA to")), mount).precondition)
+    assert no_arm[0] == Atom("has-a", ("?robot", "?to"))
     domain = planning_domain(library(mount))
     assert domain.predicate["has-a"].meaning == RelationFact(iri("hasA"), ((iri("hasGripper"), False),))
 
@@ -229,10 +245,6 @@ LEFT_OUT = {
     "no effect": (varied(PICK, post=()), "it changes nothing"),
     "no implementation": (varied(PICK, implementations=()), "no implementation"),
     "never possible": (with_pre(DRIVE, Or(())), "can never hold"),
-    "an individual that moves": (
-        with_pre(DRIVE, Holds(Variable("robot"), iri("at"), Individual(iri("dock")))),
-        "names `core:dock`",
-    ),
     "a hold that the effect ends": (
         varied(DRIVE, hold=(need("stay", holds("robot at from"), "robot at from"),)),
         "undo what its hold conditions keep",
@@ -279,7 +291,7 @@ def test_forall_is_written_out_for_the_objects() -> None:
 def test_goals_are_ground_and_settle_what_never_changes() -> None:
     made = samples.wiping()
     domain = planning_domain(made)
-    objects = {iri(name): name for name in OBJECTS}
+    objects = {iri(name): Typed(name, type_) for name, type_ in OBJECTS.items()}
     places = [iri("store"), iri("wall")]
 
     def goal(condition: Condition, holds_now: bool = False) -> Formula:
@@ -294,3 +306,40 @@ def test_goals_are_ground_and_settle_what_never_changes() -> None:
     assert goal(Not(somewhere)).parts == tuple(Negation(each) for each in atoms)  # type: ignore[union-attr]
     assert goal(IsA(robot, iri("Robot")), holds_now=True) == TRUE
     assert goal(IsA(robot, iri("Robot"))) == FALSE
+
+
+def test_a_statement_displaces_other_values_only() -> None:
+    mount = varied(PICK, name="Mount", pre=(), post=(post("mounted", "arm hasGripper gripper"),))
+    old, former = Atom("has-a", ("?former", "?gripper")), Typed("?former", "item")
+    other = Negation(Equal("?former", "?arm"))
+    assert Change(old, False, (former,), conjunction((old, other))) in action(mount).effects
+
+
+def test_what_an_axiom_forbids_is_ruled_out_before() -> None:
+    hold = Skill(
+        name="Nest",
+        parameters=(parameter("outer", "Holder"), parameter("inner", "Holder")),
+        post=(post("nested", "outer contain inner"), post("free", "inner contain outer", positive=False)),
+        implementations=("by_hand",),
+        source=samples.HERE,
+    )
+    apart = Negation(Equal("?inner", "?outer"))
+    assert apart in conjuncts(action(hold).precondition), "else the second post undoes the first"
+    bare = varied(hold, post=hold.post[:1])
+    opposite = Negation(Atom("contain", ("?inner", "?outer")))
+    either = conjuncts(action(bare).precondition)[-1]
+    assert opposite in getattr(either, "parts", (either,)), "asymmetric"
+
+
+def test_posts_that_exclude_each_other_are_left_out_as_impossible() -> None:
+    torn = varied(DRIVE, post=(*DRIVE.post, post("away", "robot at to", positive=False)))
+    (left_out,) = planning_domain(library(torn)).excluded
+    assert left_out.impossible and left_out.reason == "its postconditions contradict each other or an axiom"
+
+
+def test_the_same_condition_on_other_things_is_another_guard() -> None:
+    heavy = Compare(read("x", "weight"), ">=", Literal(1.0))
+    each = [Exists("x", iri(cls), And((holds("robot at to"), heavy))) for cls in ("Product", "Surface")]
+    domain = planning_domain(library(with_pre(DRIVE, And(tuple(each)))))
+    guards = [each for each in domain.predicates if isinstance(each.meaning, GuardFact)]
+    assert sorted(each.parameters[0].type for each in guards) == ["product", "surface"]

@@ -155,6 +155,6 @@ def _said(expression: Expression) -> str:
 
 
 def _words(text: str, path: str) -> Iterator[Word]:
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, line in enumerate(text.split("\n"), start=1):
         for found in _TOKEN.finditer(line.partition(";")[0]):
             yield Word(found.group(), Span(path, number, found.start() + 1, number, found.end() + 1))

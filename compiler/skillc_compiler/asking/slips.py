@@ -30,7 +30,7 @@ def slips(
     """
     if not text.strip():
         return (Diagnostic("syntax", Span(what, 1, 1, 1, 2), f"the {what} is empty", EXAMPLES[what]),)
-    lines = [_COMMENT.sub("", line) for line in text.splitlines()]
+    lines = [_COMMENT.sub("", line) for line in text.split("\n")]
     return tuple(_parentheses(lines, what)) or tuple(_prefixes(lines, what, sorted(individuals), means_something))
 
 

@@ -9,6 +9,7 @@ import msgspec
 
 from skillc_compiler.library.conditions import (
     Condition,
+    Effect,
     Exists,
     Expression,
     Forall,
@@ -47,8 +48,8 @@ def _flat(value: object) -> Iterable[object]:
             return (value,)
 
 
-def terms_read(condition: Condition) -> frozenset[str]:
-    """Return the IRIs of the relations and properties that decide whether the condition holds."""
+def terms_read(condition: Condition | Expression) -> frozenset[str]:
+    """Return the IRIs of the relations and properties that decide whether a condition holds or what a value is."""
     read: set[str] = set()
     for each in walk(condition):
         match each:
@@ -63,7 +64,7 @@ def free_variables(item: Condition | Expression) -> frozenset[str]:
     return frozenset(_free(item))
 
 
-def free_variables_in_order(item: Condition | Expression) -> tuple[str, ...]:
+def free_variables_in_order(item: Condition | Effect | Expression) -> tuple[str, ...]:
     """Return the same in the order in which they first occur."""
     return tuple(dict.fromkeys(_free(item)))
 

@@ -60,20 +60,19 @@ def _around(step: Step, written: s.Counted | s.Timeout | s.While | s.For | s.Wit
 
 def _block(step: Step, written: s.Block) -> t.Node:
     source = position(written.span)
-    children = tuple(node(child) for child in step.children)
     match written.kind:
         case "seq" | "reactive seq":
-            return t.Sequence(children, written.kind == "reactive seq", source)
+            return t.Sequence(_nodes(step), written.kind == "reactive seq", source)
         case "sel" | "reactive sel":
-            return t.Selector(children, written.kind == "reactive sel", source)
+            return t.Selector(_nodes(step), written.kind == "reactive sel", source)
         case "par all":
-            return t.Parallel("all", children, source)
+            return t.Parallel("all", _nodes(step), source)
         case "par any":
-            return t.Parallel("any", children, source)
+            return t.Parallel("any", _nodes(step), source)
         case "par race":
-            return t.Parallel("race", children, source)
+            return t.Parallel("race", _nodes(step), source)
         case "par lead":
-            return t.Parallel("lead", children, source)
+            return t.Parallel("lead", _nodes(step), source)
         case "try":
             return t.Try(_together(step.children, step), source)
         case "invert":
@@ -82,6 +81,10 @@ def _block(step: Step, written: s.Block) -> t.Node:
             return t.Once(_together(step.children, step), source)
         case _:
             assert_never(written.kind)
+
+
+def _nodes(step: Step) -> tuple[t.Node, ...]:
+    return tuple(node(child) for child in step.children)
 
 
 def _together(children: Sequence[Step], of: Step) -> t.Node:

@@ -173,6 +173,52 @@ Good:
     skill Rest { noplan }
     impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
 
+## nesting-too-deep: steps, conditions or values stand in each other more than 64 levels deep
+
+Each pair of parentheses, each `not`, each block, each `else if` and each operator of a sum or product is a level. The
+member or declaration that is too deep is left out, and everything else is checked.
+
+Bad:
+
+    use skillc
+    skill Rest {
+        in  board: Surface
+        pre
+            not not not not not not not not not not not not not not not not not not not not not not
+            not not not not not not not not not not not not not not not not not not not not not not
+            not not not not not not not not not not not not not not not not not not not not not not
+            board.located == true
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use skillc
+    skill Rest {
+        in  board: Surface
+        pre board.located == true
+        noplan
+    }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+## file-too-large: the file is longer than 500,000 characters
+
+It is not read at all. The bad example stands for a file in which it is repeated a thousand times.
+
+Bad:
+
+    # This is line after line after line of text that no program for a robot needs in a file, and nobody reads it.
+    # There is some more of it here, and below, and so on, and so on, until over half a million letters are there.
+    # Nobody writes so much by hand: some program has made it, or it is a recording that has got the name of a library.
+    # Those who do have so many skills put them into several files, each about one thing, and import what they need.
+    # Then the editor stays fast, too, and so do those who have to find something in it: they see what belongs together.
+
+Good:
+
+    skill Rest { noplan }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
 ## not-formatted: the file is not in its one layout
 
 Told by `skillc fmt --check`, not by `skillc check`. `skillc fmt` lays files out: one member a line, words in columns,

@@ -52,7 +52,7 @@ class Binding:
 
     def effect(self, effect: Effect) -> Effect:
         """Return what an effect changes, as the caller sees it."""
-        return replaced(effect, self.after)  # type: ignore[type-var]
+        return replaced(effect, self.after)
 
 
 def candidates(program: Program, call: Call) -> tuple[Implementation, ...]:
@@ -86,7 +86,7 @@ def bound(sorts: Sorts, state: State, call: Call, requirements: Sequence[Require
     `requirements` are its preconditions. What it infers is known where they leave one individual only.
     """
     assert call.skill is not None, "a call of an unknown skill has no parameters"
-    passed = {argument.name.text: argument.value.meaning for argument in call.arguments}
+    passed = dict(_passed(call.skill, call))
     start: dict[str, Expression] = {}
     after: dict[str, Expression] = {}
     open_: dict[str, Parameter] = {}
@@ -107,6 +107,15 @@ def bound(sorts: Sorts, state: State, call: Call, requirements: Sequence[Require
         open_.pop(name)
     made = frozenset(value.name for name in open_ if isinstance(value := start[name], Variable))
     return Binding(call.skill, start, after, made, {p.name: _given(p, passed) for p in call.skill.parameters})
+
+
+def _passed(skill: Skill, call: Call) -> Iterator[tuple[str, Expression]]:
+    """Yield the arguments; one that is no individual where one belongs is reported elsewhere and left open here."""
+    for argument in call.arguments:
+        parameter, value = skill.parameter(argument.name.text), argument.value.meaning
+        takes_individual = parameter is not None and isinstance(parameter.declared, ClassType)
+        if not takes_individual or isinstance(value, Variable | Individual):
+            yield argument.name.text, value
 
 
 def class_of(parameter: Parameter) -> str:

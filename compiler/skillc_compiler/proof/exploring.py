@@ -16,12 +16,21 @@ from skillc_compiler.proof.summaries import key_of
 from skillc_compiler.proof.trail import LIMIT, Ends, Way, Ways, add, decided, few, merge, step
 from skillc_compiler.proof.undoing import scoped
 from skillc_compiler.proof.waiting import awaited
+from skillc_compiler.proof.writes import Assigned
 from skillc_compiler.proof.writing import applied
+from skillc_compiler.walk import within
 from skillc_dsl import syntax as s
+
+MOST_STEPS = 5_000
+"""So often nodes of one body are followed from a state; what is then left is only taken for what it may write."""
 
 
 def explore(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
-    """Return how a node can end from each of these states; nothing starts where there is none."""
+    """Return how a node can end from each of these states; nothing starts where there is none.
+
+    Loops and parallel nodes follow their children several times. What is followed again from the same states ends in
+    the same way, so nested ones do not take exponential time.
+    """
     if not ways:
         return Ends()
     if not run.quiet:
@@ -29,6 +38,20 @@ def explore(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
     if len(ways) > LIMIT and run.crowded is None:
         run.crowded = node.written.span
     ways = few(ways) if run.watch is None else run.watch.sees(run, few(ways))
+    if not (node.children or node.orelse):
+        return _explored(run, node, ways, around)
+    key = (id(node), frozenset(ways), around)
+    noted, ends = run.known.get(key, (False, None))
+    if ends is None or not (noted or run.quiet):
+        ends = _explored(run, node, ways, around)
+        run.known[key] = (not run.quiet, ends)
+    return Ends(dict(ends.success), dict(ends.failure), dict(ends.broken))
+
+
+def _explored(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
+    run.steps += len(ways)
+    if run.steps > MOST_STEPS:
+        return _unfollowed(run, node, ways, around)
     run.read(node.values, node.clauses, ways)
     written = node.written
     match written:
@@ -51,6 +74,18 @@ def explore(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
             return scoped(run, node, ways, around)
         case _:
             assert_never(written)
+
+
+def _unfollowed(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
+    """Return how a node can end that is not looked into: in any way, wherever it was."""
+    run.crowded = run.crowded or node.written.span
+    run.reached.update(id(inner) for inner in within(node))
+    left = beside.stopped(run, node, ways, around)
+    done = {write.name for write in run.writes(node) if isinstance(write, Assigned)}
+    assigned: dict[State, Way] = {}
+    for state, way in left.items():
+        add(assigned, state.replaced(assigned=state.assigned | done), way)
+    return Ends(assigned, left, dict(left))
 
 
 def _block(run: Run, node: Step, written: s.Block, ways: Ways, around: Around) -> Ends:

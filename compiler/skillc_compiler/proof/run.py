@@ -97,7 +97,9 @@ class Effected:
 class Run:
     """`leaks` tells what an implementation changes without saying so; `outputs` are names that calls assign.
 
-    While `quiet` is not 0, ends are worked out and nothing is noted.
+    While `quiet` is not 0, ends are worked out and nothing is noted. `steps` counts how often a node was followed from
+    a state; `known` holds how nodes end that were followed already, by node, states and place, and whether that was
+    noted.
     """
 
     program: Program
@@ -115,6 +117,8 @@ class Run:
     effects: dict[object, Effected] = field(default_factory=dict)
     crowded: Span | None = None
     quiet: int = 0
+    steps: int = 0
+    known: dict[object, tuple[bool, Ends]] = field(default_factory=dict)
 
     def writes(self, step: Step) -> frozenset[Write]:
         """Return what a node may write; names that change their meaning within the body stand for anything fitting."""

@@ -113,7 +113,7 @@ def _implementation_names(files: Sequence[ReadFile]) -> dict[str, list[str]]:
 
 def _implementations(files: Sequence[ReadFile], settings: Mapping[str, Setting]) -> Iterator[Implementation]:
     for unit in files:
-        setting, lines = settings[unit.file.path], unit.text.splitlines()
+        setting, lines = settings[unit.file.path], unit.text.split("\n")
         for declaration in unit.file.declarations:
             if not isinstance(declaration, s.ImplementationDeclaration):
                 continue

@@ -20,16 +20,12 @@ from skillc_dsl.source import Source, Span
 def formatted(source: Source) -> Outcome[str]:
     """Return the text of a file in its one layout: same meaning, same comments.
 
-    A file with errors stays as it is, and they are told. So does one that would not mean the same, or that nests too
-    deeply.
+    A file with errors stays as it is, and they are told. So does one that would not mean the same.
     """
     errors = tuple(problem for problem in parse(source).diagnostics if problem.severity == "error")
     if errors:
         return Outcome(source.text, errors)
-    try:
-        text = _layout(source)
-    except RecursionError:
-        return Outcome(source.text, (_refused(source, "it nests too deeply"),))
+    text = _layout(source)
     if text != source.text and not say_the_same(source, Source(source.path, text)):
         return Outcome(source.text, (_refused(source, "it would not mean the same"),))
     return Outcome(text)

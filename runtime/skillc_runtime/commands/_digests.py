@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator
 from importlib import import_module
 from pathlib import Path
 
+from skillc_dsl.encoding import read_file
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import own_models
 from skillc_runtime.commands._files import LibraryFiles
@@ -64,7 +65,7 @@ def _file(path: Path) -> Iterator[str | bytes]:
     """Yield a file's content, or that it cannot be read."""
     yield str(path)
     try:
-        yield path.read_bytes()
+        yield read_file(path)
     except (OSError, ValueError) as error:
         yield type(error).__name__
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import click
 
 import skillc_skills
-from skillc_dsl.encoding import decode
+from skillc_dsl.encoding import MOST_BYTES, decode, read_file
 from skillc_dsl.source import Source
 from skillc_runtime.commands import _ontologies
 
@@ -56,6 +56,8 @@ def find(path: Path) -> LibraryFiles:
         if path.suffix != ".skill":
             raise click.UsageError(f"{path} is not a .skill file")
         return of_file(path, _bytes(path))
+    if path.exists():
+        raise click.UsageError(f"{path} is not a regular file")
     if path.is_symlink():
         raise click.UsageError(f"{path} is a link that leads nowhere")
     raise click.UsageError(f"there is no file or folder {path}")
@@ -139,7 +141,7 @@ def _read(file: Path, name: str) -> Source:
 
 def _bytes(file: Path) -> bytes:
     try:
-        return file.read_bytes()
+        return read_file(file, MOST_BYTES)
     except OSError as error:
         raise click.UsageError(f"{file} cannot be read: {error.strerror}") from error
 

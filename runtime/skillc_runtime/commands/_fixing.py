@@ -10,7 +10,7 @@ from pathlib import Path
 
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.edits import apart, applied
-from skillc_dsl.encoding import REPLACEMENT
+from skillc_dsl.encoding import REPLACEMENT, lines_of
 from skillc_dsl.parser import parse
 from skillc_dsl.source import Source
 from skillc_runtime.commands._files import LibraryFiles
@@ -69,7 +69,7 @@ def diff(cured: Cured) -> str:
 
 def unified(old: str, new: str, shown: str) -> str:
     """Return how a text, called `shown`, changes, as a unified diff."""
-    lines = difflib.unified_diff(old.splitlines(keepends=True), new.splitlines(keepends=True), shown, shown, n=2)
+    lines = difflib.unified_diff(lines_of(old), lines_of(new), shown, shown, n=2)
     return "".join(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in lines)
 
 

@@ -17,7 +17,7 @@ from skillc_runtime.commands import _diagnostics
 from skillc_runtime.commands._arm_sheets import unfit_sheets
 from skillc_runtime.commands._controllers import unknown_controllers
 from skillc_runtime.commands._scenes import Populated
-from skillc_runtime.planning.reachable import why_unreachable
+from skillc_runtime.planning.reachable import Unreachable, why_unreachable
 from skillc_runtime.selection.first import first_refusals
 from skillc_runtime.selection.preflight import Refusal, preflight
 from skillc_runtime.selection.unfit import Unfit, unfit
@@ -65,9 +65,9 @@ def _of_task(task: Task, library: SkillLibrary, shown: Callable[[str], str], sce
     """Yield what keeps a task from being done in its scene."""
     told = _Teller(shown, scene, task)
     if task.goal is not None:
-        why = why_unreachable(library, scene.state, task.goal)
-        if why is not None:
-            yield told.unreachable(why)
+        found = why_unreachable(library, scene.state, task.goal)
+        if found is not None:
+            yield told.unreachable(found)
     if task.body is not None:
         refusals = preflight(task.body, library, scene.state)
         yield from (told.refusal(each) for each in refusals)
@@ -102,9 +102,10 @@ class _Teller:
         message = f"`{self._task.name}` begins with a call that cannot start in this scene: {refusal.message}"
         return self.diagnostic(_problem_name(refusal, "cannot-start"), message, refusal, "warning")
 
-    def unreachable(self, why: str) -> Diagnostic:
+    def unreachable(self, found: Unreachable) -> Diagnostic:
         """Tell of a goal."""
-        message = f"`{self._task.name}` has a goal that cannot be reached in its scene: {why}"
+        what = "cannot be reached" if found.proved else "no plan can be made for"
+        message = f"`{self._task.name}` has a goal that {what} in its scene: {found.why}"
         place = self._span(self._task.source)
         return Diagnostic("unreachable-goal", place, message, labels=tuple(self._named(message)))
 

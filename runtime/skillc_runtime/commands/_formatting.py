@@ -11,7 +11,7 @@ from pathlib import Path
 import click
 
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.encoding import decode
+from skillc_dsl.encoding import MOST_BYTES, decode, lines_of
 from skillc_dsl.formatting import formatted, not_formatted
 from skillc_dsl.source import Source
 from skillc_runtime.commands import _files, _telling
@@ -49,7 +49,7 @@ def of_files(paths: Iterable[Path]) -> Iterator[Layout]:
 
 def of_stdin(name: Path) -> Layout:
     """Return the layout of the standard input."""
-    return _layout(decode(str(name), sys.stdin.buffer.read()), None)
+    return _layout(decode(str(name), sys.stdin.buffer.read(MOST_BYTES)), None)
 
 
 def write(layouts: Sequence[Layout]) -> int:
@@ -92,7 +92,7 @@ def show_unformatted(layouts: Sequence[Layout]) -> int:
 def show_diffs(layouts: Iterable[Layout]) -> None:
     """Print what would change as unified diffs."""
     for layout in layouts:
-        old, new = (text.splitlines(keepends=True) for text in (layout.source.text, layout.text))
+        old, new = (lines_of(text) for text in (layout.source.text, layout.text))
         name = layout.source.path
         for line in difflib.unified_diff(old, new, name, f"{name} (formatted)"):
             click.echo(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n", nl=False)

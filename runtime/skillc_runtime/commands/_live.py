@@ -56,8 +56,8 @@ class Live:
                 self._calls.pop(node, None)
             case Replanned(reason=reason):
                 self.say(f"planning anew: {reason}")
-            case PlanMade(steps=steps, optimal=optimal):
-                self.say(f"{' -> '.join(step.skill for step in steps)} ({optimal})")
+            case PlanMade(steps=steps, quality=quality):
+                self.say(f"{' -> '.join(step.skill for step in steps)} ({quality})")
             case _:
                 pass
 

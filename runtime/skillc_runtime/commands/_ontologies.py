@@ -10,7 +10,7 @@ from pathlib import Path
 import click
 
 from skillc_compiler.emit.headers import is_ours
-from skillc_dsl.encoding import decode
+from skillc_dsl.encoding import decode, read_file
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
 
@@ -51,7 +51,7 @@ def is_vocabulary(path: Path) -> bool:
     if path.suffix not in catalogue.ENDINGS:
         return False
     try:
-        text = path.read_bytes().decode("utf-8", errors="replace")
+        text = read_file(path).decode("utf-8", errors="replace")
     except OSError:
         return False
     return bool(_VOCABULARY.search(text)) and not is_ours(text)
@@ -62,7 +62,7 @@ def sources(files: Iterable[tuple[str, Path]]) -> tuple[Source, ...]:
     found: list[Source] = []
     for shown, path in files:
         try:
-            found.append(decode(shown, path.read_bytes()))
+            found.append(decode(shown, read_file(path)))
         except OSError as error:
             raise click.UsageError(f"{path} cannot be read: {error.strerror}") from error
     return tuple(found)

@@ -11,6 +11,7 @@ import click
 from skillc_compiler.picture.boxes import Box
 from skillc_runtime.assignment import Reach
 from skillc_runtime.commands import _mission
+from skillc_runtime.planning.claims import quality
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable
 from skillc_runtime.planning.problem import GoalError
 from skillc_runtime.planning.solve import solve
@@ -34,10 +35,10 @@ def planned(path: Path, task: str) -> Box:
     except GoalError as error:
         raise NoPlan(str(error)) from error
     match answer:
-        case Solved(plan=plan, optimal=optimal):
-            quality = "proved optimal" if optimal == "proven" else "best found, not proved optimal"
+        case Solved(plan=plan):
+            good = quality(answer.optimal, answer.left_out, answer.at_least_s)
             steps = (_step(step.skill, step.arguments, state.vocabulary.short) for step in plan.steps)
-            return Box("flow", "→", "plan", (f"{plan.duration_s:g} s expected, {quality}",), tuple(steps))
+            return Box("flow", "→", "plan", (f"{plan.duration_s:g} s expected, {good}",), tuple(steps))
         case Unsolvable(why=why) | GaveUp(why=why):
             raise NoPlan(why)
         case _:

@@ -9,6 +9,7 @@ from typing import Literal, TypeAlias, assert_never
 from skillc_compiler.library.conditions import Condition
 from skillc_runtime.commands._mission import Mission
 from skillc_runtime.planning.choose import Planners
+from skillc_runtime.planning.claims import quality
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Step, Unsolvable
 from skillc_runtime.planning.problem import GoalError
 from skillc_runtime.planning.schedule import Scheduled
@@ -60,14 +61,7 @@ def _schedule_text(answer: Scheduled, mission: Mission) -> str:
 
 
 def _quality(answer: Solved | Scheduled) -> str:
-    if answer.optimal == "proven":
-        return "proved optimal"
-    known = "" if answer.at_least_s is None else f", any plan takes at least {answer.at_least_s:g} s"
-    if answer.optimal == "optimal for the filtered problem":
-        return f"optimal for the part of the scene that was planned with{known}"
-    if answer.optimal == "optimal for approximate durations":
-        return f"optimal for approximate durations{known}"
-    return f"best found, not proved optimal{known}"
+    return quality(answer.optimal, answer.left_out, answer.at_least_s)
 
 
 def _assumed(answer: Solved | Scheduled) -> Iterator[str]:
@@ -76,14 +70,15 @@ def _assumed(answer: Solved | Scheduled) -> Iterator[str]:
 
 
 def _left_out(answer: Solved | Scheduled, mission: Mission) -> Iterator[str]:
-    """Yield what of the scene a plan was made without, unless that could never have made a difference."""
+    """Yield what a plan was made without, unless that could never have made a difference."""
     short = mission.assignment.state.vocabulary.short
-    told = "yet no better plan needs them" if answer.optimal == "proven" else "a better plan may need them"
     for each in answer.left_out:
         if not each.harmless:
             more = len(each.what) - NAMED
             names = ", ".join(short(iri) for iri in each.what[:NAMED]) + (f" and {more} more" if more > 0 else "")
-            yield f"planned without {names}: {each.why}; {told}"
+            them = "it" if len(each.what) == 1 else "them"
+            needed = "yet no better plan needs" if answer.optimal == "proven" else "a better plan may need"
+            yield f"planned without {names}: {each.why}; {needed} {them}"
 
 
 def as_json(answer: Answer, mission: Mission) -> str:
@@ -119,8 +114,12 @@ def _solved(answer: Solved | Scheduled, steps: list[dict[str, object]]) -> dict[
         "plan_optimal": answer.optimal == "proven",
         "optimal": answer.optimal,
         "at_least_s": answer.at_least_s,
+        "quality": _quality(answer),
         "assumptions": list(answer.assumptions),
-        "left_out": [{"what": each.what, "why": each.why, "harmless": each.harmless} for each in answer.left_out],
+        "left_out": [
+            {"kind": each.kind, "what": each.what, "why": each.why, "harmless": each.harmless}
+            for each in answer.left_out
+        ],
     }
 
 

@@ -51,7 +51,8 @@ def _attempt(attempt: Attempt) -> Iterator[str]:
     if attempt.replaces:
         yield f"planned anew: {attempt.replaces}"
     if attempt.planner:
-        proved = {"proven": ", proved optimal"}.get(attempt.optimal, "")
+        quality = attempt.quality or {"proven": "proved optimal"}.get(attempt.optimal, "")
+        proved = f", {quality}" if quality else ""
         count = f"{len(attempt.steps)} step{'' if len(attempt.steps) == 1 else 's'}"
         yield f"plan of {count} by {attempt.planner}{proved}, {attempt.cost:g} s expected"
     for step in attempt.steps:

@@ -30,7 +30,8 @@ def rewrite(path: Path, old: str, new: str) -> None:
 def _encoded(text: str, before: bytes) -> bytes:
     """Return the bytes of a text with the line ends and the mark that the file had."""
     dos = before.count(b"\r\n") > before.count(b"\n") // 2
-    content = text.replace("\n", "\r\n").encode() if dos else text.encode()
+    mac = b"\n" not in before and b"\r" in before
+    content = text.replace("\n", "\r\n" if dos else "\r" if mac else "\n").encode()
     return _MARK + content if before.startswith(_MARK) else content
 
 

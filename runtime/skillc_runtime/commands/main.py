@@ -5,19 +5,35 @@ from __future__ import annotations
 import ast
 import importlib
 import pkgutil
+import sys
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
 import click
 
-from skillc_runtime.commands import _ontologies
+from skillc_runtime.commands import _crashes, _ontologies
 
 HERE = Path(__file__).parent
 
 
 class Commands(click.Group):
     """A group whose commands are the modules beside this one; each has a click command named `command`."""
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the command; what goes wrong with skillc itself becomes one message and a report."""
+        try:
+            return super().invoke(ctx)
+        except (click.ClickException, click.exceptions.Exit, click.Abort):
+            raise
+        except KeyboardInterrupt:
+            sys.exit(_crashes.INTERRUPTED)
+        except BrokenPipeError:
+            _crashes.close_stdout()
+            sys.exit(_crashes.NOBODY_READS)
+        except Exception as error:  # noqa: BLE001 - the boundary of the process
+            click.echo(_crashes.message(error, sys.argv[1:]), err=True)
+            sys.exit(_crashes.INTERNAL)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names of all commands, without importing them."""
@@ -58,7 +74,8 @@ def _first_line(path: Path) -> str:
 def skillc() -> None:
     """Check, compile, plan and run robot skills.
 
-    Exit codes: 0 all is well, 1 the input has errors, 2 the command line is wrong, 3 a task failed.
+    Exit codes: 0 all is well, 1 the input has errors, 2 the command line is wrong, 3 a task failed,
+    70 skillc itself has failed, 130 it was interrupted, 141 nobody reads what it prints.
     """
 
 

@@ -5,11 +5,9 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 
-from skillc_compiler.library.conditions import Assign, Condition
+from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.pddl.domain import Action, GuardFact, Meaning
 from skillc_compiler.library.pddl.formulas import FALSE, Atom, Conjunction, Disjunction, Formula, conjunction, conjuncts
-from skillc_compiler.library.reading import terms_read
-from skillc_compiler.library.skills import Skill
 from skillc_runtime.planning.grounding import Grounding, TimeIsUp
 from skillc_runtime.planning.problem import Posed
 from skillc_runtime.planning.words import Words
@@ -29,7 +27,7 @@ def why_unsolvable(posed: Posed, goal: Condition, state: WorldState) -> str:
         reasons = tuple(_Diagnosis(posed, state).reasons(goal))
     except TimeIsUp:
         reasons = ("no sequence of skills reaches the goal; the scene is too large to say why",)
-    notes = [*reasons, *_left_out(posed, goal), *_undecided(posed)]
+    notes = [*reasons, *_left_out(posed), *_undecided(posed)]
     return "; ".join(dict.fromkeys(notes))
 
 
@@ -135,17 +133,13 @@ def _unified(atom: Atom, wanted: Formula, action: Action) -> dict[str, str] | No
     return {term: name for term, name in values.items() if term in parameters}
 
 
-def _left_out(posed: Posed, goal: Condition) -> Iterator[str]:
-    """Yield the skills that change what the goal reads but cannot be planned with, and why."""
-    read = terms_read(goal)
-    for each in posed.problem.domain.excluded:
-        if _changes(posed.library.skills[each.skill]) & read:
-            yield f"{each.skill} is left out of planning: {each.reason}"
-
-
-def _changes(skill: Skill) -> set[str]:
-    effects = [effect for post in skill.post for effect in post.effects]
-    return {each.property if isinstance(each, Assign) else each.relation for each in effects}
+def _left_out(posed: Posed) -> Iterator[str]:
+    """Yield the skills and steps that might help but are not planned with, and why."""
+    for each in posed.restricted:
+        if each.kind == "skills":
+            yield f"{', '.join(each.what)} is left out of planning: {each.why}"
+        else:
+            yield f"planned without {', '.join(each.what)}: {each.why}"
 
 
 def _undecided(posed: Posed) -> Iterator[str]:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
+from skillc_compiler.library.pddl.constants import mentions
 from skillc_compiler.library.pddl.domain import PlanningDomain
 from skillc_compiler.library.pddl.planning import planning_domain
 from skillc_compiler.library.skills import SkillLibrary
@@ -12,9 +14,16 @@ from skillc_compiler.library.skills import SkillLibrary
 REMEMBERED = 4
 
 
-def domain_of(library: SkillLibrary, combined: frozenset[frozenset[str]]) -> PlanningDomain:
-    """Return the library as a planning domain, as `planning_domain` does."""
-    return _domain(_Skills(library), combined)
+def domain_of(
+    library: SkillLibrary, combined: frozenset[frozenset[str]], classes: Callable[[str], frozenset[str]]
+) -> PlanningDomain:
+    """Return the library as a planning domain, as `planning_domain` does.
+
+    `classes` are the lowest classes of an individual of the scene, none for one that the scene lacks.
+    """
+    skills = _Skills(library)
+    known = {iri: classes(iri) for iri in _named(skills)}
+    return _domain(skills, combined, frozenset((iri, found) for iri, found in known.items() if found))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -35,5 +44,12 @@ class _Skills:
 
 
 @lru_cache(REMEMBERED)
-def _domain(skills: _Skills, combined: frozenset[frozenset[str]]) -> PlanningDomain:
-    return planning_domain(skills.library, combined)
+def _named(skills: _Skills) -> frozenset[str]:
+    return frozenset(each.individual for found in mentions(skills.library).values() for each in found)
+
+
+@lru_cache(REMEMBERED)
+def _domain(
+    skills: _Skills, combined: frozenset[frozenset[str]], individuals: frozenset[tuple[str, frozenset[str]]]
+) -> PlanningDomain:
+    return planning_domain(skills.library, combined, dict(individuals))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from fractions import Fraction
 from itertools import product
 from math import prod
@@ -22,6 +22,7 @@ from skillc_compiler.library.pddl.domain import (
 )
 from skillc_compiler.library.pddl.formulas import Atom, Typed
 from skillc_compiler.library.pddl.problem import CostValue
+from skillc_compiler.library.pddl.relations import Relations
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.expressions import EvaluationError, property_of, value_of
 from skillc_runtime.world.state import WorldState
@@ -44,6 +45,7 @@ class Initial:
         self._domain, self._state = domain, state
         self._iris = names
         self._names = {iri: name for name, iri in names.items()}
+        self._relations = Relations(state.vocabulary)
         self._members = {type_: domain.of_type(objects, type_) for type_ in _types(domain)}
         self.undecided: dict[str, None] = {}
         self.untimed: dict[tuple[str, tuple[str, ...]], str] = {}
@@ -74,23 +76,25 @@ class Initial:
             case _:
                 assert_never(predicate.meaning)
 
-    def _relation(self, relation: str, narrower: tuple[tuple[str, bool], ...]) -> Iterator[tuple[str, ...]]:
-        names, holds = self._names, self._state.holds
-        for subject, object_ in self._pairs(relation):
-            if subject in names and object_ in names:
-                said_by_others = any(
-                    holds(object_, other, subject) if swapped else holds(subject, other, object_)
-                    for other, swapped in narrower
-                )
-                if not said_by_others:
-                    yield names[subject], names[object_]
+    def _relation(self, relation: str, narrower: tuple[tuple[str, bool], ...]) -> set[tuple[str, ...]]:
+        names, others = self._names, {each for each, _ in narrower}
+        pairs = self._state.pairs(relation) if self._relations.is_computed(relation) else self._said(relation, others)
+        return {(names[start], names[end]) for start, end in pairs if start in names and end in names}
 
-    def _pairs(self, relation: str) -> Iterator[tuple[str, str]]:
-        """Yield the pairs of a relation; of a written one those alone that begin with an object of the problem."""
-        if relation in self._state.axioms.computed:
-            return self._state.pairs(relation)
-        objects = self._state.objects
-        return ((subject, object_) for subject in self._names for object_ in objects(subject, relation))
+    def _said(self, relation: str, others: Set[str]) -> Iterator[tuple[str, str]]:
+        """Yield the pairs of which a relation holds by what was written of relations that are none of the others.
+
+        Facts that follow over several steps count where skills change none of these: no condition reads them elsewhere.
+        """
+        axioms = self._state.axioms
+        for source, flipped in axioms.sources[relation]:
+            deep = source in axioms.transitive and not any(
+                each.relation in others for each in self._relations.below(source)
+            )
+            if deep or self._relations.canonical(source).relation not in others:
+                links = (self._state.facts if deep else self._state.asserted)[source]
+                found = links.backward if flipped else links.forward
+                yield from ((start, end) for start in self._names for end in found.get(start))
 
     def _with_value(self, property_: str, value: bool | str) -> Iterator[str]:
         state, term = self._state, self._state.vocabulary.properties[property_]

@@ -1,14 +1,17 @@
-"""What a problem leaves out of the scene, and why that is no loss or may be one."""
+"""What a problem leaves out of the scene and of the library, and why that is no loss or may be one."""
 
 from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+Kind: TypeAlias = Literal["individuals", "skills", "steps"]
 
 
 @dataclass(frozen=True, slots=True)
 class LeftOut:
-    """Individuals (IRIs) or skills, in any order, that a problem leaves out for one reason.
+    """Individuals (IRIs), skills or steps, in any order, that a problem leaves out for one reason.
 
     `harmless` says that it is proved: with them no plan would be cheaper, and there would be none if there is none.
     """
@@ -16,6 +19,7 @@ class LeftOut:
     members: Collection[str]
     why: str
     harmless: bool
+    kind: Kind = "individuals"
 
     @property
     def what(self) -> tuple[str, ...]:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, Protocol, TypeAlias
+from typing import Protocol, TypeAlias
 
 from skillc_compiler.library.pddl.problem import Problem
+from skillc_runtime.planning.claims import Optimal
 from skillc_runtime.planning.left_out import LeftOut
 
 
@@ -25,23 +26,18 @@ class Plan:
     duration_s: float
 
 
-Optimality: TypeAlias = Literal[
-    "proven", "optimal for the filtered problem", "optimal for approximate durations", "best found"
-]
-
-
 @dataclass(frozen=True, slots=True)
 class Solved:
-    """A plan; `proven` when no plan is shorter. `planner` is who found it.
+    """A plan; `proven` when no plan of the whole problem is shorter. `planner` is who found it.
 
-    It was found without what is `left_out` of the scene; a shorter one than what is `optimal for the filtered problem`
-    would have to need that. `optimal for approximate durations` is a plan of which that is proved for durations that
-    were rounded down to units that planners take, or estimated as the `assumptions` say. Any plan takes `at_least_s`,
-    where that is known and less than proven.
+    It was found without what is `left_out` of the scene and the library. A shorter one than one that is `optimal for
+    the filtered problem` would have to need something of that. `optimal for approximate durations` is a plan of which
+    that is proved for durations that were rounded down to units that planners take, or estimated as the `assumptions`
+    say. Any plan takes `at_least_s`, where that is known and less than proven.
     """
 
     plan: Plan
-    optimal: Optimality
+    optimal: Optimal
     planner: str
     left_out: tuple[LeftOut, ...] = ()
     at_least_s: float | None = None
@@ -55,7 +51,7 @@ class Solved:
 
 @dataclass(frozen=True, slots=True)
 class Unsolvable:
-    """Proof that there is no plan, and why in words, as far as it could be found out."""
+    """Proof that the whole problem has no plan, and why in words, as far as it could be found out."""
 
     why: str
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 import msgspec
 
 from skillc_compiler.library.conditions import Anything, Condition, Exists, Forall, Holds, Individual
+from skillc_compiler.library.pddl.constants import lowest
 from skillc_compiler.library.pddl.costs import common_scale
 from skillc_compiler.library.pddl.domain import Action, ComputedCost, PlanningDomain
 from skillc_compiler.library.pddl.formulas import TRUE, Formula, Typed, renamed
@@ -28,7 +29,8 @@ from skillc_runtime.planning.left_out import LeftOut
 from skillc_runtime.planning.narrowing import Breadth
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.relevance import Helpful, helpful
-from skillc_runtime.planning.selecting import Kinds, kinds_of, lowest_of, select
+from skillc_runtime.planning.selecting import Kinds, kinds_of, select
+from skillc_runtime.planning.unplanned import may_matter
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.expressions import EvaluationError
 from skillc_runtime.world.state import WorldState
@@ -62,8 +64,13 @@ class Posed:
 
     @property
     def narrowed(self) -> bool:
-        """Whether a cheaper plan or any plan at all may need something that was left out."""
+        """Whether a cheaper plan or any plan at all may need an individual that was left out."""
         return bool(self.others)
+
+    @property
+    def restricted(self) -> tuple[LeftOut, ...]:
+        """The skills and steps that were left out and that a cheaper plan or any plan at all may need."""
+        return tuple(each for each in self.left_out if each.kind != "individuals" and not each.harmless)
 
     @property
     def things(self) -> int:
@@ -80,21 +87,25 @@ def pose_problem(
 ) -> Posed:
     """Return the problem of reaching the goal from a version of the world, by other steps than those of `without`.
 
-    Skills and individuals are left out that can make no difference; with a `breadth` also those that are far from what
-    the goal speaks of. GoalError when the goal names an unknown individual or says what a planner cannot reason about.
+    Skills and individuals are left out that can make no difference; with a `breadth` also individuals that are far from
+    what the goal speaks of. Skills that cannot be planned with are left out too. GoalError when the goal names an
+    unknown individual or says what a planner cannot reason about.
     """
     library = _in_the_words_of(state.vocabulary, library)
-    named = _named(goal, state)
     kinds = kinds_of(state)
-    domain = domain_of(library, _combined(kinds, state.vocabulary))
+    named = _named(goal, state, kinds)
+    domain = domain_of(library, _combined(kinds, state.vocabulary), lambda iri: _lowest(iri, state))
     wanted = _ground(goal, library, domain, named, state)
     domain = with_predicates_of(wanted, library, domain)
     useful = Helpful(domain, ()) if wanted == TRUE else helpful(domain, wanted)
-    selection = select(useful.domain, state, kinds, named, breadth)
+    constants = {each.name: domain.names[each.name] for each in useful.domain.constants}
+    selection = select(useful.domain, state, kinds, named.union(constants.values()), breadth)
     types = selection.kept
     if _is_open(goal):
         wanted = _ground(goal, library, domain, named | types.keys(), state)
-    names = object_names(types, state.vocabulary, domain.names.keys() | {each.name for each in domain.predicates})
+    others = types.keys() - set(constants.values())
+    taken = domain.names.keys() | {each.name for each in domain.predicates}
+    names = {**constants, **object_names(others, state.vocabulary, taken)}
     by_iri = {iri: name for name, iri in names.items()}
     objects = tuple(Typed(name, types[iri]) for name, iri in sorted(names.items()))
     domain = excluding(without, useful.domain, by_iri, types)
@@ -108,8 +119,7 @@ def pose_problem(
         costs=tuple(initial.costs()),
         goal=renamed(wanted, by_iri),
     )
-    unhelpful = LeftOut(useful.unhelpful, "nothing that the goal depends on is changed by them", harmless=True)
-    left_out = (*((unhelpful,) if useful.unhelpful else ()), *selection.left_out)
+    left_out = (*_skills_left_out(useful, goal, library), *_steps_left_out(without, state), *selection.left_out)
     problem = replace(problem, domain=replace(domain, scale=common_scale(durations(problem))))
     assumptions = (*_untimed(initial, problem), *_estimates(domain, state.vocabulary))
     return Posed(problem, library, tuple(initial.undecided), assumptions, left_out, selection.others, _is_open(goal))
@@ -143,13 +153,32 @@ def _estimates(domain: PlanningDomain, vocabulary: Vocabulary) -> Iterator[str]:
             yield f"duration of {each.skill}: reads `{read}`, which may change; its value before the plan is taken"
 
 
+def _skills_left_out(useful: Helpful, goal: Condition, library: SkillLibrary) -> Iterator[LeftOut]:
+    """Yield the skills that are not planned with, which authors did not want kept out."""
+    if useful.unhelpful:
+        why = "nothing that the goal depends on is changed by them"
+        yield LeftOut(useful.unhelpful, why, harmless=True, kind="skills")
+    excluded = useful.domain.excluded
+    helpful = (each.skill for each in useful.domain.actions if each.skill is not None)
+    matter = may_matter(excluded, helpful, goal, library) if excluded else frozenset()
+    for each in excluded:
+        yield LeftOut((each.skill,), each.reason, harmless=each.skill not in matter, kind="skills")
+
+
+def _steps_left_out(steps: Sequence[Step], state: WorldState) -> Iterator[LeftOut]:
+    if steps:
+        short = state.vocabulary.short
+        shown = (f"{each.skill}({', '.join(map(short, each.arguments.values()))})" for each in steps)
+        yield LeftOut(tuple(shown), "they failed before", harmless=False, kind="steps")
+
+
 def _in_the_words_of(vocabulary: Vocabulary, library: SkillLibrary) -> SkillLibrary:
     """Return the library with the vocabulary of the world, which may have classes of its own."""
     names = library.names if vocabulary.classes.keys() <= library.vocabulary.classes.keys() else {}
     return msgspec.structs.replace(library, vocabulary=vocabulary, names=names)
 
 
-def _named(goal: Condition, state: WorldState) -> frozenset[str]:
+def _named(goal: Condition, state: WorldState, kinds: Kinds) -> frozenset[str]:
     """Return the individuals that a goal speaks of, by name, by class or as those that stand in a relation."""
     named = frozenset(each.iri for each in walk(goal) if isinstance(each, Individual))
     unknown = sorted(named - state.individuals)
@@ -161,14 +190,18 @@ def _named(goal: Condition, state: WorldState) -> frozenset[str]:
                 named |= state.instances(cls)
             case Holds(subject, relation, object_) if Anything() in (subject, object_):
                 named |= {individual for pair in state.pairs(relation) for individual in pair}
-                named |= {min(members) for members in _sides(relation, state) if members}
+                named |= set(_samples(relation, state, kinds))
     return named
 
 
-def _sides(relation: str, state: WorldState) -> Iterator[frozenset[str]]:
-    """Yield who may stand on some side of a relation."""
-    for each in state.vocabulary.relations[relation].signatures:
-        yield from (state.instances(each.domain), state.instances(each.range))
+def _samples(relation: str, state: WorldState, kinds: Kinds) -> Iterator[str]:
+    """Yield one individual of each kind that may stand on some side of a relation: the goal reads what these need."""
+    signatures = state.vocabulary.relations[relation].signatures
+    classes = {cls for each in signatures for cls in (each.domain, each.range)}
+    for individuals in kinds.values():
+        first = min(individuals)
+        if any(state.is_a(first, cls) for cls in classes):
+            yield first
 
 
 def _is_open(goal: Condition) -> bool:
@@ -177,8 +210,11 @@ def _is_open(goal: Condition) -> bool:
 
 
 def _combined(kinds: Kinds, vocabulary: Vocabulary) -> frozenset[frozenset[str]]:
-    lowest = {lowest_of(each, vocabulary) for each in kinds}
-    return frozenset(each for each in lowest if len(each) > 1)
+    return frozenset(each for each in (lowest(kind, vocabulary) for kind in kinds) if len(each) > 1)
+
+
+def _lowest(individual: str, state: WorldState) -> frozenset[str]:
+    return lowest(state.types(individual), state.vocabulary)
 
 
 def _ground(
@@ -193,7 +229,8 @@ def _ground(
         return evaluate(condition, state, {})
 
     try:
-        return ground_goal(goal, library, domain, {iri: iri for iri in named}, members, holds)
+        objects = {iri: Typed(iri, domain.type_of(_lowest(iri, state))) for iri in named}
+        return ground_goal(goal, library, domain, objects, members, holds)
     except Untranslatable as reason:
         raise GoalError(f"the goal {reason}") from reason
     except EvaluationError as error:

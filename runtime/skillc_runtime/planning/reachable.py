@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.pddl.formulas import FALSE, conjuncts
@@ -18,7 +18,15 @@ from skillc_runtime.planning.problem import GoalError, pose_problem
 from skillc_runtime.world.state import WorldState
 
 
-def why_unreachable(library: SkillLibrary, state: WorldState, goal: Condition) -> str | None:
+@dataclass(frozen=True, slots=True)
+class Unreachable:
+    """Why no plan reaches a goal; `proved` unless a skill that cannot be planned with might."""
+
+    why: str
+    proved: bool = True
+
+
+def why_unreachable(library: SkillLibrary, state: WorldState, goal: Condition) -> Unreachable | None:
     """Return why no plan can reach the goal even if nothing once true were ever lost; None if one may.
 
     Of a large scene the part near the goal is looked at, the rest stood in for. None also where that cannot be told.
@@ -26,13 +34,14 @@ def why_unreachable(library: SkillLibrary, state: WorldState, goal: Condition) -
     try:
         posed = pose_problem(library, state, goal, (), AT_ONCE)
     except GoalError as error:
-        return str(error)
+        return Unreachable(str(error))
     except TooManyValues:
         return None
     problem = relaxed_scene(posed, state) if posed.narrowed else posed.problem
     if problem is None or _is_reachable(problem):
         return None
-    return why_unsolvable(replace(posed, problem=problem), goal, state)
+    why = why_unsolvable(replace(posed, problem=problem), goal, state)
+    return Unreachable(why, proved=not posed.restricted)
 
 
 def _is_reachable(problem: Problem) -> bool:

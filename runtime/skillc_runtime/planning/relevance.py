@@ -10,13 +10,12 @@ A conditional effect may fire in one of the two runs only, so both signs of what
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Set
+from collections.abc import Iterable, Iterator, Set
 from dataclasses import dataclass, replace
 from typing import TypeAlias, assert_never
 
 from skillc_compiler.library.pddl.domain import Action, PlanningDomain
 from skillc_compiler.library.pddl.formulas import (
-    TRUE,
     Atom,
     Change,
     Conjunction,
@@ -28,6 +27,7 @@ from skillc_compiler.library.pddl.formulas import (
     Universal,
     conjunction,
 )
+from skillc_compiler.library.pddl.typed import action_terms
 
 Literal: TypeAlias = tuple[str, bool]
 
@@ -41,20 +41,26 @@ class Helpful:
 
 
 def helpful(domain: PlanningDomain, goal: Formula) -> Helpful:
-    """Return the domain with those actions alone that can help to reach the goal, and what these read and change."""
+    """Return the domain with those actions alone that can help to reach the goal, and what these read and name."""
     needed = _needed(domain, goal)
     actions = tuple(each for each in domain.actions if _helps(each, needed))
     used = {atom.predicate for action in actions for atom in read_or_changed(action)} | {name for name, _ in needed}
     functions = {each.name for each in domain.costs} & {name for action in actions for name in _functions(action)}
+    named = {name for action in actions for name in action_terms(action)}
     return Helpful(
         replace(
             domain,
             actions=actions,
             predicates=tuple(each for each in domain.predicates if each.name in used),
             costs=tuple(each for each in domain.costs if each.name in functions),
+            constants=tuple(each for each in domain.constants if each.name in named),
         ),
-        tuple(each.skill for each in domain.actions if each.skill is not None and each not in actions),
+        tuple(sorted(_skills(domain.actions) - _skills(actions))),
     )
+
+
+def _skills(actions: Iterable[Action]) -> Set[str]:
+    return {each.skill for each in actions if each.skill is not None}
 
 
 def read_or_changed(action: Action) -> Iterator[Atom]:
@@ -89,7 +95,7 @@ def _needs(action: Action, needed: Set[Literal]) -> Iterator[Literal]:
 
 def _clears(change: Change) -> bool:
     """Whether the effect amounts to deleting its atom whatever holds."""
-    return not change.positive and change.condition in (TRUE, change.atom)
+    return not change.positive and change.apart is not None
 
 
 def _functions(action: Action) -> Iterator[str]:

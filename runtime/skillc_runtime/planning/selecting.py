@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import TypeAlias
 
+from skillc_compiler.library.pddl.constants import lowest
 from skillc_compiler.library.pddl.domain import PlanningDomain
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_runtime.planning.inert import is_spoken_of, told_types
@@ -81,20 +82,11 @@ def _candidates(
     return candidates, useless, silent
 
 
-def lowest_of(classes: frozenset[str], vocabulary: Vocabulary) -> frozenset[str]:
-    """Return the classes that are above none of the others."""
-    if len(classes) == 1:
-        return classes
-    return frozenset(
-        cls for cls in classes if not any(other != cls and vocabulary.is_a(other, cls) for other in classes)
-    )
-
-
 def _by_type(domain: PlanningDomain, kinds: Kinds, vocabulary: Vocabulary) -> dict[str, list[str]]:
     """Return the individuals by their most specific types."""
     found: dict[str, list[str]] = {}
     for classes, iris in kinds.items():
-        found.setdefault(domain.type_of(lowest_of(classes, vocabulary)), []).extend(iris)
+        found.setdefault(domain.type_of(lowest(classes, vocabulary)), []).extend(iris)
     return found
 
 

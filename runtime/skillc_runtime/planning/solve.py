@@ -10,11 +10,11 @@ from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.pddl.problem import Problem
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.planning.choose import available
+from skillc_runtime.planning.claims import Optimal
 from skillc_runtime.planning.diagnose import why_unsolvable
 from skillc_runtime.planning.narrowing import NARROW, Breadth
 from skillc_runtime.planning.plan import (
     GaveUp,
-    Optimality,
     Plan,
     Planner,
     PlanResult,
@@ -112,6 +112,6 @@ def _timed(solved: Solved, work_s: float) -> PlanResult:
 
 def _estimated(solved: Solved, work_s: float, assumptions: tuple[str, ...]) -> Solved:
     """Return a plan without the claims that hold only as far as durations are what they were taken for."""
-    optimal: Optimality = "best found" if solved.optimal == "best found" else "optimal for approximate durations"
+    optimal: Optimal = "best found" if solved.optimal == "best found" else "optimal for approximate durations"
     plan = replace(solved.plan, duration_s=work_s)
     return replace(solved, plan=plan, optimal=optimal, at_least_s=None, assumptions=assumptions)

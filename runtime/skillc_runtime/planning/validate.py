@@ -29,7 +29,7 @@ def validate(plan: Plan, library: SkillLibrary, state: WorldState, goal: Conditi
     """Return the world after the plan.
 
     PlanError when a step's type, precondition or hold condition fails, none of its implementations fits, its effects
-    break an axiom, or the goal does not hold in the end.
+    break an axiom, a postcondition does not hold after it, or the goal does not hold in the end.
     """
     for number, step in enumerate(plan.steps, start=1):
         try:
@@ -51,12 +51,25 @@ def reached(goal: Condition, state: WorldState) -> WorldState:
 
 
 def after_step(step: Step, library: SkillLibrary, state: WorldState) -> WorldState:
-    """Return the world after one step; PlanError when it cannot start, or when its effects break an axiom."""
+    """Return the world after one step; PlanError when it cannot start or its effects break an axiom or each other."""
     try:
         fitting(step, library, state)
-        return with_effects(step, library, state)
+        return kept_promises(step, library, with_effects(step, library, state))
     except (EvaluationError, WorldError) as reason:
         raise PlanError(str(reason)) from reason
+
+
+def kept_promises(step: Step, library: SkillLibrary, after: WorldState) -> WorldState:
+    """Return the world after a step where all is true that its skill states; PlanError where it is not.
+
+    What is measured has no effect in the world model and is not looked at.
+    """
+    bindings = bindings_of(step, library, after)
+    for post in library.skills[step.skill].post:
+        if post.effects and not evaluate(post.condition, after, bindings):
+            why = explain(post.condition, after, bindings, after.vocabulary)
+            raise PlanError(f"`{post.text}` would not hold in the end: {why}")
+    return after
 
 
 def with_effects(step: Step, library: SkillLibrary, state: WorldState) -> WorldState:

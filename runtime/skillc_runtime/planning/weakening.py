@@ -98,8 +98,8 @@ class Weakening:
             if atom.predicate in self.denied:
                 yield Change(atom, True, (), self._of_none(atom))
             yield from self._former(atom)
-        elif change.condition in (TRUE, atom):
-            yield from self._deletions(atom, change.variables)
+        elif change.apart is not None:
+            yield from self._deletions(atom, change.variables, change.apart)
         else:
             raise Refused
 
@@ -114,11 +114,13 @@ class Weakening:
             terms = (atom.terms[0], former.name) if fixed == 0 else (former.name, atom.terms[1])
             yield from self._deletions(Atom(atom.predicate, terms), (former,))
 
-    def _deletions(self, atom: Atom, variables: tuple[Typed, ...]) -> Iterator[Change]:
+    def _deletions(self, atom: Atom, variables: tuple[Typed, ...], apart: Formula = TRUE) -> Iterator[Change]:
+        """Yield the deletion of an atom, if things differ; to say too little with `p` itself makes nothing harder."""
         if atom.predicate in self.denied:
             yield Change(atom, False, variables)
         if atom.predicate in self.may:
-            yield Change(Atom(self.may[atom.predicate], atom.terms), False, variables, self._of_none(atom))
+            condition = conjunction((self._of_none(atom), apart))
+            yield Change(Atom(self.may[atom.predicate], atom.terms), False, variables, condition)
 
     def _of_none(self, atom: Atom) -> Formula:
         """Return that the atom speaks of no stand-in."""

@@ -1,7 +1,8 @@
 """Plans with the near part of a large scene first, then with more of it.
 
 What a narrowed problem cannot tell is not claimed: its shortest plan is proven only if no plan of the whole scene can
-be shorter (see `bound`), and that it has no plan means that more of the scene is looked at, up to all of it.
+be shorter (see `bound`), and that it has no plan means that more of the scene is looked at, up to all of it. Nor is
+anything claimed of skills that cannot be planned with.
 """
 
 from __future__ import annotations
@@ -61,13 +62,14 @@ def in_stages(means: Means, state: WorldState, end: float, breadth: Breadth | No
         answer = means.answer(posed, STAGE_SHARE * _left(end))
         match answer:
             case Solved():
-                best = _labelled(answer, posed, means, state, end)
-                if best.optimal == "proven" or not (prove or posed.things <= breadth.whole):
+                labelled = _labelled(answer, posed, means, state, end)
+                best = _of_these_skills(labelled, posed)
+                if labelled.optimal == "proven" or not (prove or posed.things <= breadth.whole):
                     return best
             case Unsolvable():
                 why = _out_of_reach(posed, means, state, end)
                 if why is not None:
-                    return Unsolvable(why)
+                    return _no_plan(why, posed)
             case GaveUp():
                 if _left(end) <= 0.0:
                     return best or answer
@@ -81,13 +83,27 @@ def _of_all(best: Solved | None, posed: Posed, means: Means, end: float) -> Plan
     answer = means.answer(posed, _left(end))
     match answer:
         case Solved():
-            return replace(answer, left_out=posed.left_out)
+            return _of_these_skills(replace(answer, left_out=posed.left_out), posed)
         case Unsolvable():
-            return Unsolvable(means.explain(posed))
+            return _no_plan(means.explain(posed), posed)
         case GaveUp():
             return best or answer
         case _:
             assert_never(answer)
+
+
+def _of_these_skills(solved: Solved, posed: Posed) -> Solved:
+    """Return a plan without a claim on the skills and steps that it may not have; nothing takes less than no steps."""
+    if not posed.restricted or not solved.plan.steps:
+        return solved
+    if solved.optimal == "proven":
+        return replace(solved, optimal="optimal for the filtered problem")
+    return replace(solved, at_least_s=None)
+
+
+def _no_plan(why: str, posed: Posed) -> Unsolvable | GaveUp:
+    """Return that there is no plan, which is proved only where every skill could be planned with."""
+    return GaveUp(why) if posed.restricted else Unsolvable(why)
 
 
 def _labelled(solved: Solved, posed: Posed, means: Means, state: WorldState, end: float) -> Solved:

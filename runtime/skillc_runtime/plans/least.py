@@ -23,7 +23,7 @@ def at_least_s(posed: Posed, schedule: Schedule, planner: Planner, deadline_s: f
 
     Of a problem that leaves out what may make a difference, or whose durations are not known, nothing is known: 0.
     """
-    if posed.narrowed or posed.assumptions:
+    if posed.narrowed or posed.restricted or posed.assumptions:
         return 0.0
     end, problem = time.monotonic() + deadline_s, posed.problem
     bound = critical_path_s(problem, SHARE * deadline_s)

@@ -57,6 +57,7 @@ class WipingResult(msgspec.Struct, frozen=True, kw_only=True):
 class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     """How a task went. `plan_optimal` is None where nothing was planned; `failure` says why a task did not succeed.
 
+    `plan_quality` says in words how good the plan is known to be, and for what problem.
     `plan` is the last one; `replanned` says why each one before it was given up. `wipings` has one entry for each
     surface that was wiped, `wiping` is the first of them.
     """
@@ -66,6 +67,7 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     plan: tuple[StepResult, ...] = ()
     choices: tuple[ChoiceResult, ...] = ()
     plan_optimal: bool | None = None
+    plan_quality: str = ""
     planner: str = ""
     robot: str = ""
     controller: str = ""

@@ -74,8 +74,7 @@ def rows(result: TaskResult) -> list[tuple[str, str]]:
 
 
 def _plan_words(result: TaskResult) -> str:
-    quality = "proved optimal" if result.plan_optimal else "best found, not proved optimal"
-    return f"{len(result.plan)} steps by {result.planner}, {quality}"
+    return f"{len(result.plan)} steps by {result.planner}, {result.plan_quality}"
 
 
 def _wiping_rows(wiping: WipingResult, one_of_several: bool) -> list[tuple[str, str]]:

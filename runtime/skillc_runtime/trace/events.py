@@ -40,9 +40,10 @@ class PlanStep(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class PlanMade(_Event, tag="plan-made", frozen=True, kw_only=True):
-    """A planner found a plan; `optimal` is what it says about it, `cost` in the unit of durations, seconds.
+    """A planner found a plan; `cost` is in the unit of durations, seconds.
 
-    `names` are the short names of the individuals in its steps, by IRI.
+    `optimal` is what the planner says about it, `quality` the same in words, which also say of what problem. `names`
+    are the short names of the individuals in its steps, by IRI.
     """
 
     planner: str
@@ -50,6 +51,7 @@ class PlanMade(_Event, tag="plan-made", frozen=True, kw_only=True):
     cost: float
     steps: tuple[PlanStep, ...]
     names: dict[str, str] = {}
+    quality: str = ""
 
 
 class Replanned(_Event, tag="replanned", frozen=True, kw_only=True):

@@ -106,6 +106,7 @@ def _attempt(body: Body, count: int) -> Attempt:
         steps=steps(body, count),
         planner=plan.planner if plan is not None else "",
         optimal=plan.optimal if plan is not None else "",
+        quality=plan.quality if plan is not None else "",
         cost=plan.cost if plan is not None else None,
         replaces=body.replaces,
     )

@@ -85,12 +85,13 @@ class Call(_Part, frozen=True, kw_only=True):
 class Attempt(_Part, frozen=True, kw_only=True):
     """A plan and what became of its steps; a body that was given has no `planner`.
 
-    `replaces` says why the plan before it was given up.
+    `quality` says how good the plan is known to be, `replaces` says why the plan before it was given up.
     """
 
     steps: tuple[Call, ...]
     planner: str = ""
     optimal: str = ""
+    quality: str = ""
     cost: float | None = None
     replaces: str = ""
 

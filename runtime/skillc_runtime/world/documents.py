@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -46,6 +47,8 @@ class Document:
         """Read a file; SceneError when it cannot be read, is not UTF-8, or is too large for the memory there is."""
         try:
             make_sure(QUICKLY * path.stat().st_size)
+            if not path.is_file():
+                raise OSError(errno.EINVAL, "it is not a regular file")
             data = path.read_bytes()
             text = data.decode("utf-8-sig")
         except OSError as error:

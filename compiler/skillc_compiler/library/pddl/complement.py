@@ -108,7 +108,7 @@ class _Complement:
 
     def _own(self, change: Change, action: Action) -> Iterator[Change]:
         """Yield what a change of the predicate is for its complement."""
-        types = _types(action, change)
+        types = _types(self.domain, action, change)
         wanted = [each.type for each in self.predicate.parameters]
         given = [types[term] for term in change.atom.terms]
         if not all(_meet(self.domain, *pair) for pair in zip(wanted, given, strict=True)):
@@ -133,7 +133,7 @@ class _Complement:
         for other in action.effects:
             if other.positive and other.atom.predicate == self.of:
                 pairs = list(zip(change.atom.terms, other.atom.terms, strict=True))
-                types = {**_types(action, other), **_types(action, change)}
+                types = {**_types(self.domain, action, other), **_types(self.domain, action, change)}
                 if all(_meet(self.domain, types[one], types[two]) for one, two in pairs):
                     yield disjunction(Negation(Equal(one, two)) for one, two in pairs if one != two)
 
@@ -145,10 +145,10 @@ def _denied_of_all(domain: PlanningDomain) -> dict[str, list[str]]:
     """
     found: dict[str, list[str]] = {}
     for action in domain.actions:
-        for atom in _denied(conjunction((action.precondition, action.hold)), _types(action)):
+        for atom in _denied(conjunction((action.precondition, action.hold)), _types(domain, action)):
             if domain.predicate[atom.predicate].changes:
                 found[atom.predicate] = _join(domain, found.get(atom.predicate, atom.terms), atom.terms)
-    changes = [(each, _types(action)) for action in domain.actions for each in action.effects]
+    changes = [(each, _types(domain, action)) for action in domain.actions for each in action.effects]
     while True:
         wider = dict(found)
         for change, types in changes:
@@ -184,9 +184,9 @@ def _denied(formula: Formula, types: Types, inside: bool = False) -> Iterator[At
             assert_never(formula)
 
 
-def _types(action: Action, change: Change | None = None) -> Types:
+def _types(domain: PlanningDomain, action: Action, change: Change | None = None) -> Types:
     variables = change.variables if change is not None else ()
-    return {each.name: each.type for each in (*action.parameters, *variables)}
+    return {each.name: each.type for each in (*domain.constants, *action.parameters, *variables)}
 
 
 def _meet(domain: PlanningDomain, one: str, other: str) -> bool:

@@ -10,8 +10,7 @@ from numbers import Real
 from skillc_compiler.library.conditions import Expression, Invoke, PropertyOf
 from skillc_compiler.library.pddl.domain import ComputedCost, Cost, CostFunction, FixedCost
 from skillc_compiler.library.pddl.names import fresh, kebab
-from skillc_compiler.library.pddl.parameters import Defaults
-from skillc_compiler.library.pddl.rewriting import constant, replaced
+from skillc_compiler.library.pddl.rewriting import constant
 from skillc_compiler.library.pddl.symbols import Symbols
 from skillc_compiler.library.pddl.translate import Scope, Untranslatable
 from skillc_compiler.library.reading import free_variables_in_order, walk
@@ -88,7 +87,7 @@ def duration_of(skill: Skill, implementation: Implementation) -> Expression | No
 
 
 def action_cost(
-    skill: str, duration: Expression | None, given: Defaults, scope: Scope, symbols: Symbols, taken: Collection[str]
+    skill: str, duration: Expression | None, scope: Scope, symbols: Symbols, taken: Collection[str]
 ) -> tuple[Cost, CostFunction | None]:
     """Return a duration as a cost, with its function when it depends on the things; unsaid, it is taken for a second.
 
@@ -96,20 +95,19 @@ def action_cost(
     """
     if duration is None:
         return FixedCost(ASSUMED_SECONDS), None
-    expression: Expression = replaced(duration, given.values)
-    seconds = constant(expression)
+    seconds = constant(duration)
     if seconds is not None:
         try:
             return FixedCost(exact_seconds(seconds)), None
         except ValueError as reason:
             raise Untranslatable(f"its duration cannot be planned with: {reason}") from reason
-    variables = free_variables_in_order(expression)
+    variables = free_variables_in_order(duration)
     for name in variables:
         if name not in scope:
             raise Untranslatable(f"its duration reads `{name}`, which a planner does not bind")
     places = tuple(scope[name].variable for name in variables)
     name = fresh(f"cost-{kebab(skill)}", taken)
-    function = CostFunction(name, places, variables, expression, skill, _moving(expression, symbols))
+    function = CostFunction(name, places, variables, duration, skill, _moving(duration, symbols))
     return ComputedCost(name, tuple(each.name for each in places)), function
 
 

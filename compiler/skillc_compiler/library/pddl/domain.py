@@ -28,7 +28,7 @@ class PlanningType:
 
 @dataclass(frozen=True)
 class RelationFact:
-    """True of (s, o) when `s relation o` follows in the world, unless it follows from one of `narrower`.
+    """True of (s, o) when `s relation o` follows from what is written of other relations than `narrower`.
 
     `narrower` are other predicates' relations as (relation, swapped): those change by themselves, and a condition on
     this relation reads them too.
@@ -143,11 +143,12 @@ class Action:
 
 @dataclass(frozen=True)
 class Excluded:
-    """A skill that no plan can contain, with the reason in the author's words."""
+    """A skill that no plan can contain, with the reason in the author's words; `impossible` if no run can either."""
 
     skill: str
     reason: str
     source: Position
+    impossible: bool = False
 
 
 @dataclass(frozen=True)
@@ -155,6 +156,7 @@ class PlanningDomain:
     """A planning domain; `names` leads from PDDL names back to IRIs and skills, `scale` is cost units per second.
 
     Costs are exact; planners get whole units, which are exact as long as the scale is a multiple of all denominators.
+    `combined` are the sets of classes of individuals that have several.
     """
 
     name: str
@@ -166,6 +168,7 @@ class PlanningDomain:
     names: dict[str, str]
     scale: Fraction
     constants: tuple[Typed, ...] = ()
+    combined: frozenset[frozenset[str]] = frozenset()
 
     @cached_property
     def _types(self) -> dict[str, PlanningType]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import assert_never
 
 from skillc_compiler.library.conditions import (
@@ -18,7 +19,16 @@ from skillc_compiler.library.conditions import (
     Retract,
     Term,
 )
-from skillc_compiler.library.pddl.formulas import Atom, Change, Formula, Typed, conjuncts
+from skillc_compiler.library.pddl.formulas import (
+    Atom,
+    Change,
+    Equal,
+    Formula,
+    Negation,
+    Typed,
+    conjunction,
+    conjuncts,
+)
 from skillc_compiler.library.pddl.names import variable
 from skillc_compiler.library.pddl.relations import Reading, Relations
 from skillc_compiler.library.pddl.translate import Scope, Translator, Untranslatable
@@ -33,7 +43,7 @@ class Unique:
     swapped: bool
     side: int
 
-    def fixed(self, subject: str, object_: str) -> str:
+    def fixed(self, subject: Typed, object_: Typed) -> Typed:
         """Return the term on `side` when the asserted relation links these two."""
         return (subject, object_)[self.side != self.swapped]
 
@@ -83,12 +93,11 @@ class Effects:
     scope: Scope
     known: Formula
 
-    def changes(self, posts: Sequence[Post]) -> tuple[Change, ...]:
-        """Return the changes of all posts, additions first; Untranslatable says what a planner cannot follow."""
+    def changes(self, effects: Iterable[Effect]) -> tuple[Change, ...]:
+        """Return the changes of all effects, additions first; Untranslatable says what a planner cannot follow."""
         found: dict[Change, None] = {}
-        for post in posts:
-            for effect in post.effects:
-                found.update(dict.fromkeys(self._effect(effect)))
+        for effect in effects:
+            found.update(dict.fromkeys(self._effect(effect)))
         added = {change.atom for change in found if change.positive}
         kept = [change for change in found if change.positive or change.variables or change.atom not in added]
         return tuple(sorted(kept, key=lambda change: not change.positive))
@@ -111,7 +120,7 @@ class Effects:
             raise Untranslatable(f"sets `{shown}`, which has no finite set of values")
         if not isinstance(effect.value, Literal) or effect.value.value not in values:
             raise Untranslatable(f"sets `{shown}` to a value that is known only at run time")
-        subject = self.translator.term(effect.subject, self.scope)
+        subject = self.translator.term(effect.subject, self.scope).name
         for value in values:
             yield Change(Atom(symbols.value(effect.property, value), (subject,)), value == effect.value.value)
 
@@ -119,15 +128,34 @@ class Effects:
         relations = self.translator.symbols.relations
         subject = self.translator.term(effect.subject, self.scope)
         object_ = self.translator.term(effect.object, self.scope)
-        yield Change(self._atom(relations.canonical(effect.relation), subject, object_), True)
+        added = self._atom(relations.canonical(effect.relation), subject, object_)
+        yield Change(added, True)
         for unique in unique_sides(effect.relation, relations):
             fixed = unique.fixed(subject, object_)
-            sides: list[str | None] = [None, None]
+            kept = object_ if fixed is subject else subject
+            sides: list[Typed | None] = [None, None]
             sides[unique.side] = fixed
             sides[1 - unique.side] = self._known_partner(unique, fixed)
-            yield from self._retract(unique.relation, *sides)
+            for change in self._retract(unique.relation, *sides):
+                yield from self._of_others(change, fixed, kept, added)
 
-    def _known_partner(self, unique: Unique, fixed: str) -> str | None:
+    def _of_others(self, change: Change, fixed: Typed, kept: Typed, added: Atom) -> Iterator[Change]:
+        """Yield the deletion of what stands opposite to a term unless that is what does so afterwards.
+
+        That an action adds what it deletes needs no saying.
+        """
+        side = 1 if change.atom.terms[0] == fixed.name else 0
+        former = change.atom.terms[side]
+        types = {**self._typed, **{each.name: each for each in change.variables}}
+        terms = list(change.atom.terms)
+        terms[side] = kept.name
+        apart = not self.translator.symbols.hierarchy.meet(types[former].type, kept.type)
+        if apart or Atom(change.atom.predicate, tuple(terms)) == added:
+            yield change
+        elif former != kept.name:
+            yield replace(change, condition=conjunction((change.condition, Negation(Equal(former, kept.name)))))
+
+    def _known_partner(self, unique: Unique, fixed: Typed) -> Typed | None:
         """Return what the precondition says stands opposite to the fixed term."""
         relations = self.translator.symbols.relations
         for reading in relations.below(unique.relation):
@@ -135,34 +163,38 @@ class Effects:
             side = unique.side != reading.swapped
             for each in conjuncts(self.known):
                 match each:
-                    case Atom(predicate=name, terms=terms) if name == predicate and terms[side] == fixed:
-                        return terms[not side]
+                    case Atom(predicate=name, terms=terms) if name == predicate and terms[side] == fixed.name:
+                        return self._typed[terms[not side]]
         return None
 
-    def _retract(self, relation: str, subject: str | None, object_: str | None) -> Iterator[Change]:
+    def _retract(self, relation: str, subject: Typed | None, object_: Typed | None) -> Iterator[Change]:
         """Delete every fact of which `relation` follows; None stands for whatever is there."""
         symbols = self.translator.symbols
         for reading in symbols.relations.below(relation):
             variables: list[Typed] = []
-            terms: list[str] = []
+            terms: list[Typed] = []
             for side, term in enumerate((subject, object_)):
                 if term is None:
                     stored_side = 1 - side if reading.swapped else side
-                    variable = self._variable(reading.relation, stored_side, terms)
-                    variables.append(variable)
-                    term = variable.name
+                    term = self._variable(reading.relation, stored_side, [each.name for each in terms])
+                    variables.append(term)
                 terms.append(term)
-            atom = self._atom(reading, *terms)
-            yield Change(atom, False, tuple(variables), atom) if variables else Change(atom, False)
+            if symbols.takes(reading.relation, terms[::-1] if reading.swapped else terms):
+                atom = self._atom(reading, *terms)
+                yield Change(atom, False, tuple(variables), atom) if variables else Change(atom, False)
 
     def _variable(self, relation: str, side: int, beside: Sequence[str]) -> Typed:
         symbols = self.translator.symbols
         taken = {*beside, *(place.variable.name for place in self.scope.values())}
         return Typed(variable("former", taken), symbols.hierarchy.type_name(symbols.side_class(relation, side)))
 
-    def _atom(self, reading: Reading, subject: str, object_: str) -> Atom:
-        terms = (object_, subject) if reading.swapped else (subject, object_)
+    def _atom(self, reading: Reading, subject: Typed, object_: Typed) -> Atom:
+        terms = (object_.name, subject.name) if reading.swapped else (subject.name, object_.name)
         return Atom(self.translator.symbols.relation(reading.relation), terms)
 
-    def _term(self, term: Term) -> str | None:
+    def _term(self, term: Term) -> Typed | None:
         return None if isinstance(term, Anything) else self.translator.term(term, self.scope)
+
+    @cached_property
+    def _typed(self) -> dict[str, Typed]:
+        return self.translator.typed(self.scope)

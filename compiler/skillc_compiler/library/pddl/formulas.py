@@ -89,6 +89,13 @@ class Change:
     variables: tuple[Typed, ...] = ()
     condition: Formula = TRUE
 
+    @property
+    def apart(self) -> Formula | None:
+        """What the condition says beside that there is something to delete: that objects differ. None for more."""
+        rest = [each for each in conjuncts(self.condition) if each != self.atom or self.positive]
+        plain = all(isinstance(each, Negation) and isinstance(each.body, Equal) for each in rest)
+        return conjunction(rest) if plain else None
+
 
 def conjunction(parts: Iterable[Formula]) -> Formula:
     """Return the flat conjunction of the parts without repetition; FALSE if one is."""
@@ -108,6 +115,17 @@ def disjunction(parts: Iterable[Formula]) -> Formula:
     if TRUE in flat:
         return TRUE
     return next(iter(flat)) if len(flat) == 1 else Disjunction(tuple(flat))
+
+
+def existential(variable: Typed, body: Formula) -> Formula:
+    """Return that the body holds for some object, of which there may be none.
+
+    What is true of anything is written as `x = x`: planners drop a quantifier over nothing to test, and PDDL has no
+    word for the denial.
+    """
+    if body == FALSE:
+        return FALSE
+    return Existential(variable, Equal(variable.name, variable.name) if body == TRUE else body)
 
 
 def renamed(formula: Formula, names: Mapping[str, str]) -> Formula:

@@ -23,12 +23,12 @@ from skillc_compiler.library.conditions import (
     Same,
 )
 from skillc_compiler.library.pddl.domain import PlanningDomain, PropertyFact, RelationFact
-from skillc_compiler.library.pddl.formulas import FALSE, TRUE, Formula, atoms
+from skillc_compiler.library.pddl.formulas import FALSE, TRUE, Formula, Typed, atoms
 from skillc_compiler.library.pddl.hierarchy import Hierarchy
 from skillc_compiler.library.pddl.relations import Relations
 from skillc_compiler.library.pddl.rewriting import replaced
 from skillc_compiler.library.pddl.symbols import Symbols
-from skillc_compiler.library.pddl.translate import Scope, Translator
+from skillc_compiler.library.pddl.translate import Named, Scope, Translator
 from skillc_compiler.library.skills import SkillLibrary
 
 Members: TypeAlias = Callable[[str], Sequence[str]]
@@ -38,21 +38,22 @@ def ground_goal(
     goal: Condition,
     library: SkillLibrary,
     domain: PlanningDomain,
-    objects: Mapping[str, str],
+    objects: Mapping[str, Typed],
     members: Members,
     holds: Callable[[Condition], bool],
 ) -> Formula:
     """Return the goal over the objects of a problem; TRUE or FALSE when no skill can make a difference.
 
-    `objects` are PDDL names by IRI, `members` gives the individuals of a class, `holds` says whether a condition holds
-    in the initial world. Untranslatable (as in "the goal reads ..") names what a planner cannot reason about.
+    `objects` are names with types by IRI, `members` gives the individuals of a class, `holds` says whether a condition
+    holds in the initial world. Untranslatable (as in "the goal reads ..") names what a planner cannot reason about.
     """
     symbols = _symbols(library, domain)
 
     def settle(condition: Condition, scope: Scope) -> Formula:
         return TRUE if holds(condition) else FALSE
 
-    return Translator(symbols, settle, objects).formula(_ground(goal, symbols, members), {})
+    named = {iri: Named(each, frozenset()) for iri, each in objects.items()}
+    return Translator(symbols, settle, named).formula(_ground(goal, symbols, members), {})
 
 
 def with_predicates_of(goal: Formula, library: SkillLibrary, domain: PlanningDomain) -> PlanningDomain:
@@ -73,8 +74,8 @@ def _symbols(library: SkillLibrary, domain: PlanningDomain) -> Symbols:
             match predicate.meaning:
                 case RelationFact(relation=iri) | PropertyFact(property=iri):
                     changing.add(iri)
-    hierarchy = Hierarchy(vocabulary, {name: term for term, name in domain.names.items()})
-    return Symbols(vocabulary, domain.names, hierarchy, Relations(vocabulary), frozenset(changing))
+    hierarchy = Hierarchy(vocabulary, {name: term for term, name in domain.names.items()}, domain.combined)
+    return Symbols(vocabulary, domain.names, hierarchy, Relations(vocabulary), frozenset(changing), settled=True)
 
 
 def _ground(condition: Condition, symbols: Symbols, members: Members) -> Condition:

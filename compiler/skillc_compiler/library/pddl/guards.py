@@ -17,12 +17,15 @@ from skillc_compiler.library.reading import free_variables_in_order, terms_read
 
 @dataclass
 class Guards:
-    """Collects the guards of one skill; `taken` are names that no guard may have."""
+    """Collects the guards of one skill; `taken` are names that no guard may have.
+
+    The same condition on things of other types is another guard: it is settled for the things of its types alone.
+    """
 
     skill: str
     symbols: Symbols
     taken: Collection[str]
-    found: dict[Condition, Predicate] = field(default_factory=dict)
+    found: dict[tuple[Condition, tuple[str, ...]], Predicate] = field(default_factory=dict)
 
     def labelled(self, label: str, text: str) -> Settle:
         """Return what makes guards of the condition with this label, which its author wrote so."""
@@ -39,9 +42,10 @@ class Guards:
             if name not in scope:
                 raise Untranslatable(f"reads `{name}`, which a planner does not bind")
         places = [scope[name].variable for name in variables]
-        if condition not in self.found:
+        key = condition, tuple(each.type for each in places)
+        if key not in self.found:
             used = {*self.taken, *(each.name for each in self.found.values())}
             name = fresh(f"guard-{kebab(self.skill)}-{kebab(label)}", used)
             meaning = GuardFact(variables, condition, self.skill, label, text)
-            self.found[condition] = Predicate(name, tuple(places), meaning, False)
-        return Atom(self.found[condition].name, tuple(each.name for each in places))
+            self.found[key] = Predicate(name, tuple(places), meaning, False)
+        return Atom(self.found[key].name, tuple(each.name for each in places))

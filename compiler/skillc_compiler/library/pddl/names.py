@@ -10,6 +10,7 @@ import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 
+from skillc_compiler.library.pddl.constants import mentions
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import PlainType, PropertyTerm, Vocabulary, local_name
 
@@ -29,12 +30,17 @@ _GAPS = re.compile(r"[^a-z0-9]+")
 
 
 def pddl_names(library: SkillLibrary) -> dict[str, str]:
-    """Return PDDL name -> class, relation or property IRI, `property=value` of a value, or skill name."""
+    """Return PDDL name -> IRI of a class, relation or property, `property=value` of a value, or skill name.
+
+    The individuals that skills name have names too: they are constants of the domain.
+    """
     vocabulary = library.vocabulary
     wanted = {iri: _of_iri(iri, vocabulary) for iri in (*vocabulary.classes, *vocabulary.relations)}
     for iri, term in vocabulary.properties.items():
         wanted |= {value_key(iri, value): _of_value(iri, value, vocabulary) for value in finite_values(term)}
     wanted |= {name: (kebab(name), f"skill-{kebab(name)}") for name in library.skills}
+    named = {each.individual for found in mentions(library).values() for each in found}
+    wanted |= {iri: _of_iri(iri, vocabulary) for iri in named - wanted.keys()}
     return _inverse(allocate(wanted))
 
 

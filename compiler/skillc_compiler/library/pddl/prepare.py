@@ -13,6 +13,8 @@ from typing import assert_never
 
 from skillc_compiler.library.pddl.domain import Action, FixedCost, GoalFact, PlanningDomain, Predicate
 from skillc_compiler.library.pddl.formulas import (
+    FALSE,
+    TRUE,
     Atom,
     Change,
     Conjunction,
@@ -26,6 +28,7 @@ from skillc_compiler.library.pddl.formulas import (
     conjunction,
     conjuncts,
     disjunction,
+    existential,
 )
 from skillc_compiler.library.pddl.problem import Problem
 
@@ -50,7 +53,10 @@ def expand(domain: PlanningDomain, objects: Sequence[Typed]) -> PlanningDomain:
         )
         for action in domain.actions
     )
-    return domain if actions == domain.actions else replace(domain, actions=actions, constants=tuple(objects))
+    if actions == domain.actions:
+        return domain
+    possible = tuple(each for each in actions if FALSE not in (each.precondition, each.hold))
+    return replace(domain, actions=possible, constants=tuple(objects))
 
 
 def _with_goal_action(problem: Problem) -> Problem:
@@ -79,18 +85,26 @@ def _expanded(formula: Formula, domain: PlanningDomain, objects: Sequence[Typed]
         case Atom(predicate=predicate, terms=terms):
             return Atom(predicate, tuple(values.get(each, each) for each in terms))
         case Equal(left=left, right=right):
-            return Equal(values.get(left, left), values.get(right, right))
+            return _equal(values.get(left, left), values.get(right, right))
         case Negation(body=body):
             inner = _expanded(body, domain, objects, values)
-            return Negation(inner) if isinstance(inner, Atom | Equal) else inner
+            if isinstance(inner, Atom | Equal):
+                return Negation(inner)
+            return FALSE if inner == TRUE else TRUE
         case Conjunction(parts=parts):
             return conjunction(_expanded(part, domain, objects, values) for part in parts)
         case Disjunction(parts=parts):
             return disjunction(_expanded(part, domain, objects, values) for part in parts)
         case Existential(variable=variable, body=body):
-            return Existential(variable, _expanded(body, domain, objects, values))
+            return existential(variable, _expanded(body, domain, objects, values))
         case Universal(variable=variable, body=body):
             names = domain.of_type(objects, variable.type)
             return conjunction(_expanded(body, domain, objects, {**values, variable.name: name}) for name in names)
         case _:
             assert_never(formula)
+
+
+def _equal(left: str, right: str) -> Formula:
+    if left == right:
+        return TRUE
+    return Equal(left, right) if "?" in (left[0], right[0]) else FALSE

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from skillc_compiler.library.pddl.domain import Action, PlanningDomain, Predicate, PropertyFact
 from skillc_compiler.library.pddl.formulas import atoms
+from skillc_compiler.library.pddl.typed import action_terms
 
 
 def pruned(domain: PlanningDomain) -> PlanningDomain:
@@ -21,7 +22,9 @@ def pruned(domain: PlanningDomain) -> PlanningDomain:
         for action in domain.actions
     )
     predicates = tuple(each for each in domain.predicates if each.name not in spare)
-    return replace(domain, predicates=predicates, actions=actions)
+    used = frozenset().union(*(action_terms(each) for each in actions))
+    constants = tuple(each for each in domain.constants if each.name in used)
+    return replace(domain, predicates=predicates, actions=actions, constants=constants)
 
 
 def _read(action: Action) -> set[str]:

@@ -26,11 +26,14 @@ class Relations:
 
     vocabulary: Vocabulary
     _below: dict[str, tuple[Reading, ...]] = field(default_factory=dict)
+    _canonical: dict[str, Reading] = field(default_factory=dict)
 
     def canonical(self, relation: str) -> Reading:
-        """Return the one relation that stands for a relation and its inverses: the first by IRI."""
-        first = min((relation, *self._inverses.get(relation, ())))
-        return Reading(first, first != relation)
+        """Return the one relation that stands for all that say the same, inverses included: the first by IRI."""
+        if relation not in self._canonical:
+            below, above = self._closure(relation, self._narrower), self._closure(relation, self._wider)
+            self._canonical[relation] = min(set(below).intersection(above), default=Reading(relation, False))
+        return self._canonical[relation]
 
     def below(self, relation: str) -> tuple[Reading, ...]:
         """Return all canonical relations of which a fact makes `relation` hold, its own included."""
@@ -42,7 +45,11 @@ class Relations:
 
     def above(self, relation: str) -> tuple[Reading, ...]:
         """Return all relations that hold when `relation` does, its own included."""
-        return self._closure(relation, {iri: self._term(iri).parents for iri in self.vocabulary.relations})
+        return self._closure(relation, self._wider)
+
+    def is_computed(self, relation: str) -> bool:
+        """Whether a relation follows from other facts by a computation."""
+        return relation in self.vocabulary.relations and self._term(relation).computed_by is not None
 
     def transitive_below(self, relation: str) -> tuple[str, ...]:
         """Return those transitive relations of which a fact makes `relation` hold."""
@@ -58,6 +65,10 @@ class Relations:
         both = sorted(pairs | {(there, here) for here, there in pairs})
         known = [(here, there) for here, there in both if here in self.vocabulary.relations]
         return {iri: tuple(there for here, there in known if here == iri) for iri, _ in known}
+
+    @cached_property
+    def _wider(self) -> dict[str, tuple[str, ...]]:
+        return {iri: self._term(iri).parents for iri in self.vocabulary.relations}
 
     @cached_property
     def _narrower(self) -> dict[str, tuple[str, ...]]:

@@ -13,6 +13,7 @@ from skillc_compiler.library.conditions import (
     Arithmetic,
     Compare,
     Condition,
+    Effect,
     Exists,
     Expression,
     Forall,
@@ -32,7 +33,7 @@ from skillc_compiler.library.conditions import (
 )
 from skillc_compiler.library.reading import walk
 
-T = TypeVar("T", bound=Condition | Expression | Term)
+T = TypeVar("T", bound=Condition | Effect | Expression | Term)
 ALWAYS, NEVER = And(()), Or(())
 
 
@@ -42,7 +43,7 @@ def has(item: Condition, *kinds: type[msgspec.Struct]) -> bool:
 
 
 def replaced(item: T, values: Mapping[str, Expression]) -> T:
-    """Return the condition, expression or term with expressions in the place of these variables."""
+    """Return the condition, effect, expression or term with expressions in the place of these variables."""
     if isinstance(item, Variable):
         return values.get(item.name, item)  # type: ignore[return-value]
     if isinstance(item, Exists | Forall):

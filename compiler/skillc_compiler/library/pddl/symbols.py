@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -18,6 +19,7 @@ class Symbols:
     """Predicates by what they say.
 
     `names` leads from PDDL names to terms; `changing` are canonical relations and properties that skills change.
+    `settled` says that the types of named objects are those of a scene, which they have no narrower ones of.
     """
 
     vocabulary: Vocabulary
@@ -25,6 +27,7 @@ class Symbols:
     hierarchy: Hierarchy
     relations: Relations
     changing: frozenset[str]
+    settled: bool = False
 
     @cached_property
     def _by_term(self) -> dict[str, str]:
@@ -45,7 +48,7 @@ class Symbols:
 
     def is_computed(self, iri: str) -> bool:
         """Whether a relation follows from other facts by a computation."""
-        return iri in self.vocabulary.relations and self.vocabulary.relations[iri].computed_by is not None
+        return self.relations.is_computed(iri)
 
     def decided_by(self, iri: str) -> tuple[str, ...]:
         """Return what skills change of all that decides a computed relation; all that they change where nobody says."""
@@ -94,6 +97,23 @@ class Symbols:
         signatures = self.vocabulary.relations[relation].signatures
         return self.hierarchy.common([(each.domain, each.range)[side] for each in signatures])
 
+    def takes(self, relation: str, sides: Sequence[Typed]) -> bool:
+        """Whether the relation may hold between terms of these types."""
+        return all(self._fits(each, self.side_class(relation, side)) for side, each in enumerate(sides))
+
+    def may_have(self, property_: str, owner: Typed) -> bool:
+        """Whether a term of this type may have the property."""
+        return self._fits(owner, self._owner(property_))
+
+    def _fits(self, term: Typed, cls: str) -> bool:
+        wanted = self.hierarchy.type_name(cls)
+        if self.settled and not term.name.startswith("?"):
+            return self.hierarchy.is_below(term.type, wanted)
+        return self.hierarchy.meet(term.type, wanted)
+
+    def _owner(self, property_: str) -> str:
+        return self.hierarchy.common(self.vocabulary.properties[property_].domains)
+
     def predicate(self, name: str) -> Predicate:
         """Return the declaration of a predicate that stands for a class, a relation or a property."""
         subject = "?subject"
@@ -104,8 +124,7 @@ class Symbols:
         if term in self.vocabulary.relations:
             return self._relation_predicate(name, term)
         iri, value = self._values[name]
-        domain = self.hierarchy.common(self.vocabulary.properties[iri].domains)
-        typed = Typed(subject, self.hierarchy.type_name(domain))
+        typed = Typed(subject, self.hierarchy.type_name(self._owner(iri)))
         return Predicate(name, (typed,), PropertyFact(iri, value), iri in self.changing)
 
     @cached_property

@@ -71,8 +71,8 @@ def _lockable(problem: Problem) -> list[str]:
 
 
 def _declared(problem: Problem) -> list[Typed]:
-    constants = set(problem.domain.constants)
-    return [each for each in problem.objects if each not in constants]
+    constants = {each.name for each in problem.domain.constants}
+    return [each for each in problem.objects if each.name not in constants]
 
 
 @cache

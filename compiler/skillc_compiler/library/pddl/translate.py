@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Protocol, TypeAlias, assert_never
 
@@ -41,6 +41,7 @@ from skillc_compiler.library.pddl.formulas import (
     Universal,
     conjunction,
     disjunction,
+    existential,
 )
 from skillc_compiler.library.pddl.names import variable
 from skillc_compiler.library.pddl.symbols import Symbols
@@ -62,6 +63,18 @@ class Place:
 Scope: TypeAlias = Mapping[str, Place]
 
 
+@dataclass(frozen=True)
+class Named:
+    """An individual that formulas may name: its PDDL name and type, and its classes as far as they are known."""
+
+    object: Typed
+    classes: frozenset[str]
+
+
+class Impossible(Untranslatable):
+    """Something that can never be done: a skill that is left out for it makes no difference to any plan."""
+
+
 class Settle(Protocol):
     """What becomes of a condition that nothing changes."""
 
@@ -72,11 +85,11 @@ class Settle(Protocol):
 
 @dataclass(frozen=True)
 class Translator:
-    """Turns conditions into formulas; `objects` are the PDDL names of individuals that may be named."""
+    """Turns conditions into formulas; `objects` are the individuals that may be named, by IRI."""
 
     symbols: Symbols
     settle: Settle
-    objects: Mapping[str, str]
+    objects: Mapping[str, Named]
 
     def formula(self, condition: Condition, scope: Scope) -> Formula:
         """Return the condition as a formula; Untranslatable says why not."""
@@ -105,9 +118,9 @@ class Translator:
             case Holds():
                 return self._holds(condition, scope)
             case Same(left=left, right=right):
-                return Equal(self.term(left, scope), self.term(right, scope))
+                return Equal(self.term(left, scope).name, self.term(right, scope).name)
             case IsA(subject=subject, cls=cls):
-                return self._is_a(subject, cls, scope)
+                return self.is_a(subject, cls, scope)
             case HasProperty(subject=subject, property=iri):
                 return self._one_of(iri, self.symbols.values(iri), self.term(subject, scope))
             case Compare():
@@ -119,39 +132,47 @@ class Translator:
             case _:
                 assert_never(condition)
 
-    def term(self, term: Term | Expression, scope: Scope) -> str:
-        """Return the PDDL name of a term."""
+    def term(self, term: Term | Expression, scope: Scope) -> Typed:
+        """Return the PDDL name and type of a term."""
         match term:
             case Variable(name=name) if name in scope:
-                return scope[name].variable.name
+                return scope[name].variable
             case Individual(iri=iri) if iri in self.objects:
-                return self.objects[iri]
+                return self.objects[iri].object
             case Variable(name=name):
                 raise Untranslatable(f"reads `{name}`, which a planner does not bind")
             case Individual(iri=iri):
-                raise Untranslatable(f"names `{self.symbols.short(iri)}`; a planner needs it as a parameter")
+                raise Untranslatable(f"names `{self.symbols.short(iri)}`, which is not in the scene")
             case _:
                 raise Untranslatable("reads something a skill changes through another value")
+
+    def typed(self, scope: Scope) -> dict[str, Typed]:
+        """Return the variables and individuals that formulas in this scope may name, by their PDDL names."""
+        known = (*(each.variable for each in scope.values()), *(each.object for each in self.objects.values()))
+        return {each.name: each for each in known}
 
     def _holds(self, condition: Holds, scope: Scope) -> Formula:
         relation = condition.relation
         self._refuse_transitive(relation)
         subject, first = self._side(condition.subject, relation, 0, scope)
         object_, second = self._side(condition.object, relation, 1, {**scope, **first})
-        atoms = [
-            Atom(self.symbols.relation(each.relation), (object_, subject) if each.swapped else (subject, object_))
-            for each in self.symbols.readings(relation)
-        ]
-        formula = disjunction(atoms)
+        formula = disjunction(self.holds(relation, subject, object_))
         for place in (*second.values(), *first.values()):
-            formula = Existential(place.variable, formula)
+            formula = existential(place.variable, formula)
         return formula
 
-    def _side(self, term: Term, relation: str, side: int, scope: Scope) -> tuple[str, dict[str, Place]]:
+    def holds(self, relation: str, subject: Typed, object_: Typed) -> Iterator[Atom]:
+        """Yield the atoms of which any makes the relation hold, without those that no objects of these types have."""
+        for each in self.symbols.readings(relation):
+            sides = (object_, subject) if each.swapped else (subject, object_)
+            if self.symbols.takes(each.relation, sides):
+                yield Atom(self.symbols.relation(each.relation), tuple(side.name for side in sides))
+
+    def _side(self, term: Term, relation: str, side: int, scope: Scope) -> tuple[Typed, dict[str, Place]]:
         if not isinstance(term, Anything):
             return self.term(term, scope), {}
         place = self._place("any", self.symbols.side_class(relation, side), scope)
-        return place.variable.name, {place.variable.name: place}
+        return place.variable, {place.variable.name: place}
 
     def _refuse_transitive(self, relation: str) -> None:
         changing = self.symbols.changing_transitive(relation)
@@ -176,7 +197,7 @@ class Translator:
     def _exists(self, name: str, cls: str, body: Condition, scope: Scope) -> Formula:
         place = self._place(name, cls, scope)
         member = self.membership(cls, place)
-        return Existential(place.variable, conjunction((member, self.formula(body, {**scope, name: place}))))
+        return existential(place.variable, conjunction((member, self.formula(body, {**scope, name: place}))))
 
     def membership(self, cls: str, place: Place) -> Formula:
         """Return what remains to be tested for the variable to be of the class, given its PDDL type."""
@@ -184,11 +205,34 @@ class Translator:
         exact = hierarchy.is_exact(cls) and hierarchy.type_name(cls) == place.variable.type
         return TRUE if exact else Atom(self.symbols.member(cls), (place.variable.name,))
 
-    def _is_a(self, subject: Term, cls: str, scope: Scope) -> Formula:
-        if isinstance(subject, Variable) and subject.name in scope:
-            place = scope[subject.name]
-            return TRUE if self.symbols.is_a(place.cls, cls) else self.membership(cls, place)
-        return Atom(self.symbols.member(cls), (self.term(subject, scope),))
+    def is_a(self, subject: Term, cls: str, scope: Scope) -> Formula:
+        """Return what remains to be tested for a term to be of a class."""
+        term = self.term(subject, scope)
+        if any(self.symbols.is_a(each, cls) for each in self._known_classes(subject, scope)):
+            return TRUE
+        if not self.may_be(subject, cls, scope):
+            return FALSE
+        if isinstance(subject, Variable):
+            return self.membership(cls, scope[subject.name])
+        return Atom(self.symbols.member(cls), (term.name,))
+
+    def may_be(self, subject: Term, cls: str, scope: Scope) -> bool:
+        """Whether a term may be of a class."""
+        if self.symbols.settled and isinstance(subject, Individual):
+            return any(self.symbols.is_a(each, cls) for each in self._known_classes(subject, scope))
+        overlap = self.symbols.hierarchy.overlap
+        return all(overlap(each, cls) for each in self._known_classes(subject, scope))
+
+    def _known_classes(self, term: Term, scope: Scope) -> frozenset[str]:
+        match term:
+            case Variable(name=name):
+                return frozenset({scope[name].cls})
+            case Individual(iri=iri):
+                return self.objects[iri].classes
+            case Anything():
+                return frozenset()
+            case _:
+                assert_never(term)
 
     def _compare(self, condition: Compare, scope: Scope) -> Formula:
         match condition:
@@ -205,12 +249,14 @@ class Translator:
         wanted = [each for each in values if (each == value and type(each) is type(value)) == equal]
         return self._one_of(read.property, wanted, self.term(read.of, scope))
 
-    def _one_of(self, iri: str, values: tuple[bool | str, ...] | list[bool | str], subject: str) -> Formula:
+    def _one_of(self, iri: str, values: tuple[bool | str, ...] | list[bool | str], subject: Typed) -> Formula:
         if not self.symbols.values(iri):
             raise Untranslatable(
                 f"reads `{self.symbols.short(iri)}`, which skills change and which has no finite values"
             )
-        return disjunction(Atom(self.symbols.value(iri, value), (subject,)) for value in values)
+        if not self.symbols.may_have(iri, subject):
+            return FALSE
+        return disjunction(Atom(self.symbols.value(iri, value), (subject.name,)) for value in values)
 
 
 def negated(formula: Formula) -> Formula:
@@ -225,8 +271,9 @@ def negated(formula: Formula) -> Formula:
         case Disjunction(parts=parts):
             return conjunction(negated(part) for part in parts) if parts else TRUE
         case Existential(variable=variable, body=body):
-            return Universal(variable, negated(body))
+            inner = negated(body)
+            return TRUE if inner == TRUE else Universal(variable, inner)
         case Universal(variable=variable, body=body):
-            return Existential(variable, negated(body))
+            return existential(variable, negated(body))
         case _:
             assert_never(formula)

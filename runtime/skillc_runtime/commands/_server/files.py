@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from skillc_dsl.encoding import decode
+from skillc_dsl.encoding import MOST_BYTES, decode, read_file
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _files, _ontologies
@@ -80,9 +80,9 @@ def _shipped() -> _files.LibraryFiles:
 
 def _on_disk(root: Root) -> Iterator[Path]:
     if not root.whole:
-        yield from root.folder.glob("*.skill")
+        yield from (file for file in root.folder.glob("*.skill") if file.is_file())
         return
-    yield from (file for file in _below(root) if file.name.endswith(".skill"))
+    yield from (file for file in _below(root) if file.name.endswith(".skill") and file.is_file())
 
 
 def _below(root: Root) -> Iterator[Path]:
@@ -100,6 +100,6 @@ def _source(file: Path, path: str, buffers: Mapping[Path, str]) -> Source:
     if file in buffers:
         return Source(path, buffers[file])
     try:
-        return decode(path, file.read_bytes())
+        return decode(path, read_file(file, MOST_BYTES))
     except OSError:
         return Source(path, "")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
@@ -13,6 +13,7 @@ from pygls.uris import from_fs_path, to_fs_path
 from skillc_compiler.assist.analysis import Analysis, Library, analyse
 from skillc_dsl import parser
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.encoding import unix_lines
 from skillc_dsl.source import Source
 from skillc_runtime.commands._library import vocabulary_with
 from skillc_runtime.commands._server import files, scenes
@@ -50,7 +51,7 @@ class Libraries:
         """Take a file's text from the editor, and return its path."""
         file = self.file(uri)
         opened = file not in self.buffers
-        self.buffers[file] = text.replace("\r\n", "\n")
+        self.buffers[file] = unix_lines(text)
         if opened or files.is_turtle(file):
             self.forget(file)
             return file
@@ -103,10 +104,22 @@ class Libraries:
             self._analyses[root] = self._understood(root)
         return self._analyses[root]
 
+    def roots(self) -> list[Root]:
+        """Return every library that has a file open."""
+        return sorted({self.root(file) for file in self.buffers}, key=lambda root: root.folder)
+
     def known(self) -> Iterator[tuple[Root, Analysis]]:
         """Yield every library that has a file open."""
-        for root in sorted({self.root(file) for file in self.buffers}, key=lambda root: root.folder):
+        for root in self.roots():
             yield root, self.analysis(root)
+
+    def texts(self, root: Root) -> Mapping[str, Source]:
+        """Return the texts of a library by path, whether they can be understood or not."""
+        return self._sources.get(root) or files.sources(root, self.buffers)
+
+    def open_in(self, root: Root) -> frozenset[str]:
+        """Return the URIs of the open files of a library."""
+        return frozenset(self._uris[file] for file in self.buffers if self.root(file) == root)
 
     def problems_of_vocabularies(self, root: Root) -> Iterator[Diagnostic]:
         """Yield what is wrong with the vocabularies that stand in the folder of a library."""

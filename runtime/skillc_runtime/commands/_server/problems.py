@@ -13,7 +13,7 @@ from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 from skillc_runtime.commands._server import scenes
 from skillc_runtime.commands._server.files import Root
-from skillc_runtime.commands._server.libraries import Libraries
+from skillc_runtime.commands._server.libraries import Libraries, parse
 from skillc_runtime.commands._server.positions import Lines
 
 _SEVERITY = {"error": types.DiagnosticSeverity.Error, "warning": types.DiagnosticSeverity.Warning}
@@ -29,6 +29,19 @@ def by_uri(libraries: Libraries, root: Root, analysis: Analysis, encoding: str) 
     for problem in (*analysis.problems, *around):
         found[libraries.uri(root, problem.span.path)].append(told(libraries, root, lines, problem))
     return dict(found)
+
+
+def after_failure(libraries: Libraries, root: Root, message: str, encoding: str) -> dict[str, list[types.Diagnostic]]:
+    """Return what is wrong with the syntax of a library's files, and `message` of a failure in those that are open."""
+    texts = libraries.texts(root)
+    lines = Lines({path: source.text for path, source in texts.items()}, encoding)
+    start = types.Range(types.Position(0, 0), types.Position(0, 1))
+    failure = types.Diagnostic(start, message, types.DiagnosticSeverity.Error, "internal-error", source="skillc")
+    found: dict[str, list[types.Diagnostic]] = {uri: [failure] for uri in libraries.open_in(root)}
+    for path, source in texts.items():
+        syntax = [told(libraries, root, lines, problem) for problem in parse(source).diagnostics]
+        found[libraries.uri(root, path)] = [*found.get(libraries.uri(root, path), []), *syntax]
+    return found
 
 
 def told(libraries: Libraries, root: Root, lines: Lines, problem: Diagnostic) -> types.Diagnostic:

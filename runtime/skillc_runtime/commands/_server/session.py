@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import logging
+import traceback
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
@@ -11,11 +13,13 @@ from lsprotocol import types
 from pygls.lsp.server import LanguageServer
 
 from skillc_compiler.assist.analysis import Analysis
+from skillc_runtime.commands import _crashes
 from skillc_runtime.commands._server import problems
 from skillc_runtime.commands._server.files import Root
 from skillc_runtime.commands._server.libraries import Libraries, View
 from skillc_runtime.commands._server.positions import Lines
 
+log = logging.getLogger(__name__)
 PAUSE_S = 0.15
 """For so long nothing may have been typed before problems are looked for, in seconds."""
 
@@ -32,9 +36,9 @@ class At:
 
 @dataclass(frozen=True, slots=True)
 class Told:
-    """What the editor was told of last, and of which files."""
+    """What the editor was told of last, and of which files; `analysis` is None where understanding it failed."""
 
-    analysis: Analysis
+    analysis: Analysis | None
     uris: frozenset[str]
 
 
@@ -60,6 +64,7 @@ class Session:
     over: bool = False
     libraries: Libraries = field(default_factory=Libraries)
     _told: dict[Root, Told] = field(default_factory=dict)
+    _failures: dict[str, str] = field(default_factory=dict)
     _waiting: asyncio.TimerHandle | None = None
 
     @property
@@ -86,18 +91,35 @@ class Session:
 
     def publish(self) -> None:
         """Tell the editor of the problems of every library that has changed; those that are gone are taken back."""
-        known = dict(self.libraries.known())
-        for root in self._told.keys() - known.keys():
+        roots = self.libraries.roots()
+        for root in self._told.keys() - set(roots):
             self._take_back(self._told.pop(root).uris)
-        for root, analysis in known.items():
-            before = self._told.get(root)
+        for root in roots:
+            self._publish(root)
+
+    def _publish(self, root: Root) -> None:
+        """Tell of one library. When skillc itself fails, that is told, with what is known all the same."""
+        before = self._told.get(root)
+        analysis: Analysis | None
+        try:
+            analysis = self.libraries.analysis(root)
             if before is not None and before.analysis is analysis:
-                continue
+                return
             by_uri = problems.by_uri(self.libraries, root, analysis, self.encoding)
-            self._take_back(before.uris - by_uri.keys() if before else frozenset())
-            for uri, found in by_uri.items():
-                self._tell(uri, found)
-            self._told[root] = Told(analysis, frozenset(by_uri))
+        except Exception as error:  # noqa: BLE001 - the boundary of a task
+            analysis, by_uri = None, problems.after_failure(self.libraries, root, self._report(error), self.encoding)
+        self._take_back(before.uris - by_uri.keys() if before else frozenset())
+        for uri, found in by_uri.items():
+            self._tell(uri, found)
+        self._told[root] = Told(analysis, frozenset(by_uri))
+
+    def _report(self, error: Exception) -> str:
+        """Log a mistake of skillc's own, and return what is said of it; each one is written to one file only."""
+        key = "".join(traceback.format_tb(error.__traceback__))
+        if key not in self._failures:
+            self._failures[key] = _crashes.message(error, ["lsp"])
+            log.error("analysing failed", exc_info=error)
+        return self._failures[key]
 
     def folders(self, uris: list[str]) -> None:
         """Note which folders are open in the editor."""

@@ -1,0 +1,70 @@
+"""Braces without a step between them.
+
+There is nothing to run: a `seq` of nothing, a loop around nothing, a `with` that sets something up for nobody. For
+`if C { } else { .. }` write `if not C { .. }`; leave out an `else` that does nothing.
+
+Bad:
+
+    skill Rest { noplan }
+    impl waiting of Rest {
+        do seq {
+            wait 1 s
+            par all { }
+        }
+    }
+
+Good:
+
+    skill Rest { noplan }
+    impl waiting of Rest {
+        do seq {
+            wait 1 s
+        }
+    }
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.program import Program
+from skillc_compiler.walk import steps
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Fix
+from skillc_dsl.source import Span
+
+NAMES = ("empty-block",)
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield an error for each node that has braces and nothing in them."""
+    removable = {child.written.span for step in steps(program) for child in step.children if len(step.children) > 1}
+    for step in steps(program):
+        found = _empty(step.written)
+        if found is not None:
+            span = step.written.span
+            fix = Fix(span, "", "delete it", safe=False) if span in removable and "else" not in found[0] else None
+            yield Diagnostic("empty-block", _head(span), found[0], help=found[1], fix=fix)
+
+
+def _empty(node: s.Node) -> tuple[str, str] | None:
+    """Return what is wrong with a node without steps and what to do; None where there are steps, or no braces."""
+    match node:
+        case s.If(then=(), text=text):
+            return "nothing is done where this condition holds", f"write `if not ({text}) {{ .. }}`, or add a step"
+        case s.If(orelse=()):
+            return "this `else` has no steps", "remove it, or add a step"
+        case s.Block(kind=kind, children=()):
+            return f"this `{kind}` has no steps", "add a step, or remove it"
+        case s.Counted(kind=kind, children=()):
+            return f"this `{kind}` has no steps", "add a step, or remove it"
+        case s.Timeout(children=()) | s.While(children=()) | s.For(children=()) | s.With(children=()):
+            return f"this `{type(node).__name__.lower()}` has no steps", "add a step, or remove it"
+    return None
+
+
+def _head(span: Span) -> Span:
+    """Return where a node begins, up to the end of that line at most."""
+    if span.end_line == span.line:
+        return span
+    return Span(span.path, span.line, span.column, span.line, span.column + 1)

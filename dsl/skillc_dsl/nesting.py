@@ -1,0 +1,66 @@
+"""How deep a text may be nested: what is deeper is refused here, once, so that no later stage has to count."""
+
+from __future__ import annotations
+
+from lark import Token, Tree
+
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.lexing import span_of
+from skillc_dsl.source import Span
+
+DEEPEST = 64
+"""So many steps, conditions and values may stand in each other."""
+_NESTED = frozenset(
+    (
+        *("block", "counted", "timeout", "if_", "while_", "for_", "with_"),
+        *("implies", "not_", "quantified", "parentheses"),
+        *("sum", "product", "member", "apply", "list_of"),
+    )
+)
+"""The rules whose trees hold others of their kind."""
+_WITH_MEMBERS = frozenset({"skill", "impl", "task"})
+
+
+def without_too_deep(tree: Tree[Token], path: str) -> tuple[Tree[Token], tuple[Diagnostic, ...]]:
+    """Return a file's tree without the members and declarations that are nested too deep, and a problem for each."""
+    problems: list[Diagnostic] = []
+    declarations: list[Tree[Token] | Token] = []
+    for declaration in tree.children:
+        if isinstance(declaration, Tree) and declaration.data in _WITH_MEMBERS:
+            members = [member for member in declaration.children if not _reported(member, path, problems)]
+            declarations.append(Tree(declaration.data, members))
+        elif not _reported(declaration, path, problems):
+            declarations.append(declaration)
+    return Tree(tree.data, declarations), tuple(problems)
+
+
+def _reported(part: Tree[Token] | Token, path: str, problems: list[Diagnostic]) -> bool:
+    """Whether a part is nested too deep, which is noted at its first token on the level that is too deep."""
+    found = _first_too_deep(part)
+    if found is not None:
+        problems.append(too_deep(span_of(found, path)))
+    return found is not None
+
+
+def _first_too_deep(part: Tree[Token] | Token) -> Token | None:
+    waiting: list[tuple[Tree[Token] | Token, int]] = [(part, 0)]
+    while waiting:
+        inner, level = waiting.pop()
+        if isinstance(inner, Token):
+            if level > DEEPEST:
+                return inner
+            continue
+        below = level + (inner.data in _NESTED)
+        waiting += [(child, below) for child in reversed(inner.children)]
+    return None
+
+
+def too_deep(span: Span) -> Diagnostic:
+    """Return the problem of a text that is nested too deep from `span` on."""
+    return Diagnostic(
+        "nesting-too-deep",
+        span,
+        f"this is nested more than {DEEPEST} levels deep",
+        "make skills of parts of the steps, or name parts of a value with `let`; "
+        "each `else if`, and each operator of a long sum, is a level too",
+    )

@@ -1,0 +1,61 @@
+"""What is said and kept when skillc itself fails, so that no user sees a traceback and none is lost."""
+
+from __future__ import annotations
+
+import os
+import platform
+import shlex
+import sys
+import tempfile
+import traceback
+from collections.abc import Sequence
+from importlib.metadata import version
+from pathlib import Path
+
+INTERNAL = 70
+"""EX_SOFTWARE of sysexits.h."""
+INTERRUPTED = 130
+NOBODY_READS = 141
+"""What shells say of a process that ended by SIGINT, and by SIGPIPE."""
+
+
+def message(error: BaseException, arguments: Sequence[str]) -> str:
+    """Write a report of `error` to a file; return what the user reads, which names that file."""
+    command = shlex.join(["skillc", *arguments])
+    return (
+        f"internal error: `{command}` failed with {type(error).__name__}: {_first_line(error)}\n"
+        f"help: this is a mistake in skillc, not in your files; {_kept(error, command)}"
+    )
+
+
+def report(error: BaseException, command: str) -> str:
+    """Return everything that is needed to find the cause."""
+    about = f"skillc {version('skillc')}, Python {platform.python_version()}, {platform.platform()}"
+    trace = "".join(traceback.format_exception(error))
+    return f"{about}\n{command}\nin {_folder()}\n\n{trace}"
+
+
+def close_stdout() -> None:
+    """Send what is still to be printed nowhere, since the reader has gone."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _kept(error: BaseException, command: str) -> str:
+    try:
+        descriptor, name = tempfile.mkstemp(prefix="skillc-crash-", suffix=".txt")
+        with os.fdopen(descriptor, "w", encoding="utf-8", errors="backslashreplace") as file:
+            file.write(report(error, command))
+    except OSError as reason:
+        return f"please report it; no report could be written: {reason.strerror}"
+    return f"please report it with the file {name}"
+
+
+def _first_line(error: BaseException) -> str:
+    return (str(error).splitlines() or ["no message"])[0]
+
+
+def _folder() -> str:
+    try:
+        return str(Path.cwd())
+    except OSError:
+        return "a folder that is gone"

@@ -1,0 +1,105 @@
+"""Random vocabularies with axioms and skills that name individuals, held against trying every step in the world model.
+
+SKILLC_EXAMPLES says how many are tried.
+"""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+
+from oracle.agreement import disagreements
+from oracle.forced import TooManyStates, cheapest, steps, worked
+from oracle.vocabularies import Author
+from oracle.well_typed import mistakes
+from skillc_compiler.library.conditions import And
+from skillc_compiler.library.pddl.formulas import FALSE
+from skillc_compiler.library.pddl.planning import planning_domain
+from skillc_compiler.library.pddl.pruning import pruned
+from skillc_compiler.library.pddl.text import domain_text, problem_text, temporal_problem_text, temporal_text
+from skillc_runtime.planning.astar import AStar
+from skillc_runtime.planning.choose import available
+from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
+from skillc_runtime.planning.problem import GoalError, pose_problem
+from skillc_runtime.planning.solve import solve
+
+EXAMPLES = int(os.environ.get("SKILLC_EXAMPLES", "0"))
+LONG_S = 60.0
+
+
+def check_claim(answer: PlanResult, least: float, restricted: bool) -> None:
+    """Check what an answer claims against the least cost of a plan, which is infinite where there is none."""
+    match answer:
+        case Solved(plan=plan, optimal="proven"):
+            assert plan.duration_s == pytest.approx(least)
+        case Solved(plan=plan, optimal="optimal for the filtered problem"):
+            assert restricted and plan.duration_s >= least - 1e-9 and answer.at_least_s is None
+        case Unsolvable():
+            assert not restricted and least == float("inf")
+        case GaveUp():
+            assert restricted, answer
+        case _:
+            raise AssertionError(answer)
+
+
+@pytest.mark.parametrize("seed", range(EXAMPLES or 25))
+def test_what_is_said_of_a_plan_is_true(seed: int) -> None:
+    drawn = Author(seed).drawn()
+    try:
+        restricted = bool(pose_problem(drawn.library, drawn.state, drawn.goal).restricted)
+        least = cheapest(drawn.library, drawn.state, drawn.goal)
+    except (GoalError, TooManyStates):
+        pytest.skip("the goal cannot be planned for, or there are too many states")
+    answer = solve(drawn.library, drawn.state, drawn.goal, (AStar(),), LONG_S)
+    check_claim(answer, float("inf") if least is None else least, restricted)
+
+
+@pytest.mark.parametrize("seed", range(1000, 1000 + (EXAMPLES or 2)))
+def test_the_strongest_planner_claims_the_same(seed: int) -> None:
+    drawn = Author(seed).drawn()
+    own = solve(drawn.library, drawn.state, drawn.goal, (AStar(),), LONG_S)
+    other = solve(drawn.library, drawn.state, drawn.goal, available()[:1], LONG_S)
+    assert type(own) is type(other)
+    if isinstance(own, Solved) and isinstance(other, Solved):
+        assert (other.optimal, other.plan.duration_s) == (own.optimal, pytest.approx(own.plan.duration_s))
+
+
+@pytest.mark.parametrize("seed", range(2000, 2000 + (EXAMPLES or 30)))
+def test_a_step_works_for_the_planner_where_it_works_in_the_world(seed: int) -> None:
+    drawn = Author(seed).drawn()
+    assert list(disagreements(drawn.library, drawn.state)) == []
+    after = (worked(step, drawn.library, drawn.state) for step in steps(drawn.library, drawn.state))
+    later = next((each for each in after if each is not None), None)
+    if later is not None:
+        assert list(disagreements(drawn.library, later)) == []
+
+
+@pytest.mark.parametrize("seed", range(3000, 3000 + (EXAMPLES or 20)))
+def test_all_that_is_printed_is_well_typed(seed: int) -> None:
+    drawn = Author(seed).drawn()
+    alone = pruned(planning_domain(drawn.library))
+    assert mistakes(domain_text(alone)) + mistakes(temporal_text(alone)) == []
+    for goal in (And(()), drawn.goal):
+        try:
+            problem = pose_problem(drawn.library, drawn.state, goal).problem
+        except GoalError:
+            continue
+        if problem.goal != FALSE:
+            assert mistakes(domain_text(problem.domain), problem_text(problem)) == []
+            assert mistakes(temporal_text(problem.domain), temporal_problem_text(problem)) == []
+
+
+def test_the_type_checker_finds_mistakes() -> None:
+    domain = """(define (domain d) (:types thing - object place box - thing)
+      (:constants home - place) (:predicates (at ?b - box ?p - place))
+      (:action go :parameters (?b - box) :precondition (not (at home ?b)) :effect (and (in ?b) (at ?c home))))"""
+    assert mistakes(domain) == [
+        "go: (at home ?b): home is a place, no box",
+        "go: (at home ?b): ?b is a box, no place",
+        "go: in is undeclared with 1 arguments",
+        "go: ?c is undeclared",
+    ]
+    problem = "(define (problem p) (:domain d) (:objects home - place b - box) (:init (at b home)) (:goal (at b b)))"
+    found = mistakes(domain, problem)
+    assert "home is declared twice" in found and "(at b b): b is a box, no place" in found

@@ -1,0 +1,32 @@
+"""Nodes that follow their children several times, nested as deep as may be, are proved in linear time."""
+
+import pytest
+
+from skillc_compiler.emit.artifacts import artifacts
+from skillc_compiler.pipeline import compile
+from skillc_dsl.nesting import DEEPEST
+from skillc_dsl.source import Source
+from skillc_runtime.commands._library import vocabulary
+
+LIBRARY = """\
+use wiping
+skill Clean {{
+    in   board: Whiteboard
+    post board.isClean == true
+}}
+impl whole of Clean {{ do {body} }}
+skill Wipe {{
+    in   board: Whiteboard
+    post board.isClean == true
+}}
+impl plain of Wipe {{ run python "skillc_runtime.primitives.stand_in:StandIn" }}
+"""
+HEADS = ("par all { wait 1 s ", "reactive seq { wait 1 s ", "retry 3 { wait 1 s ", "repeat 9 { ", "once { ")
+
+
+@pytest.mark.parametrize("head", HEADS)
+def test_nested_nodes_are_proved_and_compiled(head: str) -> None:
+    body = head * DEEPEST + "Wipe(board)" + " }" * DEEPEST
+    outcome = compile([Source("a.skill", LIBRARY.format(body=body))], vocabulary(), {}, "own")
+    assert [each for each in outcome.diagnostics if each.severity == "error"] == []
+    assert artifacts(outcome.value)
