@@ -20,7 +20,8 @@ Good:
 
 ## unknown-datatype: the range of a data property is no datatype of the language
 
-Known are `xsd:double`, `integer`, `string`, `boolean`, `skillc:Pose`, `skillc:Vector` and an `owl:oneOf` of texts.
+Known are `xsd:double`, `integer`, `string`, `boolean`, `skillc:Pose`, `skillc:Vector`, `skillc:Direction` and an `owl:oneOf`
+of texts.
 
 Bad:
 

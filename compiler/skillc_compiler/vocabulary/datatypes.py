@@ -9,6 +9,7 @@ import pyoxigraph as ox
 
 from skillc_compiler.library.vocabulary import (
     Bounds,
+    DirectionType,
     NumberType,
     PlainType,
     Position,
@@ -36,6 +37,7 @@ PLAIN: dict[str, ValueType] = {
     f"{XSD}boolean": PlainType("Bool"),
     **{datatype: PlainType("Int") for datatype in INTEGERS},
     f"{SKILLC}Pose": PlainType("Pose"),
+    f"{SKILLC}Direction": DirectionType(),
 }
 FACETS = {
     f"{XSD}minInclusive": "least",
@@ -83,7 +85,8 @@ def value_types_known(graph: Graph, properties: Iterable[str], places: Mapping[s
                 "unknown-datatype",
                 Span(place.path, place.line, 1, place.line, 2),
                 f"the range of {iri} is no datatype that skillc knows, so the property cannot be used",
-                help="use xsd:double, integer, string or boolean, skillc:Pose, skillc:Vector or an owl:oneOf of texts",
+                help="use xsd:double, integer, string or boolean, skillc:Pose, skillc:Vector, skillc:Direction "
+                "or an owl:oneOf of texts",
                 severity="warning",
             )
 
