@@ -164,6 +164,6 @@ def _invocation(name: str, arguments: tuple[Read, ...]) -> Read:
         if result is None or is_of(result, function.result, state):
             return result
         declared = type_text(function.result, state.vocabulary)
-        raise EvaluationError(f"{name} gives {show(result)}, and is declared to give {declared}")
+        raise EvaluationError(f"{name} gives {show(result)}, where its declaration says `{declared}`")
 
     return compute
