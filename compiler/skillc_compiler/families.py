@@ -30,8 +30,8 @@ FAMILIES: tuple[tuple[str, str], ...] = (
     (
         "ontology",
         "relation-* property-* wrong-type disjoint-* two-values breaks-* unknown-datatype unknown-dimension"
-        " unknown-value computed-* contradicting-declaration class-* impossible-* *-vocabulary shipped-term undeclared-term"
-        " prefix-taken missing-import unused-axiom several-inverses several-domains beyond-owl-dl",
+        " unknown-value computed-* contradicting-declaration class-* impossible-* *-vocabulary shipped-term"
+        " undeclared-term prefix-taken missing-import unused-axiom several-inverses several-domains beyond-owl-dl",
     ),
     ("names", "unknown-* ambiguous-* duplicate-[adlnp]* unused-* import-* deprecated-*"),
     (
