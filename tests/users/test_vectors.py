@@ -111,10 +111,9 @@ def test_what_is_no_vector_or_no_direction_is_reported(fans: Path, old: str, new
     assert old in SCENE
     (fans / "scene.ttl").write_text(SCENE.replace(old, new))
     checked = call("check", ".", "--scene", "scene.ttl", "--format", "json")
-    (found,) = {
-        (each["name"], each["line"], f"{each['message']} | {each['help']}") for each in json.loads(checked.stdout)
-    }
-    assert checked.exit_code == 1 and found[:2] == ("wrong-data-type", 4) and words in found[2]
+    (found,) = json.loads(checked.stdout)
+    assert checked.exit_code == 1 and (found["name"], found["line"]) == ("wrong-data-type", 4)
+    assert words in f"{found['message']} | {found['help']}"
     ran = call("run", ":fine")
     assert ran.exit_code == 1 and "wrong-data-type" in ran.output
 

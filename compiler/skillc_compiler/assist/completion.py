@@ -23,7 +23,8 @@ from skillc_dsl.source import Span
 from skillc_dsl.tokens import KEYWORDS
 from skillc_dsl.units import UNITS
 
-_BEGINNING = frozenset((*KEYWORDS["declaration"], *KEYWORDS["member"], *KEYWORDS["flag"])) - {"range", "any", "sensed", "of"}
+_WITHIN_A_LINE = frozenset(("range", "any", "sensed", "of"))
+_BEGINNING = frozenset((*KEYWORDS["declaration"], *KEYWORDS["member"], *KEYWORDS["flag"])) - _WITHIN_A_LINE
 _VALUES = frozenset(("true", "false"))
 _CLASS_LISTS = {"CLASS": ("LESS", "DISJOINT", "COMMA"), "RELATION": ("LPAR", "COMMA"), "PROPERTY": ("LPAR",)}
 
