@@ -63,7 +63,7 @@ A primitive is a subclass of `skillc_runtime.primitives.primitive.Primitive` wit
 Bad:
 
     skill Rest { noplan }
-    impl waiting of Rest { run python "skillc_runtime.primitives.primitive:Status" }
+    impl waiting of Rest { run python "skillc_runtime.motion.places:centre" }
 
 Good:
 

@@ -24,10 +24,11 @@ def class_found(of: Defined) -> ClassFound:
     """Return what is certain of a class."""
     lineage = _lineage(of, frozenset())
     known = tuple(each for each in lineage if isinstance(each, Defined))
+    unusual = any(_is_decorated(each) or _is_made_otherwise(each) for each in known)
     return ClassFound(
-        constructor=None if any(map(_is_remade, known)) else _constructor(lineage),
+        constructor=None if unusual else _constructor(lineage),
         ancestors=tuple(_called(each) for each in known),
-        complete=len(known) == len(lineage) and not any(map(_is_remade, known)),
+        complete=len(known) == len(lineage) and not any(map(_is_decorated, known)),
         methods=dict(_methods(lineage)),
     )
 
@@ -52,17 +53,17 @@ def _called(of: Defined) -> str:
     return f"{of.module}:{of.node.name}"
 
 
-def _is_remade(of: Defined) -> bool:
-    """Whether a decorator, a metaclass or `__new__` may make something else of a class."""
-    node = of.node
-    if not isinstance(node, ast.ClassDef):
-        return True
-    metaclasses = (each.value for each in node.keywords if each.arg == "metaclass")
-    return (
-        any(dotted(of.module, each) not in PLAIN_DECORATORS for each in node.decorator_list)
-        or any(dotted(of.module, each) not in PLAIN_METACLASSES for each in metaclasses)
-        or "__new__" in dict(_members(node))
-    )
+def _is_decorated(of: Defined) -> bool:
+    """Whether a decorator may make something else of a class."""
+    return any(dotted(of.module, each) not in PLAIN_DECORATORS for each in of.node.decorator_list)
+
+
+def _is_made_otherwise(of: Defined) -> bool:
+    """Whether a metaclass or `__new__` may take what the constructor would not."""
+    keywords = of.node.keywords if isinstance(of.node, ast.ClassDef) else []
+    metaclasses = (each.value for each in keywords if each.arg == "metaclass")
+    unusual = any(dotted(of.module, each) not in PLAIN_METACLASSES for each in metaclasses)
+    return unusual or "__new__" in dict(_members(of.node))
 
 
 def _members(node: ast.stmt) -> Iterator[tuple[str, ast.stmt]]:

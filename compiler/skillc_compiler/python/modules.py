@@ -98,7 +98,7 @@ def _starred(module: str, name: str, names: _Names, seen: frozenset[Place]) -> D
         for line in reversed(names.stars):
             found = definition(_source(module, line), name, seen)
             if not isinstance(found, NoName):
-                return found if isinstance(found, Defined) else UNCLEAR
+                return found if isinstance(found, Defined | Other) else UNCLEAR
     return NoName(tuple(sorted(n for n, node in names.bound.items() if isinstance(node, ast.ClassDef | Function))))
 
 

@@ -9,6 +9,7 @@ from functools import cache
 
 from skillc_compiler.library.skills import Parameter
 from skillc_runtime.primitives.primitive import Primitive
+from skillc_runtime.world.foreign import EvaluationError, resolve
 
 
 class PrimitiveError(Exception):
@@ -69,6 +70,17 @@ def _mismatch(python: str, given: tuple[str, ...]) -> str | None:
     single = (each for each in taken if each.kind not in (each.VAR_POSITIONAL, each.VAR_KEYWORD))
     ungiven = sorted({each.name for each in single if each.default is each.empty} - set(given))
     return f"needs the parameter {', '.join(ungiven)}" if ungiven else f"cannot be called: {reason}"
+
+
+@cache
+def function_problem(python: str, count: int) -> str | None:
+    """Return why "module:function" cannot be called with the world and so many values, None when it can."""
+    try:
+        function = resolve(python)
+    except EvaluationError as error:
+        return str(error)
+    reason = _refused(function, None, *(None,) * count) if callable(function) else "it is no function"
+    return None if reason is None else f"the Python function {python} cannot be called with {count} values: {reason}"
 
 
 def _refused(called: Callable[..., object], /, *values: object, **named: object) -> str | None:
