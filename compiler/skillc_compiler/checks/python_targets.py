@@ -123,11 +123,10 @@ def _primitive(implementation: Implementation, written: s.Text) -> Iterator[Diag
 
 
 def _class(implementation: Implementation, written: s.Text, found: ClassFound) -> Iterator[Diagnostic]:
+    tick = found.methods.get("tick")
     if found.complete and PRIMITIVE not in found.ancestors:
         yield _no_primitive(written, "is no primitive", f"let it inherit from {PRIMITIVE.replace(':', '.')}")
-        return
-    tick = found.methods.get("tick")
-    if found.complete and ("tick" not in found.methods or (tick is not None and tick.owner == PRIMITIVE)):
+    elif found.complete and ("tick" not in found.methods or (tick is not None and tick.owner == PRIMITIVE)):
         yield _no_primitive(written, "has no method `tick`", "define `tick`, which returns RUNNING or SUCCESS")
     for name, count in CALLED_WITH.items():
         method = found.methods.get(name)
