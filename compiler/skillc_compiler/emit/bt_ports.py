@@ -15,7 +15,15 @@ from skillc_compiler.emit.phrases import literal_text
 from skillc_compiler.library.conditions import Expression, Individual, Literal, Variable
 from skillc_compiler.library.pddl.rewriting import constant
 from skillc_compiler.library.skills import Parameter
-from skillc_compiler.library.vocabulary import ClassType, ListType, NumberType, PlainType, ValueType, VectorType
+from skillc_compiler.library.vocabulary import (
+    ClassType,
+    DirectionType,
+    ListType,
+    NumberType,
+    PlainType,
+    ValueType,
+    VectorType,
+)
 
 PLAIN = {"Bool": "bool", "Int": "int", "Text": "std::string", "Pose": None}
 NOT_TAKEN_AS_WRITTEN = ("{", "json:")
@@ -97,7 +105,7 @@ def port_type(type_: ValueType) -> str | None:
             return PLAIN[name]
         case ClassType():
             return "std::string"
-        case VectorType() | ListType():
+        case VectorType() | DirectionType() | ListType():
             return None
         case _:
             assert_never(type_)
