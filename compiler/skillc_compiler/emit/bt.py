@@ -33,7 +33,7 @@ def emit(library: SkillLibrary) -> dict[str, str]:
             files[f"trees/{legal(skill.name)}.xml"] = _skill_file(skill, library, names)
     for _, task in sorted(library.tasks.items()):
         if task.body is not None:
-            files[f"trees/task_{legal(task.name)}.xml"] = _task_file(task, task.body, library, names)
+            files[f"trees/{names.of('', 'task', task.name)}.xml"] = _task_file(task, task.body, library, names)
     return files
 
 
