@@ -28,8 +28,10 @@ class Player:
 
     def ticked(self, node: Node) -> Outcome | None:
         """Tick a node of the library, or one that the file declares."""
+        if node.element.tag in self.reader.models:
+            return self.declared(node)
         own = re.sub(r"[A-Z]", lambda capital: f"_{capital[0].lower()}", node.element.tag)
-        tick: Callable[[Node], Outcome | None] = getattr(self, own, self.declared)
+        tick: Callable[[Node], Outcome | None] = getattr(self, own)
         return tick(node)
 
     def _built(self, element: Element, board: Blackboard) -> Node:

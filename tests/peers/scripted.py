@@ -44,7 +44,7 @@ class Told:
             value = (value ^ byte) * 16777619 % 2**32
         self.starts[identity] += 1
         value ^= value >> 15
-        return Script(1 + value % 3, value // 3 % 5 != 0, value // 15)
+        return Script(1 + value % 3, value // 3 % 10 != 0, value // 30)
 
     def tell(self, what: str, identity: str, more: str = "") -> None:
         """Write a line."""
@@ -63,7 +63,7 @@ class ScriptedPlayer(Player):
         identity = node.element.tag
         match self.reader.models[identity].tag:
             case "Condition":
-                ok = self.told.next(identity).ok
+                ok = self.told.next(identity).chance % 4 != 0
                 self.told.tell("true" if ok else "false", identity, self._read(node))
                 return Outcome(ok)
             case "Action":

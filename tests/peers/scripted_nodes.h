@@ -38,7 +38,7 @@ struct Stage
       hash = (hash ^ c) * 16777619u;
     }
     hash ^= hash >> 15;
-    return { 1 + int(hash % 3), hash / 3 % 5 != 0, hash / 15 };
+    return { 1 + int(hash % 3), hash / 3 % 10 != 0, hash / 30 };
   }
 
   void tell(const std::string& what, const std::string& id, const std::string& more = "")
@@ -219,7 +219,7 @@ public:
   {}
   NodeStatus tick() override
   {
-    const bool ok = stage->next(declared_.id).ok;
+    const bool ok = stage->next(declared_.id).chance % 4 != 0;
     stage->tell(ok ? "true" : "false", declared_.id, values(*this, declared_));
     return ok ? NodeStatus::SUCCESS : NodeStatus::FAILURE;
   }
