@@ -203,14 +203,14 @@ def _stays(value: str, type_: str | None) -> bool:
 
 
 def _of_entries(tree: Element, types_of: Callable[[Element], Mapping[str, str | None]]) -> Iterator[str]:
-    """Yield the entries of a tree that ports of several types share: an entry keeps the first type that it is given."""
-    found: dict[str, set[str]] = {}
+    """Yield the entries that ports of several types share; one whose first port has no type takes what is written."""
+    found: dict[str, list[str | None]] = {}
     for node in tree.iter():
         for name, type_ in types_of(node).items():
-            entry = POINTER.fullmatch(node.get(name, ""))
-            if entry and type_ is not None:
-                found.setdefault(entry.group(1), set()).add(type_)
-    yield from (f"the entry {name} is {' and '.join(sorted(each))}" for name, each in found.items() if len(each) > 1)
+            if entry := POINTER.fullmatch(node.get(name, "")):
+                found.setdefault(entry.group(1), []).append(type_)
+    shared = {name: sorted({each for each in types if each}) for name, types in found.items() if types[0]}
+    yield from (f"the entry {name} is {' and '.join(types)}" for name, types in shared.items() if len(types) > 1)
 
 
 def _is_port(name: str) -> bool:
