@@ -36,7 +36,7 @@ class Player:
 
     def _built(self, element: Element, board: Blackboard) -> Node:
         if element.tag == "SubTree":
-            inner: Blackboard = {}
+            inner: Blackboard = board if element.get("_autoremap") == "true" else {}
             return Node(element, [self._built(self.reader.trees[element.attrib["ID"]][0], inner)], board, self)
         return Node(element, [self._built(each, board) for each in element], board, self)
 
@@ -190,6 +190,8 @@ class Player:
 
     def _sub_tree(self, node: Node) -> Outcome | None:
         """Tick the tree; its entries are the caller's where they are mapped, so both boards are kept alike."""
+        if node.element.get("_autoremap") == "true":
+            return node.children[0].tick()
         mapped = {port: value for port, value in node.element.attrib.items() if port != "ID" and port[0] != "_"}
         inner = node.children[0].board
         inner.update(self.values(node))

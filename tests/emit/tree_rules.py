@@ -13,6 +13,7 @@ DECORATORS = {
 }  # fmt: skip
 CONTROLS = {"Sequence", "Fallback", "ReactiveSequence", "ReactiveFallback", "Parallel", "IfThenElse"}
 REGISTERED = LEAVES | DECORATORS | CONTROLS
+DEEPEST = 256
 EXPLICIT = {"Action", "Condition", "Control", "Decorator"}
 
 
@@ -74,8 +75,17 @@ def _of_file(reader: Reader) -> list[str]:
         ("two trees have one ID", set(trees.values()) == {1}),
         ("two models have one ID", set(models.values()) <= {1}),
         ("a tree has the ID of a node", not trees.keys() & (REGISTERED | EXPLICIT)),
+        ("a tree is nested too deep", all(_depth(tree) <= DEEPEST for tree in root.findall("BehaviorTree"))),
         ("a tree has not exactly one root", all(len(tree) == 1 for tree in root.findall("BehaviorTree"))),
     )
+
+
+def _depth(tree: Element) -> int:
+    """Return how many levels of nodes are below the element of a tree."""
+    depth, level = -1, [tree]
+    while level:
+        depth, level = depth + 1, [child for parent in level for child in parent]
+    return depth
 
 
 def _of_node(node: Element, reader: Reader) -> list[str]:

@@ -16,6 +16,7 @@ KEPT = "Action BehaviorTree Condition Control Decorator Root TestNode TreeNodesM
 """What the format itself has another meaning for."""
 BUILT_IN = frozenset((REGISTERED + KEPT).split())
 ILLEGAL = re.compile(r"_(?=x[0-9a-f]+_)|[^A-Za-z0-9_]")
+NOT_IN_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 HEADLESS = re.compile(r"n*[0-9_]|$")
 RESERVED = re.compile(r"(ID|name)_*")
 MADE = re.compile(r".*__(\d+|given)_*")
@@ -28,6 +29,11 @@ def legal(name: str) -> str:
     """
     plain = ILLEGAL.sub(lambda found: f"_x{ord(found.group()):x}_", name)
     return f"n{plain}" if HEADLESS.match(plain) else plain
+
+
+def legal_text(text: str) -> str:
+    """Return text that XML can hold: a character that it cannot becomes the replacement character."""
+    return NOT_IN_XML.sub("\ufffd", text)
 
 
 def port(name: str) -> str:

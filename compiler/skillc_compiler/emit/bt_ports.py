@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from typing import assert_never
 
 from skillc_compiler.emit.bt_model import Direction, Port
-from skillc_compiler.emit.bt_names import given, port
+from skillc_compiler.emit.bt_names import NOT_IN_XML, given, port
 from skillc_compiler.library.conditions import Expression, Individual, Literal
 from skillc_compiler.library.pddl.rewriting import constant
 from skillc_compiler.library.skills import Parameter
@@ -24,8 +24,7 @@ from skillc_compiler.library.vocabulary import ClassType, ListType, NumberType, 
 PLAIN = {"Bool": "bool", "Int": "int", "Text": "std::string", "Pose": None}
 TAKEN_OTHERWISE = re.compile(
     r"|=| *\{.*|json:.*"  # no value, an entry, JSON
-    r"|-?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?|-?inf(inity)?|-?nan(\(\w*\))?"  # a number
-    r"|.*[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff].*",  # what XML cannot hold
+    r"|-?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?|-?inf(inity)?|-?nan(\(\w*\))?",  # a number
     re.IGNORECASE | re.ASCII | re.DOTALL,
 )
 """Text that is not read as it is written."""
@@ -98,7 +97,7 @@ def constant_text(value: bool | int | float | str, type_: str | None) -> str | N
         case bool():
             return "true" if value else "false"
         case str():
-            return None if TAKEN_OTHERWISE.fullmatch(value) else value
+            return None if TAKEN_OTHERWISE.fullmatch(value) or NOT_IN_XML.search(value) else value
         case int() | float() if type_ == "int":
             return str(int(value)) if INT_MIN <= value <= INT_MAX else None
         case int() | float():

@@ -38,7 +38,7 @@ NODES: Mapping[str, tuple[Children, Mapping[str, str]]] = {
 """The nodes of BehaviorTree.CPP that trees here are made of: how many children, which ports of which type."""
 
 KINDS: Mapping[str, Children] = {"Action": (0, 0), "Condition": (0, 0), "Decorator": (1, 1), "SubTree": (0, 0)}
-NAMELESS = frozenset({"_description", "_onSuccess", "_onFailure"})
+NAMELESS = frozenset({"_autoremap", "_description", "_onSuccess", "_onFailure"})
 NUMBER = r"-?((\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|(?i:inf(inity)?|nan(\(\w*\))?))"
 LITERALS = {"bool": "true|false", "int": r"-?\d+", "unsigned int": r"\d+", "double": NUMBER, "std::string": "(?s).+"}
 BOUNDS = {"int": range(-(2**31), 2**31), "unsigned int": range(2**32)}
