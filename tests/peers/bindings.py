@@ -7,7 +7,7 @@ attributes, that reads and writes the blackboard where the attributes say. What 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from copy import deepcopy
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement, tostring
@@ -16,7 +16,7 @@ import behaviortreepy
 from behaviortreepy import NodeStatus
 
 from emit.tree_rules import Reader
-from peers.scripted import GIVEN, MADE, TICK_S, TICKS, Script, Told, shown
+from peers.scripted import GIVEN, MADE, TICK_S, TICKS, Script, Told, inputs, ports_of, shown
 
 INCOMPARABLE = ("Timeout", "ForEach")
 KINDS = {"double": "double", "int": "int", "unsigned int": "int", "bool": "bool", "std::string": "string", "": "string"}
@@ -35,7 +35,8 @@ class Loaded:
         for tree in root.findall("BehaviorTree"):
             self._replace(tree)
         self.tree = self.factory.create_tree_from_text(tostring(root, encoding="unicode"))
-        self._give(self.tree.root_blackboard())
+        for name, type_ in inputs(self.reader).items():
+            getattr(self.tree.root_blackboard(), f"set_{KINDS[type_]}")(name, GIVEN[type_])
 
     @property
     def comparable(self) -> bool:
@@ -83,14 +84,6 @@ class Loaded:
         else:
             self.factory.register_simple_stateful_action(tag, leaf.start, leaf.running, leaf.halt)
         return Element(tag, scripts)
-
-    def _give(self, board: Any) -> None:
-        main = self.reader.trees[self.reader.root.attrib["main_tree_to_execute"]]
-        for element in main.iter():
-            for name, type_ in ports_of(self.reader, element, "input_port").items():
-                written = element.get(name, "")
-                if written.startswith("{") and type_ in GIVEN:
-                    getattr(board, f"set_{KINDS[type_]}")(written[1:-1], GIVEN[type_])
 
 
 class Leaf:
@@ -173,10 +166,3 @@ class Leaf:
             except RuntimeError:
                 continue
         return None
-
-
-def ports_of(reader: Reader, element: Element, kind: str) -> Mapping[str, str]:
-    """Return the types of a node's ports by name."""
-    model = reader.models.get(element.get("ID", element.tag))
-    ports = [each for each in model if each.tag == kind] if model is not None else []
-    return {each.attrib["name"]: each.get("type", "") for each in ports}

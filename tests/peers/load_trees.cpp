@@ -88,26 +88,43 @@ void register_all(BT::BehaviorTreeFactory& factory, const std::map<std::string, 
   factory.addSubstitutionRule("Timeout", "VirtualTimeout");
 }
 
-// Gives every entry that the main tree passes on a value of the type that the node which takes it declares.
-void give_inputs(BT::Blackboard& board, const XMLElement* element, const std::map<std::string, Declared>& nodes)
+// Collects the entries that ports of one direction name, with the first type that a node below declares for each.
+void entries_of(const XMLElement* element, const std::map<std::string, Declared>& nodes,
+                std::map<std::string, std::string> Declared::*direction, std::map<std::string, std::string>& found)
 {
   const char* id = element->Attribute("ID");
-  const auto found = nodes.find(id != nullptr ? id : element->Name());
-  if(found != nodes.end())
+  const auto node = nodes.find(id != nullptr ? id : element->Name());
+  if(node != nodes.end())
   {
-    for(const auto& [name, type] : found->second.inputs)
+    for(const auto& [name, type] : node->second.*direction)
     {
       BT::StringView key;
       const char* value = element->Attribute(name.c_str());
       if(value != nullptr && BT::TreeNode::isBlackboardPointer(value, &key))
       {
-        type_called(type).given(board, std::string(key));
+        found.emplace(key, type);
       }
     }
   }
   for(auto child = element->FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
   {
-    give_inputs(board, child, nodes);
+    entries_of(child, nodes, direction, found);
+  }
+}
+
+// Gives every entry that the main tree reads and does not write a value of the type that it is read as.
+void give_inputs(BT::Blackboard& board, const XMLElement* main, const std::map<std::string, Declared>& nodes)
+{
+  std::map<std::string, std::string> read;
+  std::map<std::string, std::string> written;
+  entries_of(main, nodes, &Declared::inputs, read);
+  entries_of(main, nodes, &Declared::outputs, written);
+  for(const auto& [name, type] : read)
+  {
+    if(written.count(name) == 0)
+    {
+      type_called(type).given(board, name);
+    }
   }
 }
 

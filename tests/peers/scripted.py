@@ -12,8 +12,9 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
-from emit.bt_parts import Blackboard, Node, Outcome, Stage
+from emit.bt_parts import Node, Outcome, Stage
 from emit.bt_player import Player
+from emit.tree_rules import Reader
 
 TICK_S = 0.1
 TICKS = 60
@@ -57,7 +58,7 @@ class ScriptedPlayer(Player):
     def __init__(self, text: str, told: Told) -> None:
         super().__init__(text, Stage())
         self.told = told
-        self.root.board.update(self._given())
+        self.root.board.update({name: GIVEN[type_] for name, type_ in inputs(self.reader).items()})
 
     def declared(self, node: Node) -> Outcome | None:
         identity = node.element.tag
@@ -118,16 +119,6 @@ class ScriptedPlayer(Player):
         self.told.tell("undo", identity)
         return outcome
 
-    def _given(self) -> Blackboard:
-        main = self.reader.trees[self.reader.root.attrib["main_tree_to_execute"]]
-        found: Blackboard = {}
-        for element in main.iter():
-            for name, type_ in self._types_of(element, "input_port").items():
-                written = element.get(name, "")
-                if written.startswith("{") and type_ in GIVEN:
-                    found[written[1:-1]] = GIVEN[type_]
-        return found
-
     def _read(self, node: Node) -> str:
         model = self.reader.models[node.element.tag]
         texts = {each.attrib["name"]: each.get("default") for each in model if each.tag == "input_port"}
@@ -145,12 +136,7 @@ class ScriptedPlayer(Player):
                 node.board[node.element.attrib[name][1:-1]] = MADE[type_](chance)
 
     def _types(self, node: Node, kind: str) -> dict[str, str]:
-        return self._types_of(node.element, kind)
-
-    def _types_of(self, element: Element, kind: str) -> dict[str, str]:
-        model = self.reader.models.get(element.get("ID", element.tag))
-        ports = [each for each in model if each.tag == kind] if model is not None else []
-        return {each.attrib["name"]: each.get("type", "") for each in ports}
+        return ports_of(self.reader, node.element, kind)
 
 
 MADE: Mapping[str, Callable[[int], object]] = {
@@ -161,6 +147,26 @@ MADE: Mapping[str, Callable[[int], object]] = {
     "std::string": lambda chance: f"t{chance % 10}",
     "": lambda chance: "1",
 }
+
+
+def ports_of(reader: Reader, element: Element, kind: str) -> dict[str, str]:
+    """Return the types of the ports of a kind that a node has, by name."""
+    model = reader.models.get(element.get("ID", element.tag))
+    ports = [each for each in model if each.tag == kind] if model is not None else []
+    return {each.attrib["name"]: each.get("type", "") for each in ports}
+
+
+def inputs(reader: Reader) -> dict[str, str]:
+    """Return the entries that the main tree reads and does not write, with the types that they are read as."""
+    main = reader.trees[reader.root.attrib["main_tree_to_execute"]]
+    found: dict[str, dict[str, str]] = {"input_port": {}, "output_port": {}}
+    for element in main.iter():
+        for kind, entries in found.items():
+            for name, type_ in ports_of(reader, element, kind).items():
+                if element.get(name, "").startswith("{"):
+                    entries.setdefault(element.attrib[name][1:-1], type_)
+    written = found["output_port"]
+    return {name: type_ for name, type_ in found["input_port"].items() if type_ and name not in written}
 
 
 def shown(value: object, type_: str) -> str:
