@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from accept import cases, expected
 from emit.samples import HERE, PICK, WIPE, holds, implementation, library, need, number
 from emit.tree_rules import Reader, broken_rules
+from peers.comparing import differences_of
 from skillc_compiler.emit import bt
 from skillc_compiler.emit.bt_names import Names, entry, given, port
 from skillc_compiler.emit.bt_ports import plain_value
@@ -39,8 +40,8 @@ def compounded(fallback: bool = False) -> SkillLibrary:
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_a_file_keeps_the_rules_of_the_format(name: str) -> None:
-    assert broken_rules(FILES[name]) == []
+def test_a_file_keeps_the_rules_of_the_format_and_runs_in_the_library(name: str) -> None:
+    assert list(differences_of(name, FILES[name])) == []
 
 
 BREAKING = {

@@ -14,17 +14,18 @@ SHOWN_LINES = 4
 
 
 def differences(path: Path, binaries: Sequence[Path] = ()) -> Iterator[str]:
-    """Yield what is wrong with a file: a rule that it breaks, or how a version of the library runs it otherwise."""
+    """Yield what is wrong with a file; `binaries` are loaders to run it in."""
     text = path.read_text("utf-8")
-    yield from (f"{path.name}: {words}" for words in broken_rules(text))
-    expected = trace(text)
+    yield from differences_of(path.name, text)
     for binary in binaries:
-        yield from _compared(f"{path.name} in {binary.name}", expected, loader(binary).trace(path))
-    if find_spec("behaviortreepy"):
-        yield from _by_package(path.name, text, expected)
+        yield from _compared(f"{path.name} in {binary.name}", trace(text), loader(binary).trace(path))
 
 
-def _by_package(name: str, text: str, expected: list[str]) -> Iterator[str]:
+def differences_of(name: str, text: str) -> Iterator[str]:
+    """Yield the rules that a file breaks, and how it runs otherwise in the library that Python has, if it has one."""
+    yield from (f"{name}: {words}" for words in broken_rules(text))
+    if not find_spec("behaviortreepy"):
+        return
     from peers.bindings import Loaded  # not installed everywhere
 
     try:
@@ -34,7 +35,7 @@ def _by_package(name: str, text: str, expected: list[str]) -> Iterator[str]:
         yield f"{name} in behaviortreepy: {error}"
         return
     if loaded.comparable:
-        yield from _compared(f"{name} in behaviortreepy", _without_undoing(expected), _without_undoing(found))
+        yield from _compared(f"{name} in behaviortreepy", _without_undoing(trace(text)), _without_undoing(found))
 
 
 def _without_undoing(lines: list[str]) -> list[str]:
