@@ -59,6 +59,8 @@ BREAKING = {
     "Tour leaves out a mandatory port": (' robot="{robot}" first="{first}" stops', " stops"),
     "Tour hides the default of a port": ('pause="2.0"', 'pause="{pause}"'),
     "Tour is passed what is not of the port's type": ('pause="2.0"', 'pause="2 s"'),
+    "the entry pause is int and later double": ('pause="2.0" robot', 'pause="2" robot'),
+    "a name means something else to the library": ('"Tour_round"', '"Root"'),
     "Look uses an undeclared port": ("<Look robot", '<Look speed="1" robot'),
 }
 
