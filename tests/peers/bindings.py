@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from copy import deepcopy
+from dataclasses import dataclass, field
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement, tostring
 
@@ -22,13 +23,21 @@ INCOMPARABLE = ("Timeout", "ForEach")
 KINDS = {"double": "double", "int": "int", "unsigned int": "int", "bool": "bool", "std::string": "string", "": "string"}
 
 
+@dataclass
+class Stage:
+    """What the leaves of a file share, without tree and factory: these hold the leaves where no collector sees it."""
+
+    reader: Reader
+    told: Told = field(default_factory=Told)
+    now_ms: float = 0.0
+
+
 class Loaded:
     """A file in the library; an error of the library comes out as RuntimeError."""
 
     def __init__(self, text: str) -> None:
         self.reader = Reader.of(text)
-        self.told = Told()
-        self.now_ms = 0.0
+        self.stage = Stage(self.reader)
         self.factory = behaviortreepy.BehaviorTreeFactory()
         self._made = 0
         root = deepcopy(self.reader.root)
@@ -47,13 +56,13 @@ class Loaded:
     def run(self) -> list[str]:
         """Tick to the end, or for some time, and return the trace."""
         for number in range(TICKS):
-            self.now_ms = number * TICK_S * 1000
+            self.stage.now_ms = number * TICK_S * 1000
             status = self.tree.tick_exactly_once()
-            self.told.tell("=", status.name)
+            self.stage.told.tell("=", status.name)
             if status != NodeStatus.RUNNING:
                 break
         self.tree.halt_tree()
-        return [*self.told.trace, f"end {status.name}"]
+        return [*self.stage.told.trace, f"end {status.name}"]
 
     def _replace(self, parent: Element) -> None:
         for index, child in enumerate(parent):
@@ -72,11 +81,11 @@ class Loaded:
             self._made += 1
             SubElement(inner, f"Node{self._made}")
             inner.extend(written)
-            leaf = Leaf(self, written)
+            leaf = Leaf(self.stage, written)
             self.factory.register_simple_action(f"Node{self._made}", leaf.begin)
             self.factory.register_simple_decorator(tag, lambda status, node: status)
             return around
-        leaf = Leaf(self, written)
+        leaf = Leaf(self.stage, written)
         if model is None:
             self.factory.register_simple_stateful_action(tag, leaf.sleep, leaf.slept)
         elif model.tag == "Condition":
@@ -89,45 +98,45 @@ class Loaded:
 class Leaf:
     """A leaf at one place of a file; trees that are called twice share it, so runs are told apart by node."""
 
-    def __init__(self, loaded: Loaded, written: Element) -> None:
-        self.loaded, self.written, self.identity = loaded, written, written.tag
-        self.inputs = ports_of(loaded.reader, written, "input_port")
-        self.outputs = ports_of(loaded.reader, written, "output_port")
+    def __init__(self, stage: Stage, written: Element) -> None:
+        self.stage, self.written, self.identity = stage, written, written.tag
+        self.inputs = ports_of(stage.reader, written, "input_port")
+        self.outputs = ports_of(stage.reader, written, "output_port")
         self.runs: dict[int, tuple[Script, int]] = {}
         self.until: dict[int, float] = {}
 
     def test(self, node: Any) -> NodeStatus:
-        ok = self.loaded.told.next(self.identity).chance % 4 != 0
-        self.loaded.told.tell("true" if ok else "false", self.identity, self._read(node))
+        ok = self.stage.told.next(self.identity).chance % 4 != 0
+        self.stage.told.tell("true" if ok else "false", self.identity, self._read(node))
         return NodeStatus.SUCCESS if ok else NodeStatus.FAILURE
 
     def begin(self, node: Any) -> NodeStatus:
-        self.loaded.told.tell("start", self.identity, self._read(node))
+        self.stage.told.tell("start", self.identity, self._read(node))
         if "item" in self.outputs:
             self._write(node, 0)
         return NodeStatus.SUCCESS
 
     def start(self, node: Any) -> NodeStatus:
-        script = self.loaded.told.next(self.identity)
+        script = self.stage.told.next(self.identity)
         self.runs[node.uid()] = (script, script.ticks)
-        self.loaded.told.tell("start", self.identity, self._read(node))
+        self.stage.told.tell("start", self.identity, self._read(node))
         return self._step(node)
 
     def running(self, node: Any) -> NodeStatus:
-        self.loaded.told.tell("tick", self.identity)
+        self.stage.told.tell("tick", self.identity)
         return self._step(node)
 
     def halt(self, node: Any) -> None:
-        self.loaded.told.tell("halt", self.identity)
+        self.stage.told.tell("halt", self.identity)
 
     def sleep(self, node: Any) -> NodeStatus:
         written = self.written.attrib["msec"]
         duration = self._value(node, written, "unsigned int") if written.startswith("{") else written
-        self.until[node.uid()] = self.loaded.now_ms + float(str(duration))
+        self.until[node.uid()] = self.stage.now_ms + float(str(duration))
         return self.slept(node)
 
     def slept(self, node: Any) -> NodeStatus:
-        over = self.loaded.now_ms >= self.until[node.uid()] - 1e-6
+        over = self.stage.now_ms >= self.until[node.uid()] - 1e-6
         return NodeStatus.SUCCESS if over else NodeStatus.RUNNING
 
     def _step(self, node: Any) -> NodeStatus:
@@ -140,7 +149,7 @@ class Leaf:
         return NodeStatus.SUCCESS if script.ok else NodeStatus.FAILURE
 
     def _read(self, node: Any) -> str:
-        model = self.loaded.reader.models[self.identity]
+        model = self.stage.reader.models[self.identity]
         defaults = {each.attrib["name"]: each.get("default") for each in model if each.tag == "input_port"}
         parts = []
         for name, type_ in sorted(self.inputs.items()):
