@@ -93,6 +93,15 @@ def test_a_skill_may_have_a_name_that_the_library_registers_itself(kind: str, tm
     assert {(each,) for each in names} <= set(called)
 
 
+def test_a_value_may_be_computed_from_what_is_called_value(tmp_path: Path) -> None:
+    skill = "skill Mix { in a: Item  in value: Number  in value_: Number  in value__: Int  noplan }\n"
+    body = (
+        "Eat(a, n: value + value_ + 1) Eat(a, n: value__) Part(a) -> value___ Whole(a) -> value___ Eat(a, n: value___)"
+    )
+    found = check(f"{HEAD}{skill}impl own of Mix {{ do seq {{ {body} }} }}\n", tmp_path)
+    assert 'value__="{n__1}"' in found["trees/Mix.xml"]
+
+
 def test_a_task_and_a_skill_do_not_write_one_file(tmp_path: Path) -> None:
     skill = "skill task_x { in a: Item  noplan }\nimpl own of task_x { do Whole(a) -> n }\n"
     found = check(HEAD + skill + "task x { do task_x(a: lab:A-1) }\n", tmp_path)

@@ -111,7 +111,7 @@ class Writer:
         path = (*self.owner, "evaluate", into)
         identity = self.names.of(*path)
         read = free_variables_in_order(expression)
-        result = "value_" if "value" in read else "value"
+        result = _result(read)
         text = f"Computes: {expression_text(expression, self.library.vocabulary)}"
         ports = [*self.ports(read), Port(result, "output", type_)]
         self.model.declare("Action", identity, path, ports, text)
@@ -121,9 +121,10 @@ class Writer:
         """Return the node that gives a name the value that is found, which is of another type."""
         path = (*self.owner, "evaluate", found.entry)
         identity = self.names.of(*path)
-        ports = [Port(port(name), type=found.type, parameter=name), Port("value_", "output", target.type)]
+        result = _result([name])
+        ports = [Port(port(name), type=found.type, parameter=name), Port(result, "output", target.type)]
         self.model.declare("Action", identity, path, ports, f"Computes: {name}")
-        return Element(identity, {port(name): pointer(found.entry), "value_": pointer(target.entry)})
+        return Element(identity, {port(name): pointer(found.entry), result: pointer(target.entry)})
 
     def value(self, word: str, expression: Expression, before: list[Element], type_: str | None = None) -> str:
         """Return what a port of a C++ type is given for an expression; what must be computed is, by the nodes `before`.
@@ -138,6 +139,14 @@ class Writer:
         into = self.entry(word)
         before.append(self.evaluate(expression, into, type_))
         return pointer(into)
+
+
+def _result(read: Sequence[str]) -> str:
+    """Return the name of the port of a result, beside those of the variables that are read for it."""
+    name, taken = "value", {port(each) for each in read}
+    while name in taken:
+        name += "_"
+    return name
 
 
 def bound_by(parameters: Sequence[Parameter]) -> Mapping[str, Bound]:
