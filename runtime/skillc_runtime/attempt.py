@@ -76,6 +76,7 @@ def attempt(prepared: Prepared, setting: Setting, nodes_before: int) -> Attempt:
         run.halt("the program ends")
         _tell_left(cell.secure(), setting)
     _settle(cell, run)
+    run.look_again()
     return Attempt(prepared, run.status, run.failure, run.outcome, run.last_node, why)
 
 

@@ -61,6 +61,7 @@ JOINT_SPEEDS = SKILLC + "jointSpeeds"
 JOINT_ACCELERATIONS = SKILLC + "jointAccelerations"
 CONTACT_FORCE_LIMIT = SKILLC + "contactForceLimit"
 JERK_LIMIT = SKILLC + "jerkLimit"
+ARRIVAL_TOLERANCE = SKILLC + "arrivalTolerance"
 TOOL_SPEED_LIMIT = SKILLC + "toolSpeedLimit"
 CLEARANCE = SKILLC + "clearance"
 
