@@ -25,7 +25,7 @@ class DriveBase(Primitive):
         """Wait until the base is there; SkillFailure where it reports another place."""
         if not self._base.done:
             return Status.RUNNING
-        elsewhere = away(self._base, self._robot, self._to, self.cell.world.snapshot())()
+        elsewhere = away(self.cell, self._robot, self._to, self.cell.world.snapshot())()
         if elsewhere is not None:
             raise SkillFailure(elsewhere)
         self.cell.world.commit([AddRelation(self._robot, AT, self._to)], "DriveBase", "reported")

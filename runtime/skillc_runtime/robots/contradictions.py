@@ -9,7 +9,6 @@ from functools import partial
 
 import numpy as np
 
-from skillc_runtime.robots.base import MobileBase
 from skillc_runtime.robots.cell import Cell
 from skillc_runtime.robots.gripper import Gripper
 from skillc_runtime.world.changes import RemoveRelation
@@ -80,7 +79,7 @@ def _expected(cell: Cell, state: WorldState) -> Iterator[Expected]:
             fact = Related(robot, AT, place)
             with suppress(KeyError, FrameError, SheetError):
                 if cell.world.known(fact) is not None:
-                    yield Expected(fact, away(cell.base(robot), robot, place, state))
+                    yield Expected(fact, away(cell, robot, place, state))
 
 
 def _lost(gripper: Gripper, thing: str, name: str, state: WorldState) -> str | None:
@@ -90,18 +89,20 @@ def _lost(gripper: Gripper, thing: str, name: str, state: WorldState) -> str | N
     return f"{name} reports that it holds {state.vocabulary.short(held) if held else 'nothing'}"
 
 
-def away(base: MobileBase, robot: str, place: str, state: WorldState) -> Reading:
-    """Return what tells where a base stands when that is not at a place; FrameError for a place without a pose."""
+def away(cell: Cell, robot: str, place: str, state: WorldState) -> Reading:
+    """Return what tells where a robot's base stands when that is not at a place.
+
+    FrameError for a place without a pose, SheetError for a robot without a sheet, KeyError for one without a base.
+    """
     goal, short = pose(state, place).position, state.vocabulary.short
-    tolerance = _tolerance_m(state, robot)
+    tolerance, base = _tolerance_m(state, robot), cell.base(robot)
 
     def read() -> str | None:
         if not base.at_rest:
             return None
         off = float(np.linalg.norm((base.pose.position - goal)[:2]))
-        return (
-            f"{short(robot)} reports that it stands {off:.2f} m away from {short(place)}" if off > tolerance else None
-        )
+        said = f"{short(robot)} reports that it stands {off:.2f} m away from {short(place)}"
+        return said if off > tolerance else None
 
     return read
 

@@ -64,10 +64,9 @@ class SimulatedCell:
         self._bases = {b.individual: SimulatedBase(b, names[b.individual], self.model, self.data) for b in facts.bases}
         mujoco.mj_forward(self.model, self.data)
         self._drivers = {a.individual: driver(a, self.arms[a.individual], self.period_s) for a in facts.arms}
-        self.coverage = {s.individual: CoverageMap(self.true_pose(s), s.layout) for s in facts.surfaces}
+        self.coverage = {s.individual: CoverageMap(self.true_pose(s), s.layout, s.least_n) for s in facts.surfaces}
         self._observers = {
-            tool.individual: ToolObserver(tool, names[tool.individual], self.model, self.data, self.coverage)
-            for tool in facts.tools
+            tool.individual: ToolObserver(tool, names, self.model, self.data, self.coverage) for tool in facts.tools
         }
         self._camera = SimulatedCamera(self.coverage)
         self.watchdog = Watchdog()
@@ -207,7 +206,7 @@ class SimulatedCell:
                     self._lose(arm, gripper, gripper.holding, why)
 
     def _lose(self, arm: str, gripper: SimulatedGripper, thing: str, why: str) -> None:
-        """Stop an arm whose gripper cannot hold a thing any more, and note where that was; the gripper reports the loss."""
+        """Stop an arm whose gripper cannot hold a thing any more, and note where that was."""
         state, there = self._world.snapshot(), self._drivers[arm].pose
         left_at = there @ working_face(size(state, thing)).inverse()
         gripper.lose()

@@ -26,6 +26,7 @@ from skillc_runtime.world.terms import (
     HAS_GRIPPER,
     HAS_SENSOR,
     JOINT_SPEED_NOISE,
+    LEAST_FORCE,
     MOBILE_ROBOT,
     OFFSET_RANGE,
     POSITION_CONTROLLED_ARM,
@@ -47,6 +48,9 @@ MODES: Final[dict[str, Mode]] = {
     VELOCITY_CONTROLLED_ARM: "velocity",
 }
 """What arms of these classes take."""
+
+LEAST_FORCE_N = 1.0
+"""With less, a tool does nothing to a surface that does not say which force that takes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,7 +133,7 @@ class ToolFacts:
 class SurfaceFacts:
     """A surface as it is believed to be, and how far reality may differ: m along the normal, rad, friction.
 
-    `layout` says which of it is to be worked on.
+    `layout` says which of it is to be worked on; a tool pressed with less than `least_n` does nothing to it.
     """
 
     individual: str
@@ -139,6 +143,7 @@ class SurfaceFacts:
     friction: tuple[float, float]
     offset_range_m: float
     tilt_range_rad: float
+    least_n: float = LEAST_FORCE_N
 
 
 @dataclass(frozen=True, slots=True)
@@ -252,4 +257,5 @@ def _surface(state: WorldState, surface: str) -> SurfaceFacts:
         friction=friction(state, surface),
         offset_range_m=number(state, surface, OFFSET_RANGE, default=0.0),
         tilt_range_rad=number(state, surface, TILT_RANGE, default=0.0),
+        least_n=number(state, surface, LEAST_FORCE, default=LEAST_FORCE_N),
     )

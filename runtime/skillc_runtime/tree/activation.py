@@ -187,7 +187,7 @@ def _body(context: Context, skill: Skill, fitted: Fitted, holder: object, enclos
     match implementation.body:
         case Compound(node=node):
             calls, begun = (*enclosing.calls, holder), context.cell.world.ledger.count
-            return build(node, context, Enclosing(enclosing.undo, frame, implementation, calls, begun))
+            return build(node, context, Enclosing(enclosing.undo, frame, implementation, calls, begun=begun))
         case Primitive(python=python):
             cls = fitting_class(python, implementation.parameters)
             names = [p.name for p in implementation.parameters if p.direction != "out"]

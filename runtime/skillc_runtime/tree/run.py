@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from skillc_compiler.library import tree
 from skillc_compiler.library.skills import SkillLibrary
@@ -17,14 +17,16 @@ from skillc_runtime.trace.listeners import Listeners
 from skillc_runtime.trace.outcome import Outcome
 from skillc_runtime.trace.world import world_changed
 from skillc_runtime.tree.build import build
+from skillc_runtime.tree.call import CallNode
 from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.enclosing import Enclosing
 from skillc_runtime.tree.errors import told
 from skillc_runtime.tree.locks import Locks
-from skillc_runtime.tree.node import FAILURE, RUNNING
+from skillc_runtime.tree.node import FAILURE, RUNNING, Node
 from skillc_runtime.tree.outcome import outcome
 from skillc_runtime.tree.strand import Strand
 from skillc_runtime.tree.undo import Undo
+from skillc_runtime.verifying import Claim
 from skillc_runtime.world.model import ChangeEvent
 
 _ALIVE = (RUNNING, Status.IDLE)
@@ -79,6 +81,11 @@ class Run:
         return outcome(self._root)
 
     @property
+    def claims(self) -> tuple[Claim, ...]:
+        """The posts of the outermost calls that succeeded."""
+        return tuple(_claims(self._root))
+
+    @property
     def problems(self) -> tuple[str, ...]:
         """What went wrong with those who listened."""
         return tuple(self._listeners.problems)
@@ -119,7 +126,7 @@ class Run:
             self._ended(Status.FAILURE, Failure(kind="error", message=message, source=self._root.source))
 
     def look_again(self) -> None:
-        """After the end: look whether devices still say what the world model says; a success that they refute is none."""
+        """After the end: look whether a device contradicts the world model; a success is none then."""
         if self.status is not Status.SUCCESS:
             return
         unlisten = self._context.cell.world.listen(self._tell_world)
@@ -201,3 +208,12 @@ class Run:
 
     def _tell_world(self, event: ChangeEvent) -> None:
         self._listeners(world_changed(event, self._context.time))
+
+
+def _claims(node: Node) -> Iterator[Claim]:
+    if not isinstance(node, CallNode):
+        for child in node.children:
+            yield from _claims(child)
+    elif node.activation is not None and node.status is Status.SUCCESS:
+        frame = dict(node.activation.frame)
+        yield from ((post.condition, frame) for post in node.activation.implementation.post)

@@ -65,7 +65,8 @@ class WorldModel:
     def commit(self, changes: Iterable[Change], origin: str = "", known: Evidence = "assumed") -> ChangeEvent:
         """Make all the changes or, when the world would break an axiom, none: WorldError says which.
 
-        `known` is `sensed` or `reported` only where a device was read for them, now. Where others wrote to the store in the meantime, the changes are made to what they left. StoreError when the
+        `known` is `sensed` or `reported` only where a device was read for them, now.
+        Where others wrote to the store in the meantime, the changes are made to what they left. StoreError when the
         store cannot keep the changes, and then the world stays as it was.
         """
         with self._lock:
