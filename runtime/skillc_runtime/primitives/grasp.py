@@ -100,5 +100,6 @@ class Release(Primitive):
         self._freed = True
         world = self.cell.world
         world.commit([RemoveRelation(self._hand, CONTAIN, self._object)], "Release", "sensed")
-        left = [*placed(self._object, left_at), AddRelation(self._to, CONTAIN, self._object)]
-        world.commit(left, "Release", "assumed")
+        world.commit(
+            (*placed(self._object, left_at), AddRelation(self._to, CONTAIN, self._object)), "Release", "assumed"
+        )

@@ -86,9 +86,9 @@ class Ledger:
                 read = [each for each in term.computed_from if each in state.vocabulary.properties]
                 inputs = [Valued(individual, each) for individual in (fact.subject, fact.object) for each in read]
                 return weakest(map(self._last, inputs)) or self._last(fact)
-            case Related(holds=True):
+            case Related() if fact.holds:
                 return weakest(map(self._last, _links(fact, state)))
-            case Related(holds=False):
+            case Related():
                 excluding = (self.established(each, state) for each in _excluding(fact, state))
                 return strongest((self._last(fact), *excluding))
             case Valued() | Typed():
