@@ -51,5 +51,5 @@ class AwaitSwitch(Primitive):
 
     def _note(self) -> None:
         world = self.cell.world
-        world.commit([SetProperty(self._button, IS_ON, True)], "the button has switched", "reported")
-        world.commit([SetProperty(self._button, PRESSED_WITH, self._force)], "measured by pressing", "sensed")
+        world.commit([SetProperty(self._button, IS_ON, True)], "AwaitSwitch", "reported")
+        world.commit([SetProperty(self._button, PRESSED_WITH, self._force)], "AwaitSwitch", "sensed")
