@@ -28,10 +28,14 @@ Reading = Callable[[], "str | None"]
 
 @dataclass(frozen=True, slots=True)
 class Expected:
-    """A fact that a device can contradict, with what reads the device."""
+    """A fact that a device can contradict, with what reads the device.
+
+    Where `also_given` is false, what the scene says of it is not compared: a place need not be where a base stops.
+    """
 
     fact: Related
     reading: Reading
+    also_given: bool
 
 
 class DeviceWatch:
@@ -49,7 +53,7 @@ class DeviceWatch:
             self._seen, self._expected = state, tuple(_expected(self._cell, state))
         for expected in self._expected:
             said = expected.reading()
-            if said is not None:
+            if said is not None and (expected.also_given or self._cell.world.known(expected.fact) is not None):
                 return self._withdraw(expected.fact, said, state)
         return None
 
@@ -73,13 +77,11 @@ def _expected(cell: Cell, state: WorldState) -> Iterator[Expected]:
         for thing in sorted(state.objects(gripper, CONTAIN)):
             with suppress(KeyError):
                 reading = partial(_lost, cell.gripper(gripper), thing, state.vocabulary.short(gripper), state)
-                yield Expected(Related(gripper, CONTAIN, thing), reading)
+                yield Expected(Related(gripper, CONTAIN, thing), reading, also_given=True)
     for robot in sorted(state.instances(MOBILE_ROBOT)) if AT in relations else ():
         for place in sorted(state.objects(robot, AT)):
-            fact = Related(robot, AT, place)
             with suppress(KeyError, FrameError, SheetError):
-                if cell.world.known(fact) is not None:
-                    yield Expected(fact, away(cell, robot, place, state))
+                yield Expected(Related(robot, AT, place), away(cell, robot, place, state), also_given=False)
 
 
 def _lost(gripper: Gripper, thing: str, name: str, state: WorldState) -> str | None:

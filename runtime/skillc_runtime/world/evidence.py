@@ -29,7 +29,7 @@ Evidence: TypeAlias = Literal["sensed", "reported", "assumed"]
 
 _STRENGTH: dict[Evidence | None, int] = {"assumed": 0, "reported": 1, "sensed": 2, None: 3}
 
-LIMIT = 2000
+LIMIT = 500
 """So many writes are kept apart; of older ones, taken together, the weakest evidence counts."""
 
 
