@@ -7,14 +7,11 @@ from typing import TYPE_CHECKING
 
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.world.changes import SetProperty
-from skillc_runtime.world.sheet import number
-from skillc_runtime.world.terms import CONTACT_SHARE, LEAST_CONTACT, LEAST_FORCE
+from skillc_runtime.world.terms import CONTACT_SHARE
+from skillc_runtime.world.working import least_contact, least_force_n
 
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
-
-LEAST_FORCE_N, LEAST_SHARE = 1.0, 0.75
-"""For surfaces that do not say which force, and which share of the time, is contact to work with."""
 
 
 class KeepContact(Primitive):
@@ -27,8 +24,7 @@ class KeepContact(Primitive):
         super().__init__(cell)
         self.arm, self._surface, self._over = cell.arm(arm), surface, over
         state = cell.world.snapshot()
-        self._least_n = number(state, surface, LEAST_FORCE, default=LEAST_FORCE_N)
-        self._share = number(state, surface, LEAST_CONTACT, default=LEAST_SHARE)
+        self._least_n, self._share = least_force_n(state, surface), least_contact(state, surface)
         self._felt = self._samples = 0
         self._lost: deque[tuple[float, float]] = deque()
         self._lost_s = self._before = 0.0

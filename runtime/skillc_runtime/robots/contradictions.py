@@ -47,15 +47,16 @@ class DeviceWatch:
         self._expected: tuple[Expected, ...] = ()
 
     def contradiction(self) -> str | None:
-        """Withdraw the facts that a device contradicts; return the first with what the device says, None if none."""
+        """Withdraw the facts that devices contradict; return them with what the devices say, None for none."""
         state = self._cell.world.snapshot()
         if state is not self._seen:
             self._seen, self._expected = state, tuple(_expected(self._cell, state))
+        found = []
         for expected in self._expected:
             said = expected.reading()
             if said is not None and (expected.also_given or self._cell.world.known(expected.fact) is not None):
-                return self._withdraw(expected.fact, said, state)
-        return None
+                found.append(self._withdraw(expected.fact, said, state))
+        return "; ".join(found) or None
 
     def _withdraw(self, fact: Related, said: str, state: WorldState) -> str:
         known = self._cell.world.known(fact)

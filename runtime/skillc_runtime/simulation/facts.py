@@ -26,7 +26,6 @@ from skillc_runtime.world.terms import (
     HAS_GRIPPER,
     HAS_SENSOR,
     JOINT_SPEED_NOISE,
-    LEAST_FORCE,
     MOBILE_ROBOT,
     OFFSET_RANGE,
     POSITION_CONTROLLED_ARM,
@@ -41,6 +40,7 @@ from skillc_runtime.world.terms import (
     VELOCITY_CONTROLLED_ARM,
     WEIGHT,
 )
+from skillc_runtime.world.working import LEAST_FORCE_N, least_force_n
 
 MODES: Final[dict[str, Mode]] = {
     TORQUE_CONTROLLED_ARM: "torque",
@@ -48,9 +48,6 @@ MODES: Final[dict[str, Mode]] = {
     VELOCITY_CONTROLLED_ARM: "velocity",
 }
 """What arms of these classes take."""
-
-LEAST_FORCE_N = 1.0
-"""With less, a tool does nothing to a surface that does not say which force that takes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -257,5 +254,5 @@ def _surface(state: WorldState, surface: str) -> SurfaceFacts:
         friction=friction(state, surface),
         offset_range_m=number(state, surface, OFFSET_RANGE, default=0.0),
         tilt_range_rad=number(state, surface, TILT_RANGE, default=0.0),
-        least_n=number(state, surface, LEAST_FORCE, default=LEAST_FORCE_N),
+        least_n=least_force_n(state, surface),
     )
