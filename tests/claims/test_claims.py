@@ -119,12 +119,12 @@ def test_a_gripper_that_loses_what_it_holds_fails_the_run_and_the_fact_is_withdr
     assert not there.world.snapshot().holds(iri("gripper"), CONTAIN, iri("part"))
 
 
-def test_a_plan_goes_on_from_what_the_device_says() -> None:
+def test_a_plan_ends_where_a_device_contradicts_it() -> None:
     there = bench()
     there.meanwhile[0.6] = loses
     execution = run("goal lab:gripper contain lab:part and lab:robot at lab:shelf", there)
-    assert execution.attempts[0].failure is not None
-    assert "reports that it holds nothing" in execution.attempts[0].why
+    assert execution.status is Status.FAILURE and execution.verified is None
+    assert execution.failure is not None and "reports that it holds nothing" in execution.failure.message
 
 
 def test_who_only_believes_to_hold_something_is_contradicted_by_the_hand() -> None:
