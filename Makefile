@@ -12,7 +12,7 @@ SEED := 0
 MINUTES := 1
 KINDS :=
 
-.PHONY: help demo test check reasoners sim wheel fuzz bench editors accept lock clean
+.PHONY: help demo test check reasoners sim wheel fuzz peers bench editors accept lock clean
 
 help:            ## say what there is
 	@grep -hE '^[a-z]+: .*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/'
@@ -41,6 +41,11 @@ wheel: .venv/.dev ## build the wheel and use it in a clean environment
 
 fuzz: .venv/.dev ## random input of each kind for MINUTES=1 with SEED=0; inputs that break a promise are kept in out/fuzz
 	PYTHONPATH=tests $(BIN)/python -m fuzz $(KINDS) --seed $(SEED) --minutes $(MINUTES)
+
+peers: .venv/.dev ## all trees in the BehaviorTree.CPP whose checkout is BTCPP=DIR (needs CMake and a C++ compiler)
+	cmake -S tests/peers -B build/peers -D BTCPP=$(abspath $(BTCPP))
+	cmake --build build/peers --target load_trees --parallel 2
+	PYTHONPATH=tests:tests/compiler $(BIN)/python -m peers build/peers/load_trees
 
 bench: .venv/.dev ## benchmarks; each prints ratios
 	for file in benchmarks/[a-z]*.py; do echo "== $$file"; $(BIN)/python $$file || exit 1; done

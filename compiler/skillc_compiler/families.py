@@ -30,9 +30,9 @@ FAMILIES: tuple[tuple[str, str], ...] = (
     ("planning", "unplannable-* *-goal colliding-* unreachable-skill"),
     (
         "ontology",
-        "relation-* property-* wrong-type disjoint-* two-values breaks-* unknown-datatype unknown-value computed-*"
-        " contradicting-declaration class-* impossible-* *-vocabulary shipped-term undeclared-term prefix-taken"
-        " missing-import unused-axiom several-inverses several-domains beyond-owl-dl",
+        "relation-* property-* wrong-type disjoint-* two-values breaks-* unknown-datatype unknown-dimension"
+        " unknown-value computed-* contradicting-declaration class-* impossible-* *-vocabulary shipped-term"
+        " undeclared-term prefix-taken missing-import unused-axiom several-inverses several-domains beyond-owl-dl",
     ),
     ("names", "unknown-* ambiguous-* duplicate-[adlnp]* unused-* import-* deprecated-*"),
     (

@@ -57,7 +57,7 @@ def parse_call(
     return _bounded(lambda: _call(text, asked), text, "call")
 
 
-def _bounded(understand: Callable[[], Outcome[T | None]], text: str, what: Asked) -> Outcome[T | None]:
+def _bounded(understand: Callable[[], Outcome[T]], text: str, what: Asked) -> Outcome[T | None]:
     """Understand a text unless it is longer, or nested deeper, than anybody would write it."""
     if len(text) > LONGEST:
         return _refused(what, f"the {what} has {len(text)} characters, and {LONGEST} at most are read")
@@ -70,7 +70,7 @@ def _bounded(understand: Callable[[], Outcome[T | None]], text: str, what: Asked
     return outcome
 
 
-def _refused(what: Asked, message: str) -> Outcome[T | None]:
+def _refused(what: Asked, message: str) -> Outcome[None]:
     return Outcome(None, (Diagnostic("syntax", Span(what, 1, 1, 1, 2), message, EXAMPLES[what]),))
 
 

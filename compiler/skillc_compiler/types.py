@@ -7,6 +7,7 @@ from typing import TypeAlias
 
 from skillc_compiler.library.vocabulary import (
     ClassType,
+    DirectionType,
     ListType,
     NumberType,
     PlainType,
@@ -38,10 +39,15 @@ class Measure:
 
 
 @dataclass(frozen=True, slots=True)
-class Direction:
-    """Three numbers of a dimension, in the world frame; None accepts every dimension."""
+class Vector:
+    """Three numbers of a dimension, in the world frame."""
 
-    dimension: Dimension | None
+    dimension: Dimension
+
+
+@dataclass(frozen=True, slots=True)
+class Direction:
+    """A vector of pure numbers whose length is 1."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +64,7 @@ class ListOf:
     element: Type
 
 
-Type: TypeAlias = Unknown | Thing | Measure | Direction | Plain | ListOf
+Type: TypeAlias = Unknown | Thing | Measure | Vector | Direction | Plain | ListOf
 UNKNOWN = Unknown()
 BOOL, INT, TEXT, POSE = (Plain(name) for name in ("Bool", "Int", "Text", "Pose"))
 
@@ -70,19 +76,14 @@ def of_library(declared: ValueType) -> Type:
             return Thing(iri)
         case NumberType(dimension=name):
             return Measure(DIMENSIONS[name]) if name in DIMENSIONS else UNKNOWN
-        case VectorType(dimension="Number"):
-            return Direction(None)
         case VectorType(dimension=name):
-            return Direction(DIMENSIONS[name]) if name in DIMENSIONS else UNKNOWN
+            return Vector(DIMENSIONS[name]) if name in DIMENSIONS else UNKNOWN
+        case DirectionType():
+            return Direction()
         case PlainType(name=name):
             return Plain(name)
         case ListType(element=element):
             return ListOf(of_library(element))
-
-
-def of_property(declared: ValueType) -> Type:
-    """Return the type of a property's value: as declared, but a vector without a dimension is a pure number thrice."""
-    return Direction(NUMBER) if declared == VectorType("Number") else of_library(declared)
 
 
 def fits(vocabulary: Vocabulary, given: Type, wanted: Type) -> bool:
@@ -92,8 +93,8 @@ def fits(vocabulary: Vocabulary, given: Type, wanted: Type) -> bool:
             return True
         case Thing(cls=one), Thing(cls=other):
             return one is None or other is None or vocabulary.is_a(one, other)
-        case Direction(), Direction(dimension=None):
-            return True
+        case Direction(), Vector(dimension=dimension):
+            return dimension == NUMBER
         case Plain(name="Int"), Measure(dimension=dimension):
             return dimension == NUMBER
         case ListOf(element=one), ListOf(element=other):
@@ -108,8 +109,10 @@ def describe(kind: Type) -> str:
             return "something unknown"
         case Thing(cls=iri):
             return _with_article(local_name(iri)) if iri else "an individual"
-        case Direction(dimension=dimension):
-            return f"a Vector{_measured(dimension)}"
+        case Vector(dimension=dimension):
+            return "a Vector of pure numbers" if dimension == NUMBER else f"a Vector of {name(dimension)}"
+        case Direction():
+            return "a Direction"
         case ListOf(element=element):
             return f"a list, each {describe(element)}"
         case Measure(dimension=dimension):
@@ -121,15 +124,6 @@ def describe(kind: Type) -> str:
 def name(dimension: Dimension) -> str:
     """Return a dimension's name, in words also for those the language has none for."""
     return "Number" if dimension == NUMBER else dimension.name
-
-
-def _measured(dimension: Dimension | None) -> str:
-    match dimension:
-        case None:
-            return ""
-        case Dimension() if dimension == NUMBER:
-            return " without a unit"
-    return f" that is {_with_article(name(dimension))}"
 
 
 def _with_article(word: str) -> str:

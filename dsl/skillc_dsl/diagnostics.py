@@ -9,7 +9,7 @@ from typing import Generic, Literal, TypeVar
 
 from skillc_dsl.source import Span
 
-T = TypeVar("T")
+T_co = TypeVar("T_co", covariant=True)
 Severity = Literal["error", "warning"]
 
 
@@ -52,10 +52,10 @@ class Diagnostic:
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome(Generic[T]):
+class Outcome(Generic[T_co]):
     """What a pass understood, with everything it has to say about the rest."""
 
-    value: T
+    value: T_co
     diagnostics: tuple[Diagnostic, ...] = ()
 
     @property

@@ -99,6 +99,8 @@ def _set(terminals: str) -> frozenset[str]:
 def described(terminals: Iterable[str]) -> str:
     """Return what `terminals` are to an author: `a value, a relation or `}``."""
     left = set(terminals)
+    if len(left) > 1:
+        left.discard("OF")  # after every type, but of use after `Vector` only
     phrases: list[str] = []
     for phrase in _phrases():
         if phrase.signs <= left:

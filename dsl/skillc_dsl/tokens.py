@@ -57,7 +57,16 @@ NAMES_ELSEWHERE: frozenset[str] = frozenset(
 )
 """Keywords that are legal names wherever they cannot stand as keywords."""
 
-TYPES = (*(name for name in DIMENSIONS if name != "Number"), "Bool", "Int", "Number", "Text", "Pose", "Vector")
+TYPES = (
+    *(name for name in DIMENSIONS if name != "Number"),
+    "Bool",
+    "Int",
+    "Number",
+    "Text",
+    "Pose",
+    "Vector",
+    "Direction",
+)
 """The types that are no classes of an ontology."""
 
 NAME = r"[^\W\d]\w*"

@@ -17,6 +17,7 @@ from skillc_runtime.trace.failure import Failure
 from skillc_runtime.trace.listeners import Listeners
 from skillc_runtime.trace.outcome import Outcome
 from skillc_runtime.tree.run import Run
+from skillc_runtime.verifying import Claim
 from skillc_runtime.world.state import WorldState
 
 TICK_S = 0.01
@@ -46,7 +47,7 @@ class Setting:
 class Attempt:
     """One run of a body: how it ended, its tree and the number of its last node.
 
-    `doubt` says why it was halted for a new plan.
+    `doubt` says why it was halted for a new plan. `claims` are the posts of its outermost calls that succeeded.
     """
 
     prepared: Prepared
@@ -55,6 +56,7 @@ class Attempt:
     tree: Outcome
     last_node: int
     doubt: str | None
+    claims: tuple[Claim, ...] = ()
 
     @property
     def why(self) -> str:
@@ -76,7 +78,8 @@ def attempt(prepared: Prepared, setting: Setting, nodes_before: int) -> Attempt:
         run.halt("the program ends")
         _tell_left(cell.secure(), setting)
     _settle(cell, run)
-    return Attempt(prepared, run.status, run.failure, run.outcome, run.last_node, why)
+    run.look_again()
+    return Attempt(prepared, run.status, run.failure, run.outcome, run.last_node, why, run.claims)
 
 
 def _until_over(run: Run, prepared: Prepared, setting: Setting) -> str | None:

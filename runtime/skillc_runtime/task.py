@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from time import perf_counter
 
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.assignment import Assignment, Prepared, Reach, Refused, prepare
+from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, Refused, prepare
 from skillc_runtime.attempt import Attempt, Setting, attempt
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.plans.failures import Failures
@@ -16,7 +16,9 @@ from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.trace.events import FORMAT, Listener, Replanned, TaskEnded, TaskStarted
 from skillc_runtime.trace.failure import Failure
+from skillc_runtime.trace.known import KnownFact, assumed
 from skillc_runtime.trace.listeners import Listeners
+from skillc_runtime.verifying import known_facts
 from skillc_runtime.world.conditions import evaluate
 
 MOST_ATTEMPTS = 4
@@ -25,13 +27,22 @@ MOST_ATTEMPTS = 4
 
 @dataclass(frozen=True, slots=True)
 class Execution:
-    """What became of a prepared task: its attempts, how it ended, the cell it left behind, how long it took."""
+    """What became of a prepared task: its attempts, how it ended, the cell it left behind, how long it took.
+
+    `facts` are those that a success rests on.
+    """
 
     attempts: tuple[Attempt, ...]
     status: Status
     failure: Failure | None
     cell: SimulatedCell
     wall_time_s: float
+    facts: tuple[KnownFact, ...] = ()
+
+    @property
+    def verified(self) -> bool | None:
+        """Whether nothing that a success rests on is only assumed; None where there is no success."""
+        return _verified(self.status, self.facts)
 
     @property
     def last(self) -> Attempt:
@@ -62,8 +73,23 @@ def execute(
         tell(Replanned(time=cell.now, reason=attempts[-1].why))
         attempts.append(attempt(following, setting, attempts[-1].last_node))
     status, failure = _end(attempts[-1], following)
-    tell(TaskEnded(time=cell.now, task=name, status=status.value, failure=failure))
-    return Execution(tuple(attempts), status, failure, cell, perf_counter() - began)
+    facts = _facts(attempts[-1], cell) if status is Status.SUCCESS else ()
+    verified = _verified(status, facts)
+    tell(TaskEnded(time=cell.now, task=name, status=status.value, failure=failure, verified=verified, facts=facts))
+    return Execution(tuple(attempts), status, failure, cell, perf_counter() - began, facts)
+
+
+def _facts(last: Attempt, cell: SimulatedCell) -> tuple[KnownFact, ...]:
+    """Return what a success rests on: the goal, or what the calls of a body claim."""
+    match last.prepared.assignment.aim:
+        case Reach(goal):
+            return known_facts([(goal, {})], cell.world)
+        case Perform():
+            return known_facts(last.claims, cell.world)
+
+
+def _verified(status: Status, facts: tuple[KnownFact, ...]) -> bool | None:
+    return None if status is not Status.SUCCESS else not assumed(facts)
 
 
 def _following(attempts: Sequence[Attempt], setting: Setting) -> Prepared | Refused | None:

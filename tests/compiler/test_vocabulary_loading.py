@@ -1,9 +1,11 @@
 """What Turtle says of terms reaches the vocabulary; broken files are told with their line."""
 
 import pyoxigraph as ox
+import pytest
 
 from skillc_compiler.library.vocabulary import (
     Bounds,
+    DirectionType,
     NumberType,
     PlainType,
     Position,
@@ -99,6 +101,38 @@ def test_an_unknown_datatype_is_told() -> None:
     outcome = load([Source("t.ttl", HEAD + "t:when a owl:DatatypeProperty ; rdfs:range xsd:gYear .\n")])
     assert [(d.name, d.severity, d.span.line) for d in outcome.diagnostics] == [("unknown-datatype", "warning", 9)]
     assert outcome.value.properties == {}
+
+
+def test_vectors_have_a_dimension_and_directions_have_none() -> None:
+    found = loaded(
+        't:wind a owl:DatatypeProperty ; rdfs:range skillc:Vector ; skillc:dimension "Speed" .\n'
+        "t:share a owl:DatatypeProperty ; rdfs:range skillc:Vector .\n"
+        "t:up a owl:DatatypeProperty ; rdfs:range skillc:Direction .\n"
+    )
+    types = {name: found.properties[T + name].type for name in ("wind", "share", "up")}
+    assert types == {"wind": VectorType("Speed"), "share": VectorType("Number"), "up": DirectionType()}
+
+
+@pytest.mark.parametrize(
+    ("range_", "dimension", "said"),
+    [
+        ("xsd:double", "Force", None),
+        ("skillc:Vector", "Force", None),
+        ("skillc:Vector", "Number", None),
+        ("xsd:double", "Froce", "did you mean `Force`?"),
+        ("skillc:Vector", "Forces", "did you mean `Force`?"),
+        ("skillc:Direction", "Force", "use xsd:double or skillc:Vector as its range, or leave `skillc:dimension` out"),
+        ("xsd:integer", "Length", "use xsd:double or skillc:Vector as its range, or leave `skillc:dimension` out"),
+        ("xsd:string", "Length", "use xsd:double or skillc:Vector as its range, or leave `skillc:dimension` out"),
+    ],
+)
+def test_a_dimension_is_one_of_the_language_and_stands_at_quantities(
+    range_: str, dimension: str, said: str | None
+) -> None:
+    text = f'{HEAD}t:p a owl:DatatypeProperty ; rdfs:range {range_} ; skillc:dimension "{dimension}" .\n'
+    outcome = load([Source("t.ttl", text)])
+    found = [(each.name, each.severity, each.span.line, each.help) for each in outcome.diagnostics]
+    assert found == ([] if said is None else [("unknown-dimension", "error", 9, said)])
 
 
 def test_places_are_of_terms_where_they_are_declared() -> None:

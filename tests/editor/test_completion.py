@@ -7,10 +7,12 @@ from lsprotocol import types
 
 from editor.desk import Desk
 from editor.texts import MOTION, PRESS, with_line
+from skillc_dsl import units
 
 pytestmark = pytest.mark.asyncio(loop_scope="session")
 
 BEGINNINGS = ("class", "function", "impl", "import", "prefix", "property", "relation", "skill", "task", "use")
+DIMENSIONS = " ".join(units.DIMENSIONS)
 EXACT = [
     ("infer at", "    |", "duration fallback hold in infer noplan opt out post pre range scoped shares uses"),
     ("do seq {", "        par |", "all any lead race"),
@@ -34,6 +36,9 @@ EXACT = [
     ("infer at", "    opt  far: Length = 3 |", "m cm mm"),
     ("infer at", "    uses |", "panel arm push at"),
     ("class Panel", "relation on(Panel, Location) |", "functional inverse symmetric transitive sub"),
+    ("infer at", "    in x: Vector of |", DIMENSIONS),
+    ("class Panel", "property wind(Panel): Vector of |", DIMENSIONS),
+    ("class Panel", "function f(x: [Vector of |", DIMENSIONS),
     ("class Panel", "skill |", ""),
     ("class Panel", "# any |", ""),
 ]
@@ -45,6 +50,11 @@ AMONG = [
     ("infer at", "    pre |", "panel arm not exists forall", "pre Move"),
     ("infer at", "    in x: |", "Panel Force Pose Location", "Move Press"),
     ("infer at", "    in x: Pan|", "Panel", "Move"),
+    ("infer at", "    in x: |", "Vector Direction", "of"),
+    ("infer at", "    in x: Vector |", "of", "Length"),
+    ("infer at", "    in x: Panel |", "range", "of"),
+    ("class Panel", "function f(x: [|", "Vector Direction Panel", "of"),
+    ("do seq {", "        with Compliance(arm, along: |", "panel.normal", "above"),
     ("infer at", "    pre panel is |", "Panel Location", "Force"),
     ("infer at", "    pre panel fixedTo at |", "and or implies", "pre duration"),
     ("do seq {", "        with |", "Compliance Push", "Move Align seq"),

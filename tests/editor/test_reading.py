@@ -21,6 +21,8 @@ HOVERS = [
     ("5 cm", 1, ("**Length** `5 cm` = `0.05 m`",)),
     ("CompliantArm", 3, ("class CompliantArm < ", "`skillc:CompliantArm`")),
     ("Force = 10", 2, ("the type **Force**, in `N`",)),
+    ("along: panel.normal", 1, ("in along: Direction", "parameter of `Compliance`")),
+    ("panel.normal)", 8, ("property normal(", "): Direction")),
     ("lifted(panel", 2, ("function lifted(pose: Pose, by: Length) -> Pose", "skillc_runtime.motion.places:raised")),
     ("above)", 2, ("let above = lifted(panel.pose, 5 cm)", "a Pose")),
     ("done\n", 2, ("post  done:  panel.isClean == true",)),

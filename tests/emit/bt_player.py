@@ -28,13 +28,15 @@ class Player:
 
     def ticked(self, node: Node) -> Outcome | None:
         """Tick a node of the library, or one that the file declares."""
+        if node.element.tag in self.reader.models:
+            return self.declared(node)
         own = re.sub(r"[A-Z]", lambda capital: f"_{capital[0].lower()}", node.element.tag)
-        tick: Callable[[Node], Outcome | None] = getattr(self, own, self.declared)
+        tick: Callable[[Node], Outcome | None] = getattr(self, own)
         return tick(node)
 
     def _built(self, element: Element, board: Blackboard) -> Node:
         if element.tag == "SubTree":
-            inner: Blackboard = {}
+            inner: Blackboard = board if element.get("_autoremap") == "true" else {}
             return Node(element, [self._built(self.reader.trees[element.attrib["ID"]][0], inner)], board, self)
         return Node(element, [self._built(each, board) for each in element], board, self)
 
@@ -188,6 +190,8 @@ class Player:
 
     def _sub_tree(self, node: Node) -> Outcome | None:
         """Tick the tree; its entries are the caller's where they are mapped, so both boards are kept alike."""
+        if node.element.get("_autoremap") == "true":
+            return node.children[0].tick()
         mapped = {port: value for port, value in node.element.attrib.items() if port != "ID" and port[0] != "_"}
         inner = node.children[0].board
         inner.update(self.values(node))

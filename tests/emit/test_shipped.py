@@ -6,7 +6,7 @@ from functools import cache
 from importlib.resources import files
 from pathlib import Path
 
-from emit.tree_rules import broken_rules
+from peers.comparing import differences_of
 from skillc_compiler.emit.artifacts import artifacts
 from skillc_compiler.library.pddl.planning import planning_domain
 from skillc_compiler.library.skills import SkillLibrary
@@ -31,7 +31,7 @@ def test_every_planned_skill_can_be_planned_with() -> None:
     assert {each.skill for each in domain.actions} == {each.name for each in wiping().skills.values() if each.planned}
 
 
-def test_the_trees_keep_the_rules_of_the_format() -> None:
+def test_the_trees_keep_the_rules_of_the_format_and_run_in_the_library() -> None:
     trees = {path: text for path, text in artifacts(wiping()).items() if path.endswith(".xml")}
     assert "trees/Wipe.xml" in trees
-    assert [(path, words) for path, text in trees.items() for words in broken_rules(text)] == []
+    assert [words for path, text in trees.items() for words in differences_of(path, text)] == []

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from accept import cases, expected
 from emit.samples import HERE, PICK, WIPE, holds, implementation, library, need, number
 from emit.tree_rules import Reader, broken_rules
+from peers.comparing import differences_of
 from skillc_compiler.emit import bt
 from skillc_compiler.emit.bt_names import Names, entry, given, port
 from skillc_compiler.emit.bt_ports import plain_value
@@ -39,8 +40,8 @@ def compounded(fallback: bool = False) -> SkillLibrary:
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_a_file_keeps_the_rules_of_the_format(name: str) -> None:
-    assert broken_rules(FILES[name]) == []
+def test_a_file_keeps_the_rules_of_the_format_and_runs_in_the_library(name: str) -> None:
+    assert list(differences_of(name, FILES[name])) == []
 
 
 BREAKING = {
@@ -56,8 +57,10 @@ BREAKING = {
     "Tour uses an undeclared port": ('<SubTree ID="Tour" ', '<SubTree ID="Tour" spade="1" '),
     "Tour has a reserved attribute": ('<SubTree ID="Tour" ', '<SubTree ID="Tour" name="1" '),
     "Tour leaves out a mandatory port": (' robot="{robot}" first="{first}" stops', " stops"),
-    "Tour hides the default of a port": ('pause="2"', 'pause="{pause}"'),
-    "Tour is passed what is not of the port's type": ('pause="2"', 'pause="2 s"'),
+    "Tour hides the default of a port": ('pause="2.0"', 'pause="{pause}"'),
+    "Tour is passed what is not of the port's type": ('pause="2.0"', 'pause="2 s"'),
+    "the entry pause is int and later double": ('pause="2.0" robot', 'pause="2" robot'),
+    "a name means something else to the library": ('"Tour_round"', '"Root"'),
     "Look uses an undeclared port": ("<Look robot", '<Look speed="1" robot'),
 }
 
@@ -111,7 +114,7 @@ def test_a_call_of_a_tree_leaves_out_what_is_inferred_and_passes_the_defaults() 
     called = fromstring(nested(None)).find("BehaviorTree[@ID='Every_one']/SubTree")
     assert called is not None
     passed = {each: called.get(each) for each in called.attrib.keys() - {"ID", "_description"}}
-    assert passed == {"surface": "{surface}", "limit": "2"}
+    assert passed == {"surface": "{surface}", "limit": "2.0"}
 
 
 def test_a_chosen_implementation_is_looked_up_and_guarded_like_any_other() -> None:
@@ -188,12 +191,35 @@ def test_no_two_names_have_one_port(written: set[str]) -> None:
     assert not made & ports
 
 
+TAKEN_OTHERWISE = (
+    *("", "{a}", " {a} ", "=", "json:1", "JSON:[]", "12", "-12", "007", "1.5", "1.", ".5", "-1e5", "1E+5"),
+    *("nan", "NaN", "-inf", "Infinity", "nan(1)", "9" * 30, "a\x01b", "\ufffe", "\ud800"),
+)
+TAKEN_AS_WRITTEN = (
+    *("a", "+12", " 12", "12 ", "1;2", "0x1F", "1.5.2", "1e", "e5", "-", ".", "infinite", "true", "=a", "a{b}"),
+    *("\t", "a\r", "<&>'", "ä", "é\u0301", "\U0001f600", "_", "@a", "json"),
+)
+
+
 def test_text_that_a_port_would_take_for_something_else_is_computed() -> None:
-    assert [plain_value(Literal(each)) for each in ("", "{a}", "json:1", "a", 1.5, True)] == [
-        None,
-        None,
-        None,
-        "a",
-        "1.5",
-        "true",
-    ]
+    assert [each for each in TAKEN_OTHERWISE if plain_value(Literal(each), "std::string") is not None] == []
+    assert [plain_value(Literal(each), "std::string") for each in TAKEN_AS_WRITTEN] == list(TAKEN_AS_WRITTEN)
+
+
+@pytest.mark.parametrize(
+    ("value", "type_", "written"),
+    [
+        (12, "double", "12.0"),
+        (12, "int", "12"),
+        (12.0, "int", "12"),
+        (-(2**31), "int", "-2147483648"),
+        (2**31, "int", None),
+        (0.1 + 0.2, "double", "0.30000000000000004"),
+        (1e22, "double", "1e+22"),
+        (123456789012345678, "double", "1.2345678901234568e+17"),
+        (float("-inf"), "double", "-inf"),
+        (True, "bool", "true"),
+    ],
+)
+def test_a_number_is_written_as_the_type_of_its_port_is(value: float, type_: str, written: str | None) -> None:
+    assert plain_value(Literal(value), type_) == written

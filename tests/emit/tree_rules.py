@@ -7,12 +7,16 @@ from collections import Counter
 from dataclasses import dataclass
 from xml.etree.ElementTree import Element, fromstring
 
+from emit.tree_entries import conflicts
+
 LEAVES = {"Sleep", "AlwaysSuccess", "AlwaysFailure", "Script", "ScriptCondition"}
 DECORATORS = {
     "Inverter", "ForceSuccess", "KeepRunningUntilFailure", "Repeat", "RetryUntilSuccessful", "Timeout",
 }  # fmt: skip
 CONTROLS = {"Sequence", "Fallback", "ReactiveSequence", "ReactiveFallback", "Parallel", "IfThenElse"}
 REGISTERED = LEAVES | DECORATORS | CONTROLS
+TAKEN = {"Root", "root", "TryCatch", "Switch3", "Precondition", "Delay", "RunOnce", "SetBlackboard", "LoopDouble"}
+DEEPEST = 256
 EXPLICIT = {"Action", "Condition", "Control", "Decorator"}
 
 
@@ -61,7 +65,8 @@ class Reader:
 def broken_rules(text: str) -> list[str]:
     """Return a sentence for each rule that the file breaks."""
     reader = Reader.of(text)
-    return [*_of_file(reader), *(words for node in reader.nodes() for words in _of_node(node, reader))]
+    rules = [*_of_file(reader), *(words for node in reader.nodes() for words in _of_node(node, reader))]
+    return rules or [*conflicts(reader.trees, reader.models, reader.root.attrib["main_tree_to_execute"])]
 
 
 def _of_file(reader: Reader) -> list[str]:
@@ -74,8 +79,18 @@ def _of_file(reader: Reader) -> list[str]:
         ("two trees have one ID", set(trees.values()) == {1}),
         ("two models have one ID", set(models.values()) <= {1}),
         ("a tree has the ID of a node", not trees.keys() & (REGISTERED | EXPLICIT)),
+        ("a name means something else to the library", not (trees.keys() | models.keys()) & TAKEN),
+        ("a tree is nested too deep", all(_depth(tree) <= DEEPEST for tree in root.findall("BehaviorTree"))),
         ("a tree has not exactly one root", all(len(tree) == 1 for tree in root.findall("BehaviorTree"))),
     )
+
+
+def _depth(tree: Element) -> int:
+    """Return how many levels of nodes are below the element of a tree."""
+    depth, level = -1, [tree]
+    while level:
+        depth, level = depth + 1, [child for parent in level for child in parent]
+    return depth
 
 
 def _of_node(node: Element, reader: Reader) -> list[str]:

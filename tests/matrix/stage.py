@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import NDArray
+
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.world.state import WorldState
 from tree.stage import Script, Scripted, Stage
@@ -40,3 +43,18 @@ def both(state: WorldState) -> list[str]:
 def twice(state: WorldState, number: float) -> float:
     """A function of the vocabulary on numbers."""
     return 2 * number
+
+
+def heading(state: WorldState, robot: str) -> NDArray[np.float64]:
+    """A direction."""
+    return np.array([0.0, 0.6, 0.8])
+
+
+def several(state: WorldState, way: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+    """A list of vectors."""
+    return [way, 2 * way]
+
+
+def longest(state: WorldState, ways: tuple[NDArray[np.float64], ...]) -> NDArray[np.float64]:
+    """A vector out of a list of them."""
+    return max(ways, key=lambda way: float(np.linalg.norm(way)))

@@ -57,7 +57,7 @@ class Sensor(Actor):
 
     def finish(self) -> None:
         change = SetProperty(str(self.parameters["a"]), NS + "on", self.chance.random.random() < 0.6)
-        self.chance.world.commit([change], "measured")
+        self.chance.world.commit([change], "measured", "sensed")
 
 
 def items(state: WorldState) -> list[str]:

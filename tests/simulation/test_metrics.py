@@ -15,12 +15,13 @@ SURFACE = Pose.of((1.0, 2.0, 0.5), (0.5, 0.5, -0.5, -0.5))
 EXTENT, TOOL = np.array([0.40, 0.30]), np.array([0.10, 0.05])
 INTO = np.diag([1.0, -1.0, -1.0])
 STEP_S = 0.001
+LEAST_N = 5.0
 
 
 def recording(local: np.ndarray, force: np.ndarray, tilt_rad: float = 0.0) -> Recording:
     """Return a tool whose middle is at `local` (n, 2) of the surface, pressed with `force` (n,), from time 0."""
     rows = np.zeros((len(local), COLUMNS))
-    rows[:, 0], rows[:, 1] = np.arange(len(local)) * STEP_S, force
+    rows[:, 0], rows[:, 1], rows[:, 24] = np.arange(len(local)) * STEP_S, force, force
     placed = np.column_stack([local, np.zeros(len(local))])
     for first in (2, 12, 18):
         rows[:, first : first + 3] = placed @ SURFACE.rotation.T + SURFACE.position
@@ -35,7 +36,7 @@ def lane(offset: float, count: int = 3000) -> np.ndarray:
 
 
 def wiped(force: float = 10.0) -> Wiped:
-    return Wiped(SURFACE, Layout(EXTENT), TOOL, force)
+    return Wiped(SURFACE, Layout(EXTENT), TOOL, force, LEAST_N)
 
 
 def test_one_lane_covers_its_share_of_the_surface() -> None:
@@ -111,7 +112,7 @@ def test_an_empty_window_is_refused() -> None:
 
 def test_a_turned_tool_wipes_what_it_covers() -> None:
     turned = exp(np.array([0.0, 0.0, 0.6]))
-    coverage = CoverageMap(SURFACE, Layout(EXTENT))
+    coverage = CoverageMap(SURFACE, Layout(EXTENT), LEAST_N)
     coverage.add(SURFACE.position, SURFACE.rotation @ turned @ INTO, TOOL, 0.01)
     x, y = np.meshgrid(coverage.x, coverage.y)
     u, v = np.cos(0.6) * x + np.sin(0.6) * y, np.cos(0.6) * y - np.sin(0.6) * x

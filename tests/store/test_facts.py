@@ -4,8 +4,11 @@ import os
 from random import Random
 
 import msgspec
+import numpy as np
 import pyoxigraph as ox
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from skillc_compiler.library.vocabulary import ClassTerm
 from skillc_runtime.world.changes import AddIndividual, Change, SetProperty
@@ -15,6 +18,7 @@ from skillc_runtime.world.store.contents import world_of
 from skillc_runtime.world.store.facts import all_facts, difference
 from skillc_runtime.world.store.store import StoreError
 from skillc_runtime.world.store.wire import KINDS, as_text, changes_of
+from skillc_runtime.world.values import equal
 from store.worlds import commits, facts_of, filling, random_write
 from world.lab import SCENE, VOCABULARY, assign, individual, iri
 
@@ -49,6 +53,14 @@ def test_changes_survive_being_text(seed: int) -> None:
     changes = tuple(change for _ in range(20) for change in random_write(chance))
     assert changes_of(as_text(changes)) == changes and "\n" not in as_text(changes)
     assert {type(change).__name__ for change in changes} <= KINDS.keys()
+
+
+@given(st.lists(st.tuples(*[st.floats(allow_nan=False, allow_infinity=False)] * 3), min_size=1))
+def test_vectors_survive_being_text(numbers: list[tuple[float, float, float]]) -> None:
+    vectors = tuple(map(np.array, numbers))
+    for value in (vectors, vectors[0]):
+        (again,) = changes_of(as_text((SetProperty("urn:it", "urn:wind", value),)))
+        assert isinstance(again, SetProperty) and equal(again.value, value)
 
 
 @pytest.mark.parametrize("text", ["", "[", "{}", "[[]]", '[["Explode"]]', '[["AddRelation","a"]]', "[1]"])

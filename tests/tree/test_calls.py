@@ -60,7 +60,7 @@ class Measures(Primitive):
         self._change = SetProperty(flag, ON, value)
 
     def tick(self) -> Status:
-        self.cell.world.commit([self._change], "measured")
+        self.cell.world.commit([self._change], "measured", "sensed")
         return Status.SUCCESS
 
 

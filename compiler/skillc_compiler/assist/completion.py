@@ -23,7 +23,8 @@ from skillc_dsl.source import Span
 from skillc_dsl.tokens import KEYWORDS
 from skillc_dsl.units import UNITS
 
-_BEGINNING = frozenset((*KEYWORDS["declaration"], *KEYWORDS["member"], *KEYWORDS["flag"])) - {"range", "any", "sensed"}
+_WITHIN_A_LINE = frozenset(("range", "any", "sensed", "of"))
+_BEGINNING = frozenset((*KEYWORDS["declaration"], *KEYWORDS["member"], *KEYWORDS["flag"])) - _WITHIN_A_LINE
 _VALUES = frozenset(("true", "false"))
 _CLASS_LISTS = {"CLASS": ("LESS", "DISJOINT", "COMMA"), "RELATION": ("LPAR", "COMMA"), "PROPERTY": ("LPAR",)}
 
@@ -83,6 +84,8 @@ def keywords(cursor: InCode) -> Iterator[Offer]:
     here = fitting(cursor.states)
     beginning = _BEGINNING if here & {"RBRACE", END} and not cursor.begins_line else frozenset()
     for terminal in sorted(here):
+        if terminal == "OF" and here != {"OF"} and cursor.before[-1].value != "Vector":
+            continue
         text = words().get(terminal, "")
         after = shifted(cursor.states, terminal) if text.isalpha() and text not in beginning | _VALUES else None
         if after is not None and (as_name is None or fitting(after) != after_name):
@@ -100,8 +103,10 @@ def _names(analysis: Analysis, around: Surroundings, cursor: InCode) -> Iterator
         yield from offers.classes(around)
     elif head == "RELATION" and last in ("INVERSE", "SUB"):
         yield from offers.any_relation(around)
-    elif head in ("PROPERTY", "FUNCTION") and last in ("COLON", "LABEL", "ARROW"):
+    elif head in ("PROPERTY", "FUNCTION") and last in ("COLON", "LABEL", "ARROW", "LSQB"):
         yield from _types(around)
+    elif head in ("PROPERTY", "FUNCTION") and last == "OF":
+        yield from offers.dimensions()
     elif head in ("SKILL", "IMPL", "TASK"):
         yield from _in_members(analysis, around, cursor)
 
@@ -112,6 +117,8 @@ def _in_members(analysis: Analysis, around: Surroundings, cursor: InCode) -> Ite
         case ("IMPL", _, "OF"):
             yield from offers.skills(analysis, around)
             yield from offers.skills_elsewhere(analysis, cursor.word.path)
+        case (*_, "LABEL", _, "OF") | (*_, "LABEL", "LSQB", _, "OF"):
+            yield from offers.dimensions()
         case (*_, ("IN" | "OPT" | "INFER" | "ANY" | "OUT"), "LABEL") | (*_, "LABEL", "LSQB"):
             yield from _types(around)
         case (*_, "REFINE", "LABEL"):
@@ -169,7 +176,7 @@ def _narrower(around: Surroundings, name: str) -> Iterator[Offer]:
     elif isinstance(parameter.type, Thing):
         yield from offers.classes(around, parameter.type)
     else:
-        yield from (offer for offer in offers.built_in_types() if offer.text == type_text(parameter.declared))
+        yield Offer(type_text(parameter.declared), "type", "built in", rank=1)
 
 
 def _refinable(analysis: Analysis, around: Surroundings, before: Sequence[Token]) -> Iterator[Offer]:

@@ -11,8 +11,8 @@ from skillc_compiler.assist.surroundings import Surroundings
 from skillc_compiler.program import Skill
 from skillc_compiler.resolve.typenames import BUILT_IN
 from skillc_compiler.resolve.values import ANYTHING, Wanted
-from skillc_compiler.types import Measure, Thing, Type, fits, of_library
-from skillc_dsl.units import TIME, UNITS
+from skillc_compiler.types import Measure, Thing, Type, Vector, fits, of_library
+from skillc_dsl.units import DIMENSIONS, TIME, UNITS
 
 _COMPARISONS = ("EQUALS", "UNEQUAL", "LESS", "LESS_EQUAL", "MORE", "MORE_EQUAL")
 _TIMES = ("DURATION", "WAIT", "TIMEOUT")
@@ -45,10 +45,12 @@ def _declared(around: Surroundings, tokens: Sequence[Token]) -> Wanted:
     labels = [index for index, token in enumerate(tokens) if token.type == "LABEL"]
     if not labels or labels[-1] + 1 >= len(tokens) or tokens[-2].type == "LET":
         return ANYTHING
-    name = tokens[labels[-1] + 1].value
-    if name in BUILT_IN:
-        return Wanted(of_library(BUILT_IN[name]))
-    iri = around.visible.term("class", name)
+    name, *rest = tokens[labels[-1] + 1 :]
+    if name.value == "Vector" and len(rest) > 1 and rest[0].type == "OF" and rest[1].value in DIMENSIONS:
+        return Wanted(Vector(DIMENSIONS[rest[1].value]))
+    if name.value in BUILT_IN:
+        return Wanted(of_library(BUILT_IN[name.value]))
+    iri = around.visible.term("class", name.value)
     return Wanted(Thing(iri)) if iri else ANYTHING
 
 

@@ -16,8 +16,9 @@ from skillc_compiler.program import Parameter
 from skillc_compiler.resolve.names import Kind
 from skillc_compiler.resolve.typenames import BUILT_IN
 from skillc_compiler.resolve.values import Wanted
-from skillc_compiler.types import BOOL, UNKNOWN, Thing, Type, describe, fits, of_library, of_property
+from skillc_compiler.types import BOOL, UNKNOWN, Thing, Type, describe, fits, of_library
 from skillc_dsl import syntax as s
+from skillc_dsl.units import DIMENSIONS
 
 OfferKind: TypeAlias = Literal[
     "keyword", "class", "type", "relation", "property", "function", "skill", "implementation", "parameter", "variable",
@@ -59,6 +60,11 @@ def classes(around: Surroundings, below: Type = UNKNOWN) -> Iterator[Offer]:
 def built_in_types() -> Iterator[Offer]:
     """Offer the dimensions and the other types that are no classes."""
     return (Offer(name, "type", "built in", rank=1) for name in sorted(BUILT_IN))
+
+
+def dimensions() -> Iterator[Offer]:
+    """Offer what a vector may be of."""
+    return (Offer(name, "type", "dimension") for name in sorted(DIMENSIONS))
 
 
 def relations(around: Surroundings, subject: Type) -> Iterator[Offer]:
@@ -170,7 +176,7 @@ def _read_properties(around: Surroundings, wanted: Type) -> Iterator[Offer]:
         if not isinstance(kind, Thing):
             continue
         for text, term in _properties_of(around, kind):
-            if fits(around.visible.vocabulary, of_property(term.type), wanted):
+            if fits(around.visible.vocabulary, of_library(term.type), wanted):
                 yield Offer(
                     f"{name}.{text}", "property", type_text(term.type), term.comment, rank=4 + _generality(term)
                 )

@@ -12,7 +12,7 @@ from skillc_compiler.assist.cursor import InCode
 from skillc_compiler.assist.visible import Visible
 from skillc_compiler.program import Implementation, Skill, Step, Task
 from skillc_compiler.resolve.individuals import narrowest
-from skillc_compiler.types import UNKNOWN, ListOf, Thing, Type, of_library, of_property
+from skillc_compiler.types import UNKNOWN, ListOf, Thing, Type, of_library
 from skillc_compiler.walk import within
 from skillc_dsl import syntax as s
 from skillc_dsl.source import Span
@@ -39,7 +39,7 @@ class Surroundings:
         if len(tokens) > 2 and tokens[-2].type == "DOT":
             iri = self.visible.term("property", last.value)
             known = self.visible.vocabulary.properties
-            return of_property(known[iri].type) if iri in known else UNKNOWN
+            return of_library(known[iri].type) if iri in known else UNKNOWN
         if ":" in last.value:
             iri = self.visible.iri(last.value)
             return Thing(self.individuals.get(iri)) if iri else UNKNOWN

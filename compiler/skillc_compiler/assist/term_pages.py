@@ -9,6 +9,7 @@ from skillc_compiler.library.vocabulary import (
     THING,
     ClassTerm,
     ClassType,
+    DirectionType,
     FunctionTerm,
     ListType,
     NumberType,
@@ -22,6 +23,12 @@ from skillc_compiler.library.vocabulary import (
 )
 from skillc_compiler.resolve.names import Kind
 from skillc_dsl.units import DIMENSIONS, UNITS, dimension_of, to_si
+
+ABOUT = {
+    "Vector": ": three numbers along the axes of the world, pure ones or of a dimension: `Vector of Length`",
+    "Direction": ": a vector of pure numbers along the axes of the world, of length 1",
+}
+"""What hovering over a type says that has no units."""
 
 
 def term(vocabulary: Vocabulary, kind: Kind, iri: str) -> str:
@@ -42,7 +49,8 @@ def term(vocabulary: Vocabulary, kind: Kind, iri: str) -> str:
 def built_in(name: str) -> str:
     """Return what a type that is no class is, with its units."""
     units = [unit for unit, other in UNITS.items() if name in DIMENSIONS and other.dimension == DIMENSIONS[name]]
-    return f"the type **{name}**" + (f", in {', '.join(f'`{unit}`' for unit in units)}" if units else "")
+    known = f", in {', '.join(f'`{unit}`' for unit in units)}" if units else ABOUT.get(name, "")
+    return f"the type **{name}**{known}"
 
 
 def function(term: FunctionTerm) -> str:
@@ -69,8 +77,10 @@ def type_text(kind: ValueType) -> str:
             return local_name(iri)
         case NumberType(dimension=name):
             return name
-        case VectorType():
-            return "Vector"
+        case VectorType(dimension=dimension):
+            return "Vector" if dimension == "Number" else f"Vector of {dimension}"
+        case DirectionType():
+            return "Direction"
         case PlainType(name=name):
             return name
         case ListType(element=element):

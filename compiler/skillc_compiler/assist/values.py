@@ -46,6 +46,9 @@ class Values:
         match written:
             case s.ListOf(element=element):
                 yield from self.type(element)
+            case s.OfDimension(of=of, dimension=dimension):
+                yield from self.type(of)
+                yield from self.type(dimension)
             case s.Name(text=text, span=span) if text in BUILT_IN:
                 yield Occurrence(span, TypeSymbol(text))
             case s.Name():

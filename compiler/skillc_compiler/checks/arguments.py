@@ -98,7 +98,7 @@ Good:
     import "compliance.skill"
     skill Fold {
         in arm: CompliantArm
-        in up: Vector
+        in up: Direction
         noplan
     }
     impl once of Fold {

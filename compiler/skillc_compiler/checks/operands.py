@@ -58,7 +58,7 @@ from collections.abc import Iterator
 from skillc_compiler.library.conditions import Arithmetic, Compare
 from skillc_compiler.program import Clause, Program, Valued
 from skillc_compiler.resolve.values import result_type
-from skillc_compiler.types import INT, UNKNOWN, Direction, Measure, Type, describe, fits
+from skillc_compiler.types import INT, UNKNOWN, Direction, Measure, Type, Vector, describe, fits
 from skillc_compiler.walk import clauses, values
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -91,7 +91,7 @@ def _compared(program: Program, clause: Clause, meaning: Compare) -> Iterator[Di
     alike = fits(program.vocabulary, left, right) or fits(program.vocabulary, right, left)
     if not alike:
         yield _problem(clause.span, meaning.operator, left, right)
-    elif meaning.operator not in ("==", "!=") and not _is_number(left):
+    elif meaning.operator not in ("==", "!=") and not (left == INT or isinstance(left, Measure)):
         yield Diagnostic(
             "wrong-operands",
             clause.span,
@@ -112,12 +112,12 @@ def _problem(span: Span, operator: str, left: Type, right: Type) -> Diagnostic:
 
 def _cure(left: Type, right: Type) -> str:
     match left, right:
-        case Direction(), Direction():
+        case Vector() | Direction(), Vector() | Direction():
             return "bring both vectors to one dimension: multiply one by a quantity, as in `5 cm * normal`"
-        case (Direction(), _) | (_, Direction()):
+        case (Vector() | Direction(), _) | (_, Vector() | Direction()):
             return "make a vector of the number first, as in `5 cm * normal`"
     return "bring both sides to one dimension"
 
 
 def _is_number(kind: Type) -> bool:
-    return kind == INT or isinstance(kind, Measure | Direction)
+    return kind == INT or isinstance(kind, Measure | Vector | Direction)

@@ -111,7 +111,7 @@ from skillc_compiler.library.pddl.names import kebab
 from skillc_compiler.library.vocabulary import local_name
 from skillc_compiler.lower.effects import effects
 from skillc_compiler.program import Program, Skill
-from skillc_compiler.types import INT, Measure, Thing, Unknown, describe, of_property
+from skillc_compiler.types import INT, Measure, Thing, Unknown, describe, of_library
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("no-effect", "unplannable-parameter", "numeric-effect", "colliding-names")
@@ -155,8 +155,8 @@ def _numbers(program: Program, skill: Skill) -> Iterator[Diagnostic]:
         for effect in effects(post.clause):
             if not isinstance(effect, Assign) or effect.property not in program.vocabulary.properties:
                 continue
-            if isinstance(of_property(program.vocabulary.properties[effect.property].type), Measure) or (
-                of_property(program.vocabulary.properties[effect.property].type) == INT
+            if isinstance(of_library(program.vocabulary.properties[effect.property].type), Measure) or (
+                of_library(program.vocabulary.properties[effect.property].type) == INT
             ):
                 yield Diagnostic(
                     "numeric-effect",

@@ -32,7 +32,8 @@ Good:
 ## wrong-python-parameters: a class or function takes other parameters than the skill gives
 
 The constructor of a primitive takes the cell and, by name, each parameter of the skill except outputs. A function takes
-the world and its values, in order.
+the world and its values, in order. What the text of the module does not tell, such as what a decorator makes of a
+class, is found out when a task is prepared: it is refused before anything moves.
 
 Bad:
 
@@ -54,6 +55,20 @@ Good:
         noplan
     }
     impl folded of Fold { run python "skillc_runtime.primitives.move:TakePosture" }
+
+## not-a-primitive: what a skill runs is no primitive
+
+A primitive is a subclass of `skillc_runtime.primitives.primitive.Primitive` with a method `tick` that is not `async`.
+
+Bad:
+
+    skill Rest { noplan }
+    impl waiting of Rest { run python "skillc_runtime.motion.places:centre" }
+
+Good:
+
+    skill Rest { noplan }
+    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
 """
 
 from __future__ import annotations
@@ -62,11 +77,25 @@ import re
 from collections.abc import Iterator, Sequence
 
 from skillc_compiler.program import Implementation, Program
-from skillc_compiler.python_source import NoModule, NoName, Signature, Unclear, signature
+from skillc_compiler.python.found import (
+    BrokenModule,
+    ClassFound,
+    Found,
+    FunctionFound,
+    NoModule,
+    NoName,
+    Other,
+    Signature,
+    Unclear,
+)
+from skillc_compiler.python.reading import read
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label, did_you_mean
 
-NAMES = ("bad-python-target", "missing-python", "wrong-python-parameters")
+NAMES = ("bad-python-target", "missing-python", "wrong-python-parameters", "not-a-primitive")
+PRIMITIVE = "skillc_runtime.primitives.primitive:Primitive"
+CALLED_WITH = {"start": 0, "tick": 0, "halt": 1, "pause": 0, "resume": 0, "release": 0}
+"""The methods of a primitive that are called, with how many values."""
 _TARGET = re.compile(r"([A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*):([A-Za-z_]\w*)")
 
 
@@ -82,61 +111,140 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 
 def _primitive(implementation: Implementation, written: s.Text) -> Iterator[Diagnostic]:
-    found = _found(written)
-    if not isinstance(found, Signature):
-        yield from found
-        return
+    match _found(written):
+        case ClassFound() as found:
+            yield from _class(implementation, written, found)
+        case FunctionFound() | Other():
+            yield _no_primitive(written, "is no class", f"name a subclass of {PRIMITIVE.replace(':', '.')}")
+        case Unclear():
+            return
+        case problem:
+            yield problem
+
+
+def _class(implementation: Implementation, written: s.Text, found: ClassFound) -> Iterator[Diagnostic]:
+    tick = found.methods.get("tick")
+    if found.complete and PRIMITIVE not in found.ancestors:
+        yield _no_primitive(written, "is no primitive", f"let it inherit from {PRIMITIVE.replace(':', '.')}")
+    elif found.complete and ("tick" not in found.methods or (tick is not None and tick.owner == PRIMITIVE)):
+        yield _no_primitive(written, "has no method `tick`", "define `tick`, which returns RUNNING or SUCCESS")
+    for name, count in CALLED_WITH.items():
+        method = found.methods.get(name)
+        if method is not None and (misfit := _not_callable(method.function, count)):
+            yield _no_primitive(written, f"has a method `{name}` that {misfit}", f"define it as `{_head(name, count)}`")
     given = [p.name for p in implementation.parameters if p.direction != "out"]
-    untaken = [] if found.more else [name for name in given if name not in found.names]
-    ungiven = sorted(found.needed - set(given))
-    if untaken or ungiven:
-        takes = f"takes no `{'`, `'.join(untaken)}`" if untaken else f"needs `{'`, `'.join(ungiven)}`"
+    wrong = _by_name(found.constructor, given) if found.constructor is not None else None
+    if wrong:
         label = Label(implementation.skill.name_span, f"the skill has {_listed(given)}")
-        yield _unlike(written, takes, f"let its constructor take the cell and {_listed(given)}", label)
+        yield _unlike(written, wrong, f"let its constructor take the cell and {_listed(given)}", label)
+
+
+def _by_name(taken: Signature, given: Sequence[str]) -> str | None:
+    """Say why a constructor cannot be called with the cell and these parameters by name, None when it can."""
+    if not taken.by_position and not taken.args:
+        return "takes no cell as its first value"
+    left = taken.without_first(1)
+    unnamed = left.by_position[: left.unnamed]
+    names = (*left.by_position[left.unnamed :], *left.by_name)
+    untaken = [name for name in given if name not in names and (not left.named or name in taken.by_position)]
+    ungiven = sorted(set(left.needed) - set(given))
+    if beyond := [name for name in untaken if name in unnamed]:
+        return f"takes `{'`, `'.join(beyond)}` by position only"
+    if untaken:
+        return f"takes no `{'`, `'.join(untaken)}`"
+    return f"needs `{'`, `'.join(ungiven)}`" if ungiven else None
+
+
+def _not_callable(method: FunctionFound, count: int) -> str | None:
+    """Say why a method cannot be called with so many values, None when it can or the text does not tell."""
+    if method.asynchronous:
+        return "is `async`, which is never waited for"
+    taken = method.signature
+    if taken is None:
+        return None
+    missing = set(taken.needed) - set(taken.by_position[:count])
+    if missing or (len(taken.by_position) < count and not taken.args):
+        return f"takes {_listed((*taken.by_position, *taken.by_name))}"
+    return None
+
+
+def _head(name: str, count: int) -> str:
+    return f"def {name}(self{', reason' * count})"
 
 
 def _function(declared: s.FunctionDeclaration) -> Iterator[Diagnostic]:
-    found = _found(declared.python)
-    if not isinstance(found, Signature):
-        yield from found
-        return
     given = [parameter.name.text for parameter in declared.parameters]
-    if len(given) < len(found.needed) or (len(given) > len(found.names) and not found.more):
-        takes = f"takes {_listed(found.names)} after the world, {len(found.names)} in number"
+    match _found(declared.python):
+        case FunctionFound(asynchronous=True):
+            wrong: str | None = "is `async`, which is never waited for"
+        case FunctionFound(signature=taken) | ClassFound(constructor=taken):
+            wrong = _in_order(taken, given) if taken is not None else None
+        case Other():
+            wrong = "is no function"
+        case Unclear():
+            return
+        case problem:
+            yield problem
+            return
+    if wrong:
         label = Label(declared.name.span, f"the function has {_listed(given)}")
-        yield _unlike(declared.python, takes, f"let it take the world and {_listed(given)}", label)
+        yield _unlike(declared.python, wrong, f"let it take the world and {_listed(given)}", label)
 
 
-def _found(written: s.Text) -> Signature | Sequence[Diagnostic]:
-    """Return what the target takes, or what is wrong with it; nothing is wrong where that cannot be told."""
+def _in_order(taken: Signature, given: Sequence[str]) -> str | None:
+    """Say why a function cannot be called with the world and these values in order, None when it can."""
+    if not taken.by_position and not taken.args:
+        return "takes no world as its first value"
+    left = taken.without_first(1)
+    names = left.by_position
+    if by_name := [name for name in left.needed if name in left.by_name]:
+        return f"takes {_listed(by_name)} by name only, and all values are passed in order"
+    if len(given) < len(left.needed) or (len(given) > len(names) and not left.args):
+        return f"takes {_listed(names)} after the world, {len(names)} in number"
+    if any(name != own and name in names for name, own in zip(given, names, strict=False)):
+        return f"takes {_listed(names)} after the world, in this order"
+    return None
+
+
+def _found(written: s.Text) -> ClassFound | FunctionFound | Other | Unclear | Diagnostic:
+    """Return what the target is, or what is wrong with it."""
     target = _TARGET.fullmatch(written.value)
     if target is None:
         message = f'"{written.value}" does not name something in a Python module'
-        return [Diagnostic("bad-python-target", written.span, message, 'write "package.module:Name"')]
+        return Diagnostic("bad-python-target", written.span, message, 'write "package.module:Name"')
     module, name = target.groups()
-    match signature(module, name):
-        case Signature() as found:
-            return found
+    found: Found = read(module, name)
+    match found:
         case NoModule(installed=True):
-            return [_missing(written, f"there is no Python module `{module}`", "make the file, or correct the name")]
+            return _missing(written, f"there is no Python module `{module}`", "make the file, or correct the name")
         case NoModule():
             message = f"the Python module `{module}` is not installed here, so it cannot be checked"
             help_ = "install it where the skill is checked and run, or correct the name"
-            return [_missing(written, message, help_)]
+            return _missing(written, message, help_)
+        case BrokenModule(line=line, message=why):
+            return _missing(written, f"the Python module `{module}` is no Python: {why} (line {line})", "correct it")
         case NoName(there=there):
             message = f"the Python module `{module}` has no `{name}`"
-            return [_missing(written, message, did_you_mean(name, there) or "write it there, or correct the name")]
-        case Unclear():
-            return []
+            return _missing(written, message, did_you_mean(name, there) or "write it there, or correct the name")
+        case _:
+            return found
 
 
 def _missing(written: s.Text, message: str, help_: str) -> Diagnostic:
     return Diagnostic("missing-python", written.span, message, help_, severity="warning")
 
 
+def _no_primitive(written: s.Text, what: str, help_: str) -> Diagnostic:
+    return Diagnostic("not-a-primitive", written.span, f"`{_name(written)}` {what}", help_, "warning")
+
+
 def _unlike(written: s.Text, takes: str, help_: str, label: Label) -> Diagnostic:
-    message = f"`{written.value.partition(':')[2]}` {takes}"
+    message = f"`{_name(written)}` {takes}"
     return Diagnostic("wrong-python-parameters", written.span, message, help_, "warning", (label,))
+
+
+def _name(written: s.Text) -> str:
+    return written.value.partition(":")[2]
 
 
 def _listed(names: Sequence[str]) -> str:

@@ -64,7 +64,7 @@ from skillc_compiler.expected import Place, places
 from skillc_compiler.library.conditions import Individual, Literal, Variable
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
 from skillc_compiler.program import Program
-from skillc_compiler.types import INT, TEXT, Direction, Measure, Thing, describe, fits, of_property
+from skillc_compiler.types import INT, TEXT, Direction, Measure, Thing, Vector, describe, fits, of_library
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.units import NUMBER, UNITS, Dimension
 
@@ -95,8 +95,10 @@ def _problem(vocabulary: Vocabulary, place: Place) -> tuple[str, str]:
             return "missing-unit", f"write it with its unit: `{number} {units_of(dimension)[0]}`"
         case Measure(dimension=dimension), Measure(), _:
             return "wrong-dimension", f"write it in {' or '.join(units_of(dimension)) or 'no unit'}"
-        case Direction(), Direction(), _:
+        case Vector(), Vector() | Direction(), _:
             return "wrong-dimension", "multiply or divide it by a quantity of the missing dimension"
+        case Direction(), Vector(), _:
+            return "wrong-type", "a Direction is of length 1: take a property or a function that gives one"
         case Measure(dimension=dimension), _, Literal(value=str(text)) if given == TEXT:
             return "wrong-type", _unquoted(text, dimension)
         case Thing(), Thing(), _ if fits(vocabulary, wanted, given):
@@ -124,7 +126,7 @@ def _by_property(vocabulary: Vocabulary, place: Place) -> str:
     leading = sorted(
         local_name(term.iri)
         for term in vocabulary.properties.values()
-        if of_property(term.type) == place.wanted
+        if of_library(term.type) == place.wanted
         and any(fits(vocabulary, place.value.type, Thing(domain)) for domain in term.domains)
     )
     if not isinstance(place.value.meaning, Variable) or not 0 < len(leading) <= 3:

@@ -13,8 +13,9 @@ from collections.abc import Iterator
 from xml.etree.ElementTree import Element, indent, tostring
 
 from skillc_compiler.emit.bt_calls import is_tree, reached
+from skillc_compiler.emit.bt_depth import cut
 from skillc_compiler.emit.bt_model import Model
-from skillc_compiler.emit.bt_names import Names, legal
+from skillc_compiler.emit.bt_names import Names, legal, legal_text
 from skillc_compiler.emit.bt_nodes import Body, started
 from skillc_compiler.emit.bt_rules import verified
 from skillc_compiler.emit.bt_skills import fixed_tree, implementation_tree, main_tree, skill_tree
@@ -33,7 +34,7 @@ def emit(library: SkillLibrary) -> dict[str, str]:
             files[f"trees/{legal(skill.name)}.xml"] = _skill_file(skill, library, names)
     for _, task in sorted(library.tasks.items()):
         if task.body is not None:
-            files[f"trees/task_{legal(task.name)}.xml"] = _task_file(task, task.body, library, names)
+            files[f"trees/{names.of('', 'task', task.name)}.xml"] = _task_file(task, task.body, library, names)
     return files
 
 
@@ -51,7 +52,7 @@ def _skill_file(skill: Skill, library: SkillLibrary, names: Names) -> str:
     model = Model()
     skills = [skill, *(library.skills[name] for name in sorted(reached([skill.name], library) - {skill.name}))]
     main = main_tree(library, names, model, skill)
-    return _document([main, *(tree for each in skills for tree in _trees(each, library, names, model))], model)
+    return _document([main, *(tree for each in skills for tree in _trees(each, library, names, model))], names, model)
 
 
 def _task_file(task: Task, node: Node, library: SkillLibrary, names: Names) -> str:
@@ -64,7 +65,7 @@ def _task_file(task: Task, node: Node, library: SkillLibrary, names: Names) -> s
     tree.append(started(body, [body.node(node)]))
     called = reached([each.skill for each in walk(node) if isinstance(each, Call)], library)
     others = [each for name in sorted(called) for each in _trees(library.skills[name], library, names, model)]
-    return _document([tree, *others], model)
+    return _document([tree, *others], names, model)
 
 
 def _trees(skill: Skill, library: SkillLibrary, names: Names, model: Model) -> Iterator[Element]:
@@ -87,9 +88,13 @@ def _fixed(skill: str, library: SkillLibrary) -> set[str]:
     return {each.implementation for each in calls if each.skill == skill and each.implementation is not None}
 
 
-def _document(trees: list[Element], model: Model) -> str:
+def _document(trees: list[Element], names: Names, model: Model) -> str:
     """Return the file whose main tree is the first; TreeRefused if BehaviorTree.CPP would misread it."""
     root = Element("root", BTCPP_format="4", main_tree_to_execute=trees[0].get("ID", ""))
-    root.extend([*trees, model.element()])
+    root.extend([part for tree in trees for part in cut(tree, names, model)])
+    root.append(model.element())
+    for element in root.iter():
+        element.attrib.update({name: legal_text(value) for name, value in element.attrib.items()})
+        element.text = element.text and legal_text(element.text)
     indent(root)
     return XML_DECLARATION + tostring(verified(root), encoding="unicode") + "\n"

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from xml.etree.ElementTree import Element
 
-from skillc_compiler.emit.bt_body import Writer, after, holding, leaf, pointer
+from skillc_compiler.emit.bt_body import Bound, Writer, after, holding, leaf, pointer, sequence
 from skillc_compiler.emit.bt_model import Kind, Port
 from skillc_compiler.emit.bt_names import port
 from skillc_compiler.emit.bt_ports import (
@@ -64,10 +64,12 @@ def call(writer: Writer, written: Call) -> Element:
     """Return the call of a skill, after the expressions among its arguments."""
     skill = writer.library.skills[written.skill]
     before, attributes = _arguments(writer, written, skill)
-    attributes |= _outputs(writer, written, skill)
+    outputs, converted = _outputs(writer, written, skill)
+    attributes |= outputs
     if not is_tree(writer.library, skill):
         ports = action_ports(skill.parameters)
-        return after(before, node(writer, "Action", (skill.name,), ports, skill.doc, attributes, written.source))
+        single = node(writer, "Action", (skill.name,), ports, skill.doc, attributes, written.source)
+        return sequence([*before, single, *converted])
     path: tuple[str, ...] = (skill.name,)
     described = skill.parameters
     if written.implementation is not None:
@@ -75,7 +77,8 @@ def call(writer: Writer, written: Call) -> Element:
         described = writer.library.implementations[f"{skill.name}.{written.implementation}"].parameters
     attributes = {**defaults(described), **attributes}
     ports = tree_ports(described)
-    return after(before, node(writer, "SubTree", path, ports, skill.doc, attributes, written.source))
+    tree = node(writer, "SubTree", path, ports, skill.doc, attributes, written.source)
+    return sequence([*before, tree, *converted])
 
 
 def run(writer: Writer, implementation: Implementation) -> Element:
@@ -86,14 +89,15 @@ def run(writer: Writer, implementation: Implementation) -> Element:
     return node(writer, kind, path, ports, implementation.doc, attributes, implementation.source)
 
 
-def scoped(writer: Writer, written: Call, child: Element) -> Element:
+def scoped(writer: Writer, written: Call, child: Callable[[], Element]) -> Element:
     """Return the child in a decorator that sets a skill up before it and undoes it however the child ends."""
     skill = writer.library.skills[written.skill]
     before, attributes = _arguments(writer, written, skill)
-    attributes |= _outputs(writer, written, skill)
+    outputs, converted = _outputs(writer, written, skill)
     ports = whole_ports(skill.parameters)
-    around = node(writer, "Decorator", ("", "With", skill.name), ports, skill.doc, attributes, written.source)
-    return after(before, holding(around, child))
+    path = ("", "With", skill.name)
+    around = node(writer, "Decorator", path, ports, skill.doc, attributes | outputs, written.source)
+    return after(before, holding(around, after(converted, child())))
 
 
 def node(
@@ -125,9 +129,14 @@ def _arguments(writer: Writer, written: Call, skill: Skill) -> tuple[list[Elemen
     return before, attributes
 
 
-def _outputs(writer: Writer, written: Call, skill: Skill) -> dict[str, str]:
-    """Return where outputs go: the one that the call names to that name, others to entries nobody reads."""
-    outputs = [each.name for each in skill.parameters if each.direction == "out"]
-    if written.out is not None and len(outputs) == 1:
-        return {port(outputs[0]): pointer(port(written.out))}
-    return {port(name): pointer(writer.entry(name)) for name in outputs}
+def _outputs(writer: Writer, written: Call, skill: Skill) -> tuple[dict[str, str], list[Element]]:
+    """Return where outputs go, and the nodes that convert them; those that the call does not name, nobody reads."""
+    outputs = [each for each in skill.parameters if each.direction == "out"]
+    if written.out is None or len(outputs) != 1:
+        return {port(each.name): pointer(writer.entry(each.name)) for each in outputs}, []
+    (output,) = outputs
+    kind, target = port_type(output.type), writer.bind(written.out, output.type)
+    if None in (kind, target.type) or kind == target.type:
+        return {port(output.name): pointer(target.entry)}, []
+    found = Bound(writer.entry(written.out), kind)
+    return {port(output.name): pointer(found.entry)}, [writer.converted(written.out, found, target)]

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import re
 
-BUILT_IN = """
-    Action AlwaysFailure AlwaysSuccess AsyncFallback AsyncSequence BehaviorTree Condition Control Decorator Delay
-    Fallback ForceFailure ForceSuccess IfThenElse Inverter KeepRunningUntilFailure LoopBool LoopDouble LoopInt
-    LoopString ManualSelector Parallel ParallelAll Precondition ReactiveFallback ReactiveSequence Repeat
-    RetryUntilSuccessful RunOnce Script ScriptCondition Sequence SequenceWithMemory SetBlackboard SkipUnlessUpdated
-    Sleep SubTree Switch2 Switch3 Switch4 Switch5 Switch6 TestNode Timeout TreeNodesModel UnsetBlackboard
-    WaitValueUpdate WasEntryUpdated WhileDoElse include root
+REGISTERED = """
+    AlwaysFailure AlwaysSuccess AsyncFallback AsyncSequence Delay Fallback ForceFailure ForceSuccess IfThenElse Inverter
+    KeepRunningUntilFailure LoopBool LoopDouble LoopInt LoopString ManualSelector Parallel ParallelAll Precondition
+    ReactiveFallback ReactiveSequence Repeat RetryUntilSuccessful RunOnce Script ScriptCondition Sequence SequenceStar
+    SequenceWithMemory SetBlackboard SkipUnlessUpdated Sleep SubTree Switch2 Switch3 Switch4 Switch5 Switch6 Timeout
+    TryCatch UnsetBlackboard WaitValueUpdate WasEntryUpdated WhileDoElse
 """
+"""What `builtinNodes()` of versions 4.8.2 and 4.10.0 returns, and the nodes of all build options."""
+KEPT = "Action BehaviorTree Condition Control Decorator Root TestNode TreeNodesModel Undefined include root"
+"""What the format itself has another meaning for."""
+BUILT_IN = frozenset((REGISTERED + KEPT).split())
 ILLEGAL = re.compile(r"_(?=x[0-9a-f]+_)|[^A-Za-z0-9_]")
+NOT_IN_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 HEADLESS = re.compile(r"n*[0-9_]|$")
 RESERVED = re.compile(r"(ID|name)_*")
 MADE = re.compile(r".*__(\d+|given)_*")
@@ -25,6 +29,11 @@ def legal(name: str) -> str:
     """
     plain = ILLEGAL.sub(lambda found: f"_x{ord(found.group()):x}_", name)
     return f"n{plain}" if HEADLESS.match(plain) else plain
+
+
+def legal_text(text: str) -> str:
+    """Return text that XML can hold: a character that it cannot becomes the replacement character."""
+    return NOT_IN_XML.sub("\ufffd", text)
 
 
 def port(name: str) -> str:
@@ -51,7 +60,7 @@ class Names:
 
     def __init__(self) -> None:
         self._chosen: dict[tuple[str, ...], str] = {}
-        self._used = set(BUILT_IN.split())
+        self._used = set(BUILT_IN)
 
     def of(self, *parts: str) -> str:
         """Return the ID of the thing with this path of names, always the same; empty ones only tell paths apart."""

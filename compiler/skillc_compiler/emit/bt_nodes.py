@@ -9,14 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence as Several
 from dataclasses import dataclass
+from functools import partial
 from typing import assert_never
 from xml.etree.ElementTree import Element
 
 from skillc_compiler.emit.bt_body import Writer, after, holding, pointer, sequence
 from skillc_compiler.emit.bt_calls import call, may_break_hold, scoped
 from skillc_compiler.emit.bt_model import Port
-from skillc_compiler.emit.bt_names import port
-from skillc_compiler.emit.bt_patterns import forget, kept, lead, once, sequence_of, until, while_
+from skillc_compiler.emit.bt_patterns import count_text, forget, kept, lead, once, sequence_of, until, while_
 from skillc_compiler.library.conditions import Arithmetic, Expression, Literal
 from skillc_compiler.library.reading import free_variables_in_order, walk
 from skillc_compiler.library.skills import Post
@@ -43,6 +43,8 @@ from skillc_compiler.library.tree import (
 )
 
 COUNTS = {"all": ("-1", "1"), "any": ("1", "-1"), "race": ("1", "1")}
+MAX_MILLISECONDS = 2**32 - 1
+"""The longest time of Sleep and Timeout, about 49 days."""
 HIDING = {
     "Try": ("ForceSuccess", "Turns a failure of its child into success, but not that of a broken hold condition."),
     "Invert": (
@@ -62,15 +64,15 @@ class Body(Writer):
             case Sequence(reactive=True):
                 return self._reactive(node)
             case Sequence(children=children):
-                return self._control("Sequence", children, node)
+                return self._control("Sequence", [self.node(each) for each in children], node)
             case Selector(children=children, reactive=reactive):
-                return self._control("ReactiveFallback" if reactive else "Fallback", children, node)
+                return self._control("ReactiveFallback" if reactive else "Fallback", self._apart(children), node)
             case Parallel():
                 return self._parallel(node)
             case Retry(count=count, child=child):
-                return holding(Element("RetryUntilSuccessful", num_attempts=str(count)), self.node(child))
+                return holding(Element("RetryUntilSuccessful", num_attempts=count_text(count)), self.node(child))
             case Repeat(count=count, child=child):
-                return holding(Element("Repeat", num_cycles=str(count)), self.node(child))
+                return holding(Element("Repeat", num_cycles=count_text(count)), self.node(child))
             case Timeout(seconds=seconds, child=child):
                 return self._timed("Timeout", seconds, 1, self.node(child))
             case Wait(seconds=seconds):
@@ -89,9 +91,10 @@ class Body(Writer):
             case WaitUntil(condition=condition, text=text, source=source):
                 return until(self.test("until", condition, text, source))
             case If(condition=condition, text=text, source=source):
-                orelse = self.node(node.orelse) if node.orelse else Element("AlwaysSuccess")
                 test = self.test("if", condition, text, source)
-                return holding(Element("IfThenElse"), test, self.node(node.then), orelse)
+                branches = self._apart([each for each in (node.then, node.orelse) if each])
+                otherwise = [] if node.orelse else [Element("AlwaysSuccess")]
+                return holding(Element("IfThenElse"), test, *branches, *otherwise)
             case While(child=child, limit=limit, source=source):
                 test = self.test("while", node.condition, node.text, source)
                 return while_(test, self.node(child), limit, self.entry("done"), self.entry("rounds"))
@@ -104,15 +107,18 @@ class Body(Writer):
             case Call():
                 return call(self, node)
             case With(call=set_up, child=child):
-                return scoped(self, set_up, self.node(child))
+                return scoped(self, set_up, partial(self.node, child))
             case _:
                 assert_never(node)
 
-    def _control(self, tag: str, children: Several[Node], node: Sequence | Selector) -> Element:
-        return holding(Element(tag, _description=str(node.source)), *(self.node(child) for child in children))
+    def _control(self, tag: str, children: Several[Element], node: Sequence | Selector) -> Element:
+        return holding(Element(tag, _description=str(node.source)), *children)
+
+    def _apart(self, nodes: Several[Node]) -> list[Element]:
+        return self.apart([partial(self.node, each) for each in nodes])
 
     def _parallel(self, node: Parallel) -> Element:
-        children = [self.node(child) for child in node.children]
+        children = self._apart(node.children)
         if node.policy == "lead":
             parallel = lead(children[0], children[1:])
         else:
@@ -163,7 +169,7 @@ class Body(Writer):
         """Return a node that takes milliseconds, at least so many: a timeout of 0 would never come."""
         before: list[Element] = []
         if isinstance(seconds, Literal) and isinstance(seconds.value, int | float):
-            milliseconds = str(max(least, round(seconds.value * 1000)))
+            milliseconds = str(min(max(least, round(seconds.value * 1000)), MAX_MILLISECONDS))
         else:
             product = Arithmetic("*", seconds, Literal(1000.0))
             milliseconds = self.value("milliseconds", product, before, "unsigned int")
@@ -178,8 +184,11 @@ class Body(Writer):
         self.model.declare(
             "Decorator", identity, ("", "ForEach"), ports, "Runs its child once for every item, in order."
         )
-        attributes = {"items": items, "item": pointer(port(node.variable)), "_description": str(node.source)}
-        return after(before, holding(Element(identity, attributes), self.node(node.child)))
+        around, item = self.bound, self.bind(node.variable, None)
+        attributes = {"items": items, "item": pointer(item.entry), "_description": str(node.source)}
+        child = self.node(node.child)
+        self.bound = {name: each for name, each in self.bound.items() if name != node.variable or name in around}
+        return after(before, holding(Element(identity, attributes), child))
 
     def _apply(self, post: Post) -> Element:
         path = (*self.owner, "apply", post.label)

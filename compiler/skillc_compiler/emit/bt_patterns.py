@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from xml.etree.ElementTree import Element
 
 from skillc_compiler.emit.bt_body import after, holding
+from skillc_compiler.emit.bt_ports import INT_MAX
 
 NOT_YET, WORKED, FAILED = 0, 1, 2
 
@@ -50,9 +51,14 @@ def while_(condition: Element, child: Element, limit: int, done: str, rounds: st
     """
     condition.set("_onFailure", f"{done} := {WORKED}")
     counted = Element("ScriptCondition", code=f"{rounds} < {limit}", _onSuccess=f"{rounds} := {rounds} + 1")
-    loop = holding(Element("Repeat", num_cycles=str(limit + 1)), sequence_of(condition, counted, child))
+    loop = holding(Element("Repeat", num_cycles=count_text(limit + 1)), sequence_of(condition, counted, child))
     ended = holding(Element("Fallback"), loop, _is(done, WORKED))
     return sequence_of(Element("Script", code=forget([done, rounds])), ended)
+
+
+def count_text(count: int) -> str:
+    """Return a number of rounds as the library reads it, which knows no higher one."""
+    return str(min(count, INT_MAX))
 
 
 def sequence_of(*children: Element) -> Element:

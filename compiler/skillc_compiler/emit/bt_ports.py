@@ -2,23 +2,41 @@
 
 BehaviorTree.CPP refuses a call of a tree that does not map each port of its model that has no default. So a tree
 declares what every caller passes or takes, and what has a default; the rest may be mapped, but need not be.
+
+A constant that is passed to a tree becomes an entry of the blackboard. Since version 4.9 the type of that entry is
+guessed from the text: `12` is an int, `12.0`, `1e3` and `nan` are a double. The port that reads it must be of the same
+type, so numbers are written as their type is, and text that looks like a number is not written as a constant.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import assert_never
 
 from skillc_compiler.emit.bt_model import Direction, Port
-from skillc_compiler.emit.bt_names import given, port
-from skillc_compiler.emit.phrases import literal_text
-from skillc_compiler.library.conditions import Expression, Individual, Literal, Variable
+from skillc_compiler.emit.bt_names import NOT_IN_XML, given, port
+from skillc_compiler.library.conditions import Expression, Individual, Literal
 from skillc_compiler.library.pddl.rewriting import constant
 from skillc_compiler.library.skills import Parameter
-from skillc_compiler.library.vocabulary import ClassType, ListType, NumberType, PlainType, ValueType, VectorType
+from skillc_compiler.library.vocabulary import (
+    ClassType,
+    DirectionType,
+    ListType,
+    NumberType,
+    PlainType,
+    ValueType,
+    VectorType,
+)
 
 PLAIN = {"Bool": "bool", "Int": "int", "Text": "std::string", "Pose": None}
-NOT_TAKEN_AS_WRITTEN = ("{", "json:")
+TAKEN_OTHERWISE = re.compile(
+    r"|=| *\{.*|json:.*"  # no value, an entry, JSON
+    r"|-?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?|-?inf(inity)?|-?nan(\(\w*\))?",  # a number
+    re.IGNORECASE | re.ASCII | re.DOTALL,
+)
+"""Text that is not read as it is written."""
+INT_MIN, INT_MAX = -(2**31), 2**31 - 1
 
 
 def action_ports(parameters: Sequence[Parameter]) -> tuple[Port, ...]:
@@ -59,33 +77,41 @@ def passed_on(parameters: Sequence[Parameter]) -> dict[str, str]:
 
 
 def default_text(parameter: Parameter) -> str | None:
-    """Return the default as a port has it, None without; the empty text counts as none in BehaviorTree.CPP."""
+    """Return the default as a port has it, None without one or if no port can have it."""
     match parameter.default:
         case None:
             return None
         case Literal() | Individual() as value:
-            return plain_value(value)
+            return plain_value(value, port_type(parameter.type))
         case computed:
             number = constant(computed)
-            return None if number is None else literal_text(number)
+            return None if number is None else plain_value(Literal(number), port_type(parameter.type))
 
 
-def plain_value(expression: Expression) -> str | None:
-    """Return what a port is given for a constant or a name; None for what must be computed.
-
-    Empty text means no value to BehaviorTree.CPP, and text in braces an entry: both are computed like an expression.
-    """
+def plain_value(expression: Expression, type_: str | None) -> str | None:
+    """Return what a port of a C++ type is given for a constant or an individual; None for what must be computed."""
     match expression:
-        case Literal(value=str() as text) if not text or text.startswith(NOT_TAKEN_AS_WRITTEN):
-            return None
         case Literal(value=value):
-            return literal_text(value)
+            return constant_text(value, type_)
         case Individual(iri=iri):
             return iri
-        case Variable(name=name):
-            return f"{{{port(name)}}}"
         case _:
             return None
+
+
+def constant_text(value: bool | int | float | str, type_: str | None) -> str | None:
+    """Return a constant as every version of the library reads it with this type, None if no text is read so."""
+    match value:
+        case bool():
+            return "true" if value else "false"
+        case str():
+            return None if TAKEN_OTHERWISE.fullmatch(value) or NOT_IN_XML.search(value) else value
+        case int() | float() if type_ == "int":
+            return str(int(value)) if INT_MIN <= value <= INT_MAX else None
+        case int() | float():
+            return repr(float(value))
+        case _:
+            assert_never(value)
 
 
 def port_type(type_: ValueType) -> str | None:
@@ -97,7 +123,7 @@ def port_type(type_: ValueType) -> str | None:
             return PLAIN[name]
         case ClassType():
             return "std::string"
-        case VectorType() | ListType():
+        case VectorType() | DirectionType() | ListType():
             return None
         case _:
             assert_never(type_)

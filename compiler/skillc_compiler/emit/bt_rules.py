@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from xml.etree.ElementTree import Element
 
 from skillc_compiler.emit.bt_names import BUILT_IN
@@ -37,9 +38,10 @@ NODES: Mapping[str, tuple[Children, Mapping[str, str]]] = {
 """The nodes of BehaviorTree.CPP that trees here are made of: how many children, which ports of which type."""
 
 KINDS: Mapping[str, Children] = {"Action": (0, 0), "Condition": (0, 0), "Decorator": (1, 1), "SubTree": (0, 0)}
-NAMELESS = frozenset({"_description", "_onSuccess", "_onFailure"})
-NUMBER = r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?"
-LITERALS = {"bool": "true|false", "int": r"[-+]?\d+", "unsigned int": r"\d+", "double": NUMBER, "std::string": "(?s).+"}
+NAMELESS = frozenset({"_autoremap", "_description", "_onSuccess", "_onFailure"})
+NUMBER = r"-?((\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|(?i:inf(inity)?|nan(\(\w*\))?))"
+LITERALS = {"bool": "true|false", "int": r"-?\d+", "unsigned int": r"\d+", "double": NUMBER, "std::string": "(?s).+"}
+BOUNDS = {"int": range(-(2**31), 2**31), "unsigned int": range(2**32)}
 IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 POINTER = re.compile(r"\{([A-Za-z][A-Za-z0-9_]*)\}")
 RESERVED = frozenset({"ID", "name"})
@@ -69,8 +71,9 @@ def broken_rules(root: Element) -> Iterator[str]:
     for model in models:
         yield from _of_model(model, trees)
     for tree in trees.values():
-        for node in list(tree.iter())[1:]:
-            yield from (f"{words} ({tree.get('ID')})" for words in _of_node(node, trees, declared))
+        found = [words for node in list(tree.iter())[1:] for words in _of_node(node, trees, declared)]
+        found += _of_entries(tree, partial(_types, declared=declared))
+        yield from (f"{words} ({tree.get('ID')})" for words in found)
 
 
 def _of_file(root: Element, trees: Mapping[str, Element]) -> Iterator[str]:
@@ -109,7 +112,8 @@ def _of_model(model: Element, trees: Mapping[str, Element]) -> Iterator[str]:
     yield from (f"{identity} has a port {name!r}" for name in names if not _is_port(name))
     for name, port in _ports(model).items():
         default = port.get("default")
-        if default is not None and not _fits(default, port.get("type")):
+        kept = default is None or model.tag != "SubTree" or _stays(default, port.get("type"))
+        if default is not None and not (_fits(default, port.get("type")) and kept):
             yield f"{identity} gives {name} the default {default!r}"
 
 
@@ -139,8 +143,20 @@ def _of_node(node: Element, trees: Mapping[str, Element], declared: Mapping[str,
         yield from (f"{identity} leaves {name} open" for name in sorted(needed - node.attrib.keys()))
     yield from (f"{identity} has no port {name}" for name in sorted(_passed(node) - types.keys()))
     yield from _of_attributes(node, identity, types.get)
+    if node.tag == "SubTree":
+        constants = {name: node.attrib[name] for name in _passed(node) if not POINTER.fullmatch(node.attrib[name])}
+        wrong = (name for name, value in constants.items() if value and not _stays(value, types.get(name)))
+        yield from (f"{identity} is passed {node.get(name)!r} for {name}, of type {types[name]}" for name in wrong)
     outputs = (name for name, port in ports.items() if port.tag == "output_port" and name in node.attrib)
     yield from (f"{identity} puts {name} nowhere" for name in outputs if not POINTER.fullmatch(node.attrib[name]))
+
+
+def _types(node: Element, declared: Mapping[str, Element]) -> Mapping[str, str | None]:
+    """Return the types of a node's ports."""
+    identity = node.get("ID", "") if node.tag == "SubTree" else node.tag
+    if identity in NODES:
+        return NODES[identity][1]
+    return {name: each.get("type") for name, each in _ports(declared[identity]).items()} if identity in declared else {}
 
 
 def _of_children(node: Element, identity: str, children: Children) -> Iterator[str]:
@@ -174,7 +190,27 @@ def _entries(tree: Element) -> set[str]:
 
 def _fits(value: str, type_: str | None) -> bool:
     """Whether a value is an entry of the blackboard or text of the type; empty text is no value at all."""
-    return bool(POINTER.fullmatch(value) or re.fullmatch(LITERALS[type_ or "std::string"], value))
+    if POINTER.fullmatch(value):
+        return True
+    known = type_ or "std::string"
+    return bool(re.fullmatch(LITERALS[known], value)) and (known not in BOUNDS or int(value) in BOUNDS[known])
+
+
+def _stays(value: str, type_: str | None) -> bool:
+    """Whether a constant that is passed to a tree, where its type is guessed from the text, is of the port's type."""
+    guessed = next((each for each in ("int", "double") if re.fullmatch(LITERALS[each], value)), None)
+    return type_ is None or (type_ == guessed if guessed else type_ not in ("int", "double"))
+
+
+def _of_entries(tree: Element, types_of: Callable[[Element], Mapping[str, str | None]]) -> Iterator[str]:
+    """Yield the entries that ports of several types share; one whose first port has no type takes what is written."""
+    found: dict[str, list[str | None]] = {}
+    for node in tree.iter():
+        for name, type_ in types_of(node).items():
+            if entry := POINTER.fullmatch(node.get(name, "")):
+                found.setdefault(entry.group(1), []).append(type_)
+    shared = {name: sorted({each for each in types if each}) for name, types in found.items() if types[0]}
+    yield from (f"the entry {name} is {' and '.join(types)}" for name, types in shared.items() if len(types) > 1)
 
 
 def _is_port(name: str) -> bool:
@@ -182,4 +218,4 @@ def _is_port(name: str) -> bool:
 
 
 def _is_free(identity: str) -> bool:
-    return IDENTIFIER.fullmatch(identity) is not None and identity not in BUILT_IN.split()
+    return IDENTIFIER.fullmatch(identity) is not None and identity not in BUILT_IN

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from xml.etree.ElementTree import Element
 
-from skillc_compiler.emit.bt_body import holding, pointer, sequence, types_of
+from skillc_compiler.emit.bt_body import bound_by, holding, pointer, sequence
 from skillc_compiler.emit.bt_calls import call, run
 from skillc_compiler.emit.bt_model import Model
 from skillc_compiler.emit.bt_names import Names, given, port
 from skillc_compiler.emit.bt_nodes import Body, started
-from skillc_compiler.emit.bt_ports import default_text, inferring_ports, passed_on
+from skillc_compiler.emit.bt_ports import inferring_ports, passed_on
 from skillc_compiler.library.conditions import Expression, IsA, Variable
 from skillc_compiler.library.skills import Compound, Implementation, Post, Requirement, Skill, SkillLibrary
 from skillc_compiler.library.tree import Call
@@ -24,18 +24,16 @@ def main_tree(library: SkillLibrary, names: Names, model: Model, skill: Skill) -
     """Return the tree that runs a skill by itself: what has a default gets it, the rest is read from the blackboard."""
     path = (skill.name, DESCRIPTION, "main")
     arguments: dict[str, Expression] = {
-        each.name: Variable(each.name)
-        for each in skill.parameters
-        if each.direction != "out" and default_text(each) is None
+        each.name: Variable(each.name) for each in skill.parameters if each.direction != "out" and each.default is None
     }
-    body = Body(library, names, model, path, types=types_of(skill.parameters))
+    body = Body(library, names, model, path, bound=bound_by(skill.parameters))
     running = call(body, Call(skill.name, None, arguments, None, skill.source))
     return _tree(body, running, str(skill.source), skill.doc)
 
 
 def skill_tree(library: SkillLibrary, names: Names, model: Model, skill: Skill) -> Element:
     """Return the tree of a description, which runs the first implementation that fits."""
-    body = Body(library, names, model, (skill.name,), types=types_of(skill.parameters))
+    body = Body(library, names, model, (skill.name,), bound=bound_by(skill.parameters))
     steps = _guarded(body, skill, library.implementations_of(skill.name))
     return _tree(body, steps, str(skill.source))
 
@@ -43,7 +41,7 @@ def skill_tree(library: SkillLibrary, names: Names, model: Model, skill: Skill) 
 def fixed_tree(library: SkillLibrary, names: Names, model: Model, skill: Skill, chosen: Implementation) -> Element:
     """Return the tree of a description for callers who have chosen the implementation."""
     owner = (skill.name, DESCRIPTION, "only", chosen.name)
-    body = Body(library, names, model, owner, types=types_of(skill.parameters))
+    body = Body(library, names, model, owner, bound=bound_by(skill.parameters))
     return _tree(body, _guarded(body, skill, [chosen]), str(skill.source))
 
 
@@ -51,8 +49,8 @@ def implementation_tree(library: SkillLibrary, names: Names, model: Model, imple
     """Return the tree of a compound implementation: its lets, then its body."""
     if not isinstance(implementation.body, Compound):
         raise TypeError(f"{implementation.name} has no tree")
-    owner, types = (implementation.skill, implementation.name), types_of(implementation.parameters)
-    body = Body(library, names, model, owner, posts=implementation.post, types=types)
+    owner, bound = (implementation.skill, implementation.name), bound_by(implementation.parameters)
+    body = Body(library, names, model, owner, posts=implementation.post, bound=bound)
     steps = [body.evaluate(each.value, port(each.name)) for each in implementation.lets]
     steps.append(body.node(implementation.body.node))
     return _tree(body, started(body, steps), str(implementation.source))

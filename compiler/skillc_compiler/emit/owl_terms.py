@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.emit.owl_words import DATATYPES, OWL, RDFS, XSD, frame, library_base
+from skillc_compiler.emit.owl_words import DATATYPES, OWL, RDFS, SKILLC, XSD, frame, library_base
 from skillc_compiler.emit.turtle import RDF_TYPE, Anonymous, Iri, Listed, Object
 from skillc_compiler.library.conditions import IsA
 from skillc_compiler.library.reading import terms_read, walk
@@ -16,8 +16,10 @@ from skillc_compiler.library.vocabulary import (
     PlainType,
     PropertyTerm,
     RelationTerm,
+    VectorType,
     Vocabulary,
 )
+from skillc_compiler.library.words import SI_UNITS
 
 Statement = tuple[str, str, Object]
 FLAGS = {
@@ -112,6 +114,8 @@ def _property(term: PropertyTerm) -> Iterator[Statement]:
     datatype = _datatype(term)
     if datatype is not None:
         yield term.iri, f"{RDFS}range", datatype
+    if isinstance(term.type, NumberType | VectorType) and term.type.dimension in SI_UNITS:
+        yield term.iri, f"{SKILLC}dimension", term.type.dimension
     if term.comment:
         yield term.iri, f"{RDFS}comment", term.comment
 

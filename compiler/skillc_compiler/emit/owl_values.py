@@ -12,6 +12,7 @@ from skillc_compiler.library.conditions import Expression, Individual, Literal
 from skillc_compiler.library.pddl.rewriting import constant
 from skillc_compiler.library.vocabulary import (
     ClassType,
+    DirectionType,
     ListType,
     NumberType,
     PlainType,
@@ -56,6 +57,8 @@ def _type_iri(type_: ValueType) -> str:
             return f"{SKILLC}{dimension}" if dimension in SI_UNITS else f"{XSD}double"
         case VectorType():
             return f"{SKILLC}Vector"
+        case DirectionType():
+            return f"{SKILLC}Direction"
         case PlainType(name=name):
             return DATATYPES.get(name, f"{SKILLC}{name}")
         case ListType(element=element):

@@ -52,7 +52,7 @@ RELATIONS = (
 )
 PROPERTIES = tuple(f"{SKILLC}{name}" for name in ("desiredState", "operator", "conditionText"))
 _NOTES = """
-    comparedValue conditionProperty conditionRelation definedAt defaultValue direction duration durationUnit
+    comparedValue conditionProperty conditionRelation definedAt defaultValue dimension direction duration durationUnit
     greatestValue implements isList leastValue parameterType preference python rank sensed sha256 unit
 """
 ANNOTATIONS = tuple(f"{SKILLC}{name}" for name in _NOTES.split())

@@ -34,9 +34,13 @@ class NumberType(msgspec.Struct, frozen=True, tag="number"):
 
 
 class VectorType(msgspec.Struct, frozen=True, tag="vector"):
-    """Three numbers of one dimension in the world frame."""
+    """Three numbers of one dimension in the world frame; `Number` where they are pure numbers."""
 
     dimension: str
+
+
+class DirectionType(msgspec.Struct, frozen=True, tag="direction"):
+    """A vector of pure numbers in the world frame whose length is 1."""
 
 
 class PlainType(msgspec.Struct, frozen=True, tag="plain"):
@@ -51,7 +55,7 @@ class ListType(msgspec.Struct, frozen=True, tag="list"):
     element: ValueType
 
 
-ValueType: TypeAlias = ClassType | NumberType | VectorType | PlainType | ListType
+ValueType: TypeAlias = ClassType | NumberType | VectorType | DirectionType | PlainType | ListType
 
 
 class ClassTerm(msgspec.Struct, frozen=True, kw_only=True):

@@ -6,6 +6,7 @@ from typing import assert_never
 
 from skillc_compiler.library.vocabulary import (
     ClassType,
+    DirectionType,
     ListType,
     NumberType,
     PlainType,
@@ -39,8 +40,10 @@ def type_text(type_: ValueType, vocabulary: Vocabulary) -> str:
             return vocabulary.short(iri)
         case NumberType(dimension=dimension):
             return dimension
-        case VectorType():
-            return "Vector"
+        case VectorType(dimension=dimension):
+            return "Vector" if dimension == "Number" else f"Vector of {dimension}"
+        case DirectionType():
+            return "Direction"
         case PlainType(name=name):
             return name
         case ListType(element=element):

@@ -9,7 +9,7 @@ Bad:
     skill Rest {
         in arm:  ArmDevice
         in goal: Pose
-        in up:   Vector
+        in up:   Vector of Length
         noplan
     }
     impl waiting of Rest {
@@ -24,7 +24,7 @@ Good:
     skill Rest {
         in arm:  ArmDevice
         in goal: Pose
-        in up:   Vector
+        in up:   Vector of Length
         noplan
     }
     impl waiting of Rest {

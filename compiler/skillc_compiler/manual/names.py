@@ -29,7 +29,8 @@ Good:
 
 ## unknown-type: there is no such type
 
-A type is a class, a dimension, or `Bool`, `Int`, `Number`, `Text`, `Pose`, `Vector`; `[T]` is a list.
+A type is a class, a dimension, or `Bool`, `Int`, `Number`, `Text`, `Pose`, `Vector`, `Direction`;
+`Vector of Length` is a vector of a dimension, `[T]` a list.
 
 Bad:
 

@@ -20,7 +20,8 @@ Good:
 
 ## unknown-datatype: the range of a data property is no datatype of the language
 
-Known are `xsd:double`, `integer`, `string`, `boolean`, `skillc:Pose`, `skillc:Vector` and an `owl:oneOf` of texts.
+Known are `xsd:double`, `integer`, `string`, `boolean`, `skillc:Pose`, `skillc:Vector`, `skillc:Direction` and an
+`owl:oneOf` of texts.
 
 Bad:
 
@@ -41,6 +42,33 @@ Good:
 
     lab:age a owl:DatatypeProperty ;
         rdfs:range xsd:double .
+
+## unknown-dimension: the dimension of a data property is none of the language
+
+Numbers and vectors have a dimension by its name in the language: `Length`, `Force`. What else a property may have, a
+whole number, a direction, a text, has none.
+
+Bad:
+
+    @prefix lab: <http://example.org/lab#> .
+    @prefix owl: <http://www.w3.org/2002/07/owl#> .
+    @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
+    @prefix skillc: <https://w3id.org/skillc/core#> .
+
+    lab:draught a owl:DatatypeProperty ;
+        rdfs:range skillc:Vector ;
+        skillc:dimension "Velocity" .
+
+Good:
+
+    @prefix lab: <http://example.org/lab#> .
+    @prefix owl: <http://www.w3.org/2002/07/owl#> .
+    @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
+    @prefix skillc: <https://w3id.org/skillc/core#> .
+
+    lab:draught a owl:DatatypeProperty ;
+        rdfs:range skillc:Vector ;
+        skillc:dimension "Speed" .
 
 ## computed-relation: a computed relation has an axiom
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from skillc_compiler.library.vocabulary import (
     ClassType,
+    DirectionType,
     ListType,
     NumberType,
     PlainType,
@@ -23,6 +24,7 @@ BUILT_IN: dict[str, ValueType] = {
     "Text": PlainType("Text"),
     "Pose": PlainType("Pose"),
     "Vector": VectorType("Number"),
+    "Direction": DirectionType(),
 }
 
 
@@ -31,12 +33,30 @@ def value_type(names: Names, written: s.TypeName) -> ValueType:
     match written:
         case s.ListOf(element=element):
             return ListType(value_type(names, element))
+        case s.OfDimension():
+            return _of_dimension(names, written)
         case s.Name(text=text) if text in BUILT_IN:
             return BUILT_IN[text]
         case s.Name(text=text) if ":" not in text and not names.is_term("class", text):
             return _unknown(names, written)
         case s.Name():
             return _class(names, written)
+
+
+def _of_dimension(names: Names, written: s.OfDimension) -> ValueType:
+    """Return the type of `Vector of DIMENSION`; what else stands before or after `of` is reported."""
+    of, dimension = written.of, written.dimension
+    if of.text != "Vector":
+        message = f"only a `Vector` is of a dimension, and this is `{of.text}`"
+        help_ = f"write `{dimension.text}` alone" if of.text in DIMENSIONS else f"write `{of.text}` alone"
+        names.problems.append(Diagnostic("unknown-type", written.span, message, help=help_))
+        return NOT_UNDERSTOOD
+    if dimension.text not in DIMENSIONS:
+        message = f"there is no dimension `{dimension.text}`"
+        help_ = did_you_mean(dimension.text, DIMENSIONS)
+        names.problems.append(Diagnostic("unknown-type", dimension.span, message, help=help_))
+        return NOT_UNDERSTOOD
+    return VectorType(dimension.text)
 
 
 def _class(names: Names, written: s.Name) -> ValueType:

@@ -24,9 +24,9 @@ from skillc_compiler.types import (
     Measure,
     Thing,
     Type,
+    Vector,
     fits,
     of_library,
-    of_property,
 )
 from skillc_dsl import syntax as s
 from skillc_dsl.units import NUMBER, dimension_of, to_si
@@ -142,7 +142,7 @@ def _member(setting: Setting, scope: Scope, written: s.Member) -> Valued:
     iri = property_of(setting, of, written.property)
     if iri is None:
         return Valued(PropertyOf(of.meaning, written.property.text), UNKNOWN, written.span, (of,))
-    kind = of_property(setting.vocabulary.properties[iri].type)
+    kind = of_library(setting.vocabulary.properties[iri].type)
     return Valued(PropertyOf(of.meaning, iri), kind, written.span, (of,))
 
 
@@ -179,8 +179,16 @@ def _apply(setting: Setting, scope: Scope, written: s.Apply) -> Valued:
 def _arithmetic(setting: Setting, scope: Scope, written: s.Arithmetic) -> Valued:
     left, right = value(setting, scope, written.left), value(setting, scope, written.right)
     meaning = Arithmetic(written.operator, left.meaning, right.meaning)
-    kind = result_type(written.operator, left.type, right.type)
+    turned = _is_turned(written.operator, left, right)
+    kind = Direction() if turned else result_type(written.operator, left.type, right.type)
     return Valued(meaning, kind or UNKNOWN, written.span, (left, right))
+
+
+def _is_turned(operator: str, left: Valued, right: Valued) -> bool:
+    """Whether this is a direction times or by 1 or -1, which is a direction still."""
+    one, other = (right, left) if operator == "*" and isinstance(right.type, Direction) else (left, right)
+    is_one = _number(other.type) == Measure(NUMBER) and other.meaning in (Literal(1), Literal(-1))
+    return operator in ("*", "/") and isinstance(one.type, Direction) and is_one
 
 
 def result_type(operator: str, left: Type, right: Type) -> Type | None:
@@ -190,18 +198,23 @@ def result_type(operator: str, left: Type, right: Type) -> Type | None:
     if (left, right) == (INT, INT) and operator != "/":
         return INT
     match operator, _number(left), _number(right):
-        case "+" | "-", Measure() | Direction() as one, other:
+        case "+" | "-", Measure() | Vector() as one, other:
             return one if one == other else None
         case "*", Measure(one), Measure(other):
             return Measure(one * other)
         case "/", Measure(one), Measure(other):
             return Measure(one / other)
-        case ("*", Direction(one), Measure(other)) | ("*", Measure(one), Direction(other)):
-            return Direction(one * other if one and other else None)
-        case "/", Direction(one), Measure(other):
-            return Direction(one / other if one and other else None)
+        case ("*", Vector(one), Measure(other)) | ("*", Measure(one), Vector(other)):
+            return Vector(one * other)
+        case "/", Vector(one), Measure(other):
+            return Vector(one / other)
     return None
 
 
 def _number(kind: Type) -> Type:
-    return Measure(NUMBER) if kind == INT else kind
+    """Return what a type is to arithmetic: a whole number is a number, a direction a vector of pure numbers."""
+    match kind:
+        case Direction():
+            return Vector(NUMBER)
+        case _:
+            return Measure(NUMBER) if kind == INT else kind

@@ -9,6 +9,7 @@ import pyoxigraph as ox
 
 from skillc_compiler.library.vocabulary import (
     Bounds,
+    DirectionType,
     NumberType,
     PlainType,
     Position,
@@ -18,8 +19,9 @@ from skillc_compiler.library.vocabulary import (
 )
 from skillc_compiler.vocabulary.graph import Graph, Node
 from skillc_compiler.vocabulary.names import EQUAL_CLASS, OWL, RANGE, RDFS, SKILLC, XSD
-from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.diagnostics import Diagnostic, did_you_mean
 from skillc_dsl.source import Span
+from skillc_dsl.units import DIMENSIONS
 
 NUMBERS = frozenset(f"{XSD}{name}" for name in ("double", "float", "decimal"))
 INTEGERS = frozenset(
@@ -36,6 +38,7 @@ PLAIN: dict[str, ValueType] = {
     f"{XSD}boolean": PlainType("Bool"),
     **{datatype: PlainType("Int") for datatype in INTEGERS},
     f"{SKILLC}Pose": PlainType("Pose"),
+    f"{SKILLC}Direction": DirectionType(),
 }
 FACETS = {
     f"{XSD}minInclusive": "least",
@@ -75,17 +78,36 @@ def ranges_of(graph: Graph, iri: str) -> tuple[str, ...]:
 
 
 def value_types_known(graph: Graph, properties: Iterable[str], places: Mapping[str, Position]) -> Iterator[Diagnostic]:
-    """Report the data properties that cannot be used because their range is no type of the language."""
+    """Report the data properties whose range or dimension is none of the language."""
     for iri in sorted(properties):
-        if value_type(graph, iri) is None:
-            place = places.get(iri, Position(iri, 1, 1))
+        place = places.get(iri, Position(iri, 1, 1))
+        span = Span(place.path, place.line, 1, place.line, 2)
+        found = value_type(graph, iri)
+        if found is not None:
+            yield from _dimension_known(graph, iri, found.type, span)
+        else:
             yield Diagnostic(
                 "unknown-datatype",
-                Span(place.path, place.line, 1, place.line, 2),
+                span,
                 f"the range of {iri} is no datatype that skillc knows, so the property cannot be used",
-                help="use xsd:double, integer, string or boolean, skillc:Pose, skillc:Vector or an owl:oneOf of texts",
+                help="use xsd:double, integer, string or boolean, skillc:Pose, skillc:Vector, skillc:Direction "
+                "or an owl:oneOf of texts",
                 severity="warning",
             )
+
+
+def _dimension_known(graph: Graph, iri: str, type_: ValueType, span: Span) -> Iterator[Diagnostic]:
+    """Report a dimension that the language does not have, or that stands at values that have none."""
+    dimension = graph.text(iri, f"{SKILLC}dimension")
+    if dimension is None:
+        return
+    if not isinstance(type_, NumberType | VectorType):
+        message = f"{iri} has a dimension, {dimension}, and its values are no quantities"
+        help_ = "use xsd:double or skillc:Vector as its range, or leave `skillc:dimension` out"
+        yield Diagnostic("unknown-dimension", span, message, help_)
+    elif dimension not in DIMENSIONS:
+        help_ = did_you_mean(dimension, DIMENSIONS)
+        yield Diagnostic("unknown-dimension", span, f"{iri} is of the dimension {dimension}, which is none", help_)
 
 
 def _typed(graph: Graph, range_: Node, dimension: str, within: frozenset[Node] = frozenset()) -> Typed | None:

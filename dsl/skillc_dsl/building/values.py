@@ -34,10 +34,14 @@ class Values(Places):
         """`[T]`"""
         return s.ListOf(self.type_at(children, 1), self.over(children))
 
+    def of_dimension(self, children: list[Child]) -> s.OfDimension:
+        """`Vector of Length`"""
+        return s.OfDimension(self.as_name(children[0]), self.as_name(children[2]), self.over(children))
+
     def type_at(self, children: list[Child], index: int) -> s.TypeName:
         """Return the type at `index`; the grammar puts nothing else there."""
         found = children[index]
-        if not isinstance(found, s.Name | s.ListOf):
+        if not isinstance(found, s.TypeName):
             raise TypeError(f"a type was expected, not {found!r}")
         return found
 
@@ -61,6 +65,11 @@ class Values(Places):
                 return s.Number(-value, f"-{text}", self.over(children))
             case other:
                 raise TypeError(f"a number was expected, not {other!r}")
+
+    def opposite(self, children: list[Child]) -> s.Arithmetic:
+        """`-normal`, which is `-1 * normal`"""
+        minus = s.Number(-1.0, "-1", self.place(children[0]))
+        return s.Arithmetic("*", minus, self.value(children[1]), self.over(children))
 
     def text(self, children: list[Token]) -> s.Text:
         """`"like this"`"""

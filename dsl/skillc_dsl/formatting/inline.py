@@ -14,7 +14,7 @@ from skillc_dsl.tokens import NUMBER
 
 Branch: TypeAlias = Token | Tree[Token]
 _CHAINS = ("sum", "product", "or_", "and_", "implies")
-_TIGHT = ("member", "negative", "list_of", "implementation")
+_TIGHT = ("member", "negative", "opposite", "list_of", "implementation")
 _CALLS = ("call", "apply", "check")
 
 

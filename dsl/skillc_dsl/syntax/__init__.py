@@ -65,6 +65,7 @@ from skillc_dsl.syntax.values import ListOf as ListOf
 from skillc_dsl.syntax.values import Member as Member
 from skillc_dsl.syntax.values import Name as Name
 from skillc_dsl.syntax.values import Number as Number
+from skillc_dsl.syntax.values import OfDimension as OfDimension
 from skillc_dsl.syntax.values import Quantity as Quantity
 from skillc_dsl.syntax.values import Reference as Reference
 from skillc_dsl.syntax.values import Text as Text

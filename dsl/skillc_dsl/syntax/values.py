@@ -24,7 +24,16 @@ class ListOf:
     span: Span
 
 
-TypeName: TypeAlias = Name | ListOf
+@dataclass(frozen=True, slots=True)
+class OfDimension:
+    """The type `Vector of Length`; what else stands before `of` is no type."""
+
+    of: Name
+    dimension: Name
+    span: Span
+
+
+TypeName: TypeAlias = Name | OfDimension | ListOf
 
 
 @dataclass(frozen=True, slots=True)

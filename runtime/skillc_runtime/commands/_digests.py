@@ -76,10 +76,10 @@ def _python(sources: Iterable[Source]) -> Iterator[str]:
     foreign = sorted(target for target in named if target[0].partition(".")[0] not in PACKAGES)
     if not foreign:
         return
-    from skillc_compiler.python_source import signature
+    from skillc_compiler.python.reading import read
 
     for module, name in foreign:
-        yield from (module, name, repr(signature(module, name)))
+        yield from (module, name, repr(read(module, name)))
 
 
 def _states(folder: str) -> Iterator[str]:

@@ -12,7 +12,7 @@ from skillc_runtime.world.query import Cell, query
 from skillc_runtime.world.scene import sheets, world_of
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.store.facts import all_facts
-from skillc_runtime.world.values import show
+from skillc_runtime.world.values import plain, show
 
 
 def labels_of(scene: Document) -> dict[str, str]:
@@ -71,5 +71,5 @@ def as_object(entry: Entry, label: str | None, state: WorldState) -> dict[str, o
         "label": label,
         "types": [short(each) for each in entry.types],
         "relations": related,
-        "properties": {short(name): value for name, value in entry.properties},
+        "properties": {short(name): plain(value) for name, value in entry.properties},
     }

@@ -10,7 +10,8 @@ from rich.status import Status as Spinner
 from rich.text import Text
 
 from skillc_runtime.commands._console import console
-from skillc_runtime.trace.events import Event, NodeEnded, NodeStarted, PlanMade, Replanned
+from skillc_runtime.trace.events import Event, NodeEnded, NodeStarted, PlanMade, Replanned, TaskEnded
+from skillc_runtime.trace.known import status_words
 
 STEP_DEPTH = 2
 """Calls this deep are told of where the output is no terminal: the steps of a plan and what they call."""
@@ -58,6 +59,8 @@ class Live:
                 self.say(f"planning anew: {reason}")
             case PlanMade(steps=steps, quality=quality):
                 self.say(f"{' -> '.join(step.skill for step in steps)} ({quality})")
+            case TaskEnded(status=status, verified=verified):
+                self.say(status_words(status, verified))
             case _:
                 pass
 

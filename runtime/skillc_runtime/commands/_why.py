@@ -8,6 +8,7 @@ from itertools import chain as together
 import msgspec
 
 from skillc_runtime.trace.failure import Failure, Rejected
+from skillc_runtime.trace.known import known_words, status_words
 from skillc_runtime.trace.question import Answer
 from skillc_runtime.trace.reasons import Determined, Untried
 from skillc_runtime.trace.story import Attempt, Call, Fact, Link, Story
@@ -26,6 +27,7 @@ def overview(story: Story, run: str) -> str:
     lines = [f"{story.task}: {_ending(story)}"]
     for attempt in story.attempts:
         lines += _attempt(attempt)
+    lines += _rests_on(story)
     if story.failure is not None:
         lines += ["", f"why: {story.failure.message}", *_indented(_chain(story.chain, story.failure.message))]
     lines += ["", f"Ask about a step, a skill or a parameter: `skillc why {run} {_example(story)}`"]
@@ -41,10 +43,18 @@ def explanation(answer: Answer) -> str:
 
 def _ending(story: Story) -> str:
     if story.status:
-        return f"{story.status} after {story.last:.1f} s"
+        return f"{status_words(story.status, story.verified)} after {story.last:.1f} s"
     running = [call.skill for call in story.calls if call.status == "running"]
     where = f", in {' > '.join(running)}" if running else ""
     return f"the recording ends at {story.last:.1f} s, before the task does{where}"
+
+
+def _rests_on(story: Story) -> list[str]:
+    """Return the facts that a success rests on, and what would have to be sensed where they are only assumed."""
+    if not story.known:
+        return []
+    lines = [f"{each.fact}  ({known_words(each)})" for each in story.known]
+    return ["rests on:", *_indented(lines), *_indented(each.wanted for each in story.known if each.wanted)]
 
 
 def _attempt(attempt: Attempt) -> Iterator[str]:
@@ -180,7 +190,8 @@ def _chain(links: Sequence[Link], known: str = "") -> Iterator[str]:
 
 
 def _fact(fact: Fact) -> str:
-    return fact.text if fact.since is None else f"{fact.text}  (since {fact.since:.1f} s, by {fact.by})"
+    known = f"{fact.known}, " if fact.known else ""
+    return fact.text if fact.since is None else f"{fact.text}  ({known}since {fact.since:.1f} s, by {fact.by})"
 
 
 def _parameter(call: Call, name: str) -> Iterator[str]:

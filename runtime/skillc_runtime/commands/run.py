@@ -2,7 +2,7 @@
 
 Plans if there is a goal, chooses implementations by what the world model knows, executes.
 
-Exit code 3 when the task does not succeed.
+Exit code 3 when the task does not succeed; with --strict also when nothing has sensed that it did.
 """
 
 from __future__ import annotations
@@ -33,6 +33,7 @@ FOLDER = click.Path(path_type=Path, file_okay=False)
 @_planners.options
 @click.option("--seed", default=0, show_default=True, help="How reality differs from the world model.")
 @click.option("--real-time", is_flag=True, help="Let simulated time pass no faster than the clock.")
+@click.option("--strict", is_flag=True, help="Exit with code 3 as well where the success rests on an assumption.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
 def command(
     task: str | None,
@@ -48,6 +49,7 @@ def command(
     plan_cache: bool,
     seed: int,
     real_time: bool,
+    strict: bool,
     as_json: bool,
 ) -> None:
     """Run TASK (`LIBRARY:NAME`, or a shipped task), or a goal or a call in a scene."""
@@ -66,4 +68,4 @@ def command(
         click.echo(_results.as_json(result))
     else:
         _results.show([result], out)
-    sys.exit(0 if result.status == "success" else 3)
+    sys.exit(0 if result.status == "success" and (result.verified or not strict) else 3)

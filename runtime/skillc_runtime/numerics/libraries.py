@@ -50,12 +50,18 @@ def rotation_between(start: Array, end: Array, out: Array) -> None:
     mujoco.mju_quat2Vel(out, quaternion, 1.0)
 
 
-def add_under(grid: Array, x: Array, y: Array, middle: Array, axes: Array, size: Array, amount: float) -> None:
-    """Add to the points of a grid, columns x and rows y, under a rectangle; its edges are the first columns of axes."""
+def add_under(
+    grid: Array, x: Array, y: Array, middle: Array, axes: Array, size: Array, amount: float, near: float
+) -> None:
+    """Add to the points of a grid, columns x and rows y, that a rectangle reaches; the grid lies in the plane z = 0.
+
+    Its edges are the first columns of axes, all in the grid's frame; it may reach to `near` above the plane.
+    """
     reach = np.hypot(size[0], size[1]) / 2
     left, right = np.searchsorted(x, (middle[0] - reach, middle[0] + reach))
     low, high = np.searchsorted(y, (middle[1] - reach, middle[1] + reach))
     dx, dy = x[left:right] - middle[0], y[low:high, None] - middle[1]
-    along = np.abs(axes[0, 0] * dx + axes[1, 0] * dy) <= size[0] / 2
-    across = np.abs(axes[0, 1] * dx + axes[1, 1] * dy) <= size[1] / 2
-    grid[low:high, left:right] += amount * (along & across)
+    along, across = axes[0, 0] * dx + axes[1, 0] * dy, axes[0, 1] * dx + axes[1, 1] * dy
+    inside = (np.abs(along) <= size[0] / 2) & (np.abs(across) <= size[1] / 2)
+    height = middle[2] + axes[2, 0] * along + axes[2, 1] * across
+    grid[low:high, left:right] += amount * (inside & (height <= near))

@@ -125,8 +125,13 @@ def _row(end: Array, start: Array, i: int) -> tuple[float, float, float]:
 
 
 @part
-def add_under(grid: Array, x: Array, y: Array, middle: Array, axes: Array, size: Array, amount: float) -> None:
-    """Add to the points of a grid, columns x and rows y, under a rectangle; its edges are the first columns of axes."""
+def add_under(
+    grid: Array, x: Array, y: Array, middle: Array, axes: Array, size: Array, amount: float, near: float
+) -> None:
+    """Add to the points of a grid, columns x and rows y, that a rectangle reaches; the grid lies in the plane z = 0.
+
+    Its edges are the first columns of axes, all in the grid's frame; it may reach to `near` above the plane.
+    """
     reach = hypot(size[0], size[1]) / 2
     for row in range(y.size):
         dy = y[row] - middle[1]
@@ -135,5 +140,7 @@ def add_under(grid: Array, x: Array, y: Array, middle: Array, axes: Array, size:
         for column in range(x.size):
             dx = x[column] - middle[0]
             along, across = axes[0, 0] * dx + axes[1, 0] * dy, axes[0, 1] * dx + axes[1, 1] * dy
-            if abs(dx) <= reach and abs(along) <= size[0] / 2 and abs(across) <= size[1] / 2:
+            height = middle[2] + axes[2, 0] * along + axes[2, 1] * across
+            inside = abs(dx) <= reach and abs(along) <= size[0] / 2 and abs(across) <= size[1] / 2
+            if inside and height <= near:
                 grid[row, column] += amount

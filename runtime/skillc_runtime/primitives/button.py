@@ -50,5 +50,6 @@ class AwaitSwitch(Primitive):
         return sum(self._forces) / len(self._forces)
 
     def _note(self) -> None:
-        noted = [SetProperty(self._button, IS_ON, True), SetProperty(self._button, PRESSED_WITH, self._force)]
-        self.cell.world.commit(noted, "the button has switched")
+        world = self.cell.world
+        world.commit([SetProperty(self._button, IS_ON, True)], "AwaitSwitch", "reported")
+        world.commit([SetProperty(self._button, PRESSED_WITH, self._force)], "AwaitSwitch", "sensed")

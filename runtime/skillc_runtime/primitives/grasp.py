@@ -6,7 +6,7 @@ from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.robots.cell import Cell
 from skillc_runtime.robots.tools import working_face
-from skillc_runtime.world.changes import AddRelation
+from skillc_runtime.world.changes import AddRelation, RemoveRelation
 from skillc_runtime.world.frames import placed, pose, size
 from skillc_runtime.world.terms import CONTAIN, FRAME_ID, GRASP_WIDTH
 
@@ -45,8 +45,9 @@ class Grasp(Primitive):
         gripper.attach(self._object, self._in_hand)
 
     def tick(self) -> Status:
-        """Note where the thing is in the hand, and succeed: taking hold happens at once."""
-        self.cell.world.commit(placed(self._object, self._in_hand, self._frame), "Grasp")
+        """Note that the fingers hold the thing, and where it is believed to be in the hand; it happens at once."""
+        self.cell.world.commit([AddRelation(self._gripper, CONTAIN, self._object)], "Grasp", "sensed")
+        self.cell.world.commit(placed(self._object, self._in_hand, self._frame), "Grasp", "assumed")
         return Status.SUCCESS
 
 
@@ -90,10 +91,15 @@ class Release(Primitive):
         self._gripper.stop()
 
     def _let_go(self) -> None:
-        """Count the thing as free, and say so: whatever happens from now on, the hand no longer has it."""
+        """Count the thing as free, and say so: whatever happens from now on, the hand no longer has it.
+
+        That is sensed, by the fingers. That the thing stays where the arm had brought it is not.
+        """
         left_at = self._arm.pose @ self._face.inverse()
         self._gripper.detach()
         self._freed = True
-        self.cell.world.commit(
-            [*placed(self._object, left_at), AddRelation(self._to, CONTAIN, self._object)], "Release"
+        world = self.cell.world
+        world.commit([RemoveRelation(self._hand, CONTAIN, self._object)], "Release", "sensed")
+        world.commit(
+            (*placed(self._object, left_at), AddRelation(self._to, CONTAIN, self._object)), "Release", "assumed"
         )

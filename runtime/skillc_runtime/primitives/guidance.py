@@ -45,7 +45,7 @@ class AwaitGuidance(Primitive):
             self._moved_at = now
         if now - self._moved_at >= self._still:
             taught = [*placed(self._pose, self.arm.pose), SetProperty(self._pose, IS_TAUGHT, True)]
-            self.cell.world.commit(taught, "shown by hand")
+            self.cell.world.commit(taught, "AwaitGuidance", "sensed")
             return Status.SUCCESS
         if now - self._began > self._patience:
             name = self.cell.world.snapshot().vocabulary.short(self._name)

@@ -86,7 +86,7 @@ class Seat(Primitive):
         depth = -float(self._opening.inverse().at(self.arm.pose.position)[2])
         seated = resting and abs(depth - self._bottom) <= (1 - SEATED_SHARE) * self._bottom
         noted = [SetProperty(self._peg, INSERTED_DEPTH, depth), SetProperty(self._peg, IS_SEATED, seated)]
-        self.cell.world.commit(noted, "measured by inserting")
+        self.cell.world.commit(noted, "Seat", "sensed")
         if not seated:
             short = self.cell.world.snapshot().vocabulary.short
             rest = "rests" if resting else f"still moves after {self._patience:g} s,"

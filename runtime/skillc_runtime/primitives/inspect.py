@@ -26,7 +26,9 @@ class Inspect(Primitive):
         seen, threshold = self.cell.camera().inspect(self._surface), self._threshold()
         clean = isinstance(threshold, float) and seen >= threshold
         self.cell.world.commit(
-            [SetProperty(self._surface, COVERAGE, seen), SetProperty(self._surface, IS_CLEAN, clean)], "Inspect"
+            [SetProperty(self._surface, COVERAGE, seen), SetProperty(self._surface, IS_CLEAN, clean)],
+            "Inspect",
+            "sensed",
         )
         return Status.SUCCESS
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 def localise(world: WorldModel, surface: str, tool: Pose) -> None:
     """Write the pose of a surface on which a tool, at `tool` in the world, lies flush."""
     found = touched(pose(world.snapshot(), surface), tool)
-    world.commit([*placed(surface, found), SetProperty(surface, LOCATED, True)], "measured by touching")
+    world.commit([*placed(surface, found), SetProperty(surface, LOCATED, True)], "Align", "sensed")
 
 
 def touched(believed: Pose, tool: Pose) -> Pose:

@@ -27,6 +27,6 @@ class InspectPolish(Primitive):
     def tick(self) -> Status:
         """Look, and note what was seen."""
         seen = self.cell.camera().rubbed(self._surface, self._time)
-        noted = [SetProperty(self._surface, POLISHED_SHARE, seen)]
-        self.cell.world.commit([*noted, SetProperty(self._surface, IS_POLISHED, seen >= self._threshold)], "Inspect")
+        polished = SetProperty(self._surface, IS_POLISHED, seen >= self._threshold)
+        self.cell.world.commit([SetProperty(self._surface, POLISHED_SHARE, seen), polished], "Inspect", "sensed")
         return Status.SUCCESS

@@ -10,6 +10,7 @@ from skillc_runtime.report.figures import Drawn
 from skillc_runtime.report.result import TaskResult
 from skillc_runtime.report.table import reason_of, rows
 from skillc_runtime.simulation.film import SPEED_UP, Filmed
+from skillc_runtime.trace.known import assumed, status_words
 from skillc_runtime.trace.outcome import Outcome
 
 
@@ -24,6 +25,8 @@ def render(result: TaskResult, trees: list[Outcome], figure: Drawn | None = None
     )
     return environment.get_template("page.html.j2").render(
         result=result,
+        status=status_words(result.status, result.verified),
+        assumed=assumed(result.facts),
         rows=rows(result) if result.sim_time_s else [],
         reason_of=reason_of,
         trees=trees,

@@ -7,6 +7,7 @@ from typing import Literal
 import msgspec
 
 from skillc_runtime.trace.failure import Rejected
+from skillc_runtime.trace.known import KnownFact
 
 
 class StepResult(msgspec.Struct, frozen=True, kw_only=True):
@@ -58,12 +59,15 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     """How a task went. `plan_optimal` is None where nothing was planned; `failure` says why a task did not succeed.
 
     `plan_quality` says in words how good the plan is known to be, and for what problem.
+    `facts` are those that a success rests on; it is `verified` when none of them is only assumed.
     `plan` is the last one; `replanned` says why each one before it was given up. `wipings` has one entry for each
     surface that was wiped, `wiping` is the first of them.
     """
 
     task: str
     status: Literal["success", "failure", "halted", "refused"]
+    verified: bool | None = None
+    facts: tuple[KnownFact, ...] = ()
     plan: tuple[StepResult, ...] = ()
     choices: tuple[ChoiceResult, ...] = ()
     plan_optimal: bool | None = None

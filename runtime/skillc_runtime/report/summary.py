@@ -40,6 +40,8 @@ def summarise(
     return TaskResult(
         task=last.prepared.assignment.name,
         status=ENDED[execution.status],
+        verified=execution.verified,
+        facts=execution.facts,
         plan=_steps(last.tree, choices, library),
         choices=_choices(choices, library),
         plan_optimal=None if solved is None else solved.optimal == "proven",

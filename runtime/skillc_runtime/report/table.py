@@ -8,14 +8,17 @@ from rich.table import Table
 from rich.text import Text
 
 from skillc_runtime.report.result import ChoiceResult, StepResult, TaskResult, WipingResult
+from skillc_runtime.trace.known import assumed, known_words, status_words
 
 STYLES = {"success": "bold green", "failure": "bold red", "refused": "bold red", "halted": "bold yellow"}
 
 
 def render(result: TaskResult) -> RenderableType:
     """Return the table of one task: plan with implementations and why, then how it went."""
-    title = Text.assemble((result.task, "bold"), "  ", (result.status, STYLES[result.status]))
+    words = status_words(result.status, result.verified)
+    title = Text.assemble((result.task, "bold"), "  ", (words, STYLES.get(words, STYLES["halted"])))
     parts: list[RenderableType] = [title]
+    parts += [Text(f"{fact.fact} is only assumed: {fact.wanted}", style="yellow") for fact in assumed(result.facts)]
     if result.failure:
         parts.append(Text(result.failure, style="red"))
     if result.plan:
@@ -64,6 +67,7 @@ def rows(result: TaskResult) -> list[tuple[str, str]]:
     planned = [] if result.plan_optimal is None else [("plan", _plan_words(result))]
     return [
         *planned,
+        *((fact.fact, known_words(fact)) for fact in result.facts),
         ("robot", f"{result.robot}, controller {result.controller}"),
         ("reality", f"{result.variation} (seed {result.seed})"),
         *(("planned anew", why) for why in result.replanned),

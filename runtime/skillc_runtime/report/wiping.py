@@ -65,7 +65,7 @@ def described(wiping: Wiping, cell: SimulatedCell) -> Wiped:
     """Return what was wiped with what, as it really was."""
     surface = next(each for each in cell.facts.surfaces if each.individual == wiping.surface)
     tool = size(cell.world.snapshot(), wiping.tool)[:2]
-    return Wiped(cell.true_pose(surface), surface.layout, tool, wiping.force_n)
+    return Wiped(cell.true_pose(surface), surface.layout, tool, wiping.force_n, surface.least_n)
 
 
 def judge(wiping: Wiping, cell: SimulatedCell) -> WipingResult:

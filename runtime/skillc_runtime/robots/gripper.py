@@ -55,5 +55,5 @@ class Gripper(Protocol):
 
     @property
     def holding(self) -> str | None:
-        """The thing that counts as held."""
+        """The thing that counts as held; nothing as soon as the gripper feels that it has lost it."""
         ...

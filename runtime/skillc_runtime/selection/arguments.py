@@ -2,58 +2,33 @@
 
 from __future__ import annotations
 
-from typing import assert_never
-
 import numpy as np
 
 from skillc_compiler.library.skills import Parameter
 from skillc_compiler.library.vocabulary import (
     THING,
     ClassType,
-    ListType,
-    NumberType,
-    PlainType,
+    DirectionType,
     ValueType,
-    VectorType,
     Vocabulary,
     local_name,
 )
 from skillc_compiler.library.words import type_text
-from skillc_runtime.motion.pose import Pose
 from skillc_runtime.selection.describe import text_of
 from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value, finite
+from skillc_runtime.world.typed import is_of
+from skillc_runtime.world.values import Value
+from skillc_runtime.world.vectors import is_vector
 
 
 def problem_with(parameter: Parameter, value: Value, state: WorldState) -> str | None:
     """Return why the value cannot be the parameter's, None when it can."""
     vocabulary = state.vocabulary
-    if not _is_of(value, parameter.type, state):
+    if not is_of(value, parameter.type, state):
         return f"needs {_wanted(parameter.type, vocabulary)}, {_description(value, parameter.type, state)}"
     if isinstance(value, int | float) and not isinstance(value, bool):
         return _out_of_range(parameter, float(value), vocabulary)
     return None
-
-
-def _is_of(value: Value, type_: ValueType, state: WorldState) -> bool:
-    match type_:
-        case ClassType(iri=iri):
-            return isinstance(value, str) and value in state.individuals and state.is_a(value, iri)
-        case NumberType():
-            return isinstance(value, int | float) and not isinstance(value, bool) and finite(value)
-        case VectorType():
-            return isinstance(value, np.ndarray) and value.shape == (3,) and finite(value)
-        case PlainType(name=name):
-            return _is_plain(value, name)
-        case ListType(element=element):
-            return isinstance(value, tuple) and all(_is_of(part, element, state) for part in value)
-        case _:
-            assert_never(type_)
-
-
-def _is_plain(value: Value, name: str) -> bool:
-    kinds: dict[str, type | tuple[type, ...]] = {"Bool": bool, "Int": int, "Text": str, "Pose": Pose}
-    return isinstance(value, kinds[name]) and (name == "Bool" or not isinstance(value, bool))
 
 
 def _out_of_range(parameter: Parameter, value: float, vocabulary: Vocabulary) -> str | None:
@@ -68,6 +43,8 @@ def _out_of_range(parameter: Parameter, value: float, vocabulary: Vocabulary) ->
 def _description(value: Value, type_: ValueType, state: WorldState) -> str:
     """Say what a value is; of an individual its most specific classes."""
     written = text_of(value, type_, state.vocabulary)
+    if isinstance(type_, DirectionType) and is_vector(value):
+        return f"not {written}, whose length is {np.linalg.norm(value):g}"
     if not (isinstance(type_, ClassType) and isinstance(value, str)):
         return f"not {written}"
     if value not in state.individuals:

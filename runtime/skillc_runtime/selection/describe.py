@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from skillc_compiler.library.skills import Parameter
-from skillc_compiler.library.vocabulary import ClassType, ListType, NumberType, ValueType, Vocabulary
-from skillc_compiler.library.words import quantity_text
+from skillc_compiler.library.vocabulary import ClassType, ListType, NumberType, ValueType, VectorType, Vocabulary
+from skillc_compiler.library.words import SI_UNITS, quantity_text
 from skillc_runtime.world.values import Value, show
 
 
@@ -16,6 +16,8 @@ def text_of(value: Value, type_: ValueType, vocabulary: Vocabulary) -> str:
         return vocabulary.short(value)
     if isinstance(type_, NumberType) and isinstance(value, int | float) and not isinstance(value, bool):
         return quantity_text(value, type_)
+    if isinstance(type_, VectorType):
+        return f"{show(value)} {SI_UNITS.get(type_.dimension, '')}".strip()
     if isinstance(type_, ListType) and isinstance(value, tuple) and len(value) > 3:
         return f"{len(value)} values"
     return show(value)

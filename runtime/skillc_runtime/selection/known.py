@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from skillc_compiler.library.conditions import Expression, Invoke, PropertyOf
+from skillc_compiler.library.conditions import Condition, Expression, Invoke, PropertyOf
 from skillc_compiler.library.reading import free_variables, walk
+from skillc_runtime.selection.python import function_problem
 from skillc_runtime.selection.reads import has_fixed_value
 from skillc_runtime.world.expressions import EvaluationError, value_of
 from skillc_runtime.world.frames import MissingFact
@@ -36,6 +37,10 @@ def known_values(
     """
     known = Known({}, {})
     for name, expression in expressions.items():
+        broken = unusable(expression, state)
+        if broken is not None:
+            known.never[name] = broken
+            continue
         lacking = next(_lacking(expression, bound, state, changing), None)
         if lacking is not None:
             known.never[name] = lacking
@@ -45,6 +50,14 @@ def known_values(
             except EvaluationError as error:
                 known.never[name] = str(error)
     return known
+
+
+def unusable(item: Condition | Expression, state: WorldState) -> str | None:
+    """Return why a Python function that is named somewhere can never be called, None when all can."""
+    functions = state.vocabulary.functions
+    calls = (part for part in walk(item) if isinstance(part, Invoke) and part.function in functions)
+    problems = (function_problem(functions[each.function].python, len(each.arguments)) for each in calls)
+    return next((problem for problem in problems if problem is not None), None)
 
 
 def _lacking(

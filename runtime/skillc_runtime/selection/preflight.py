@@ -13,7 +13,7 @@ from skillc_compiler.library.skills import Compound, Implementation, Primitive, 
 from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.selection.fit import bind_arguments
 from skillc_runtime.selection.inferred import infer_fixed
-from skillc_runtime.selection.known import Known, known_values
+from skillc_runtime.selection.known import Known, known_values, unusable
 from skillc_runtime.selection.python import PrimitiveError, fitting_class
 from skillc_runtime.selection.reads import changing_terms, is_fixed
 from skillc_runtime.selection.select import candidates, why_none
@@ -74,9 +74,15 @@ class _Preflight:
                 return self._branches(node, scope)
             case tree.ForEach():
                 return self._each(node, scope)
-            case tree.Retry() | tree.Repeat() | tree.Timeout() | tree.Once() | tree.While():
+            case tree.While():
+                return (*self._evaluated("while", node.condition, node, scope), *self.node(node.child, scope))
+            case tree.Retry() | tree.Repeat() | tree.Timeout() | tree.Once():
                 return self.node(node.child, scope)
-            case tree.Try() | tree.Invert() | tree.Wait() | tree.WaitUntil() | tree.Check() | tree.Apply():
+            case tree.WaitUntil() | tree.Check():
+                return self._evaluated("check", node.condition, node, scope)
+            case tree.Wait():
+                return self._evaluated("wait", node.seconds, node, scope)
+            case tree.Try() | tree.Invert() | tree.Apply():
                 return ()
             case tree.Call():
                 return self._call(node, scope)
@@ -86,12 +92,18 @@ class _Preflight:
     def _all(self, nodes: tuple[tree.Node, ...], scope: _Scope) -> tuple[Refusal, ...]:
         return tuple(refusal for node in nodes for refusal in self.node(node, scope))
 
+    def _evaluated(
+        self, name: str, item: Condition | Expression, node: tree.Node, scope: _Scope
+    ) -> tuple[Refusal, ...]:
+        broken = unusable(item, self._state)
+        return () if broken is None else (Refusal(name, f"{name}: {broken}", node.source, scope.within),)
+
     def _branches(self, node: tree.If, scope: _Scope) -> tuple[Refusal, ...]:
         holds = self._truth(node.condition, scope.values)
         taken = [node.then] if holds is not False else []
         if node.orelse is not None and holds is not True:
             taken.append(node.orelse)
-        return self._all(tuple(taken), scope)
+        return (*self._evaluated("if", node.condition, node, scope), *self._all(tuple(taken), scope))
 
     def _each(self, node: tree.ForEach, scope: _Scope) -> tuple[Refusal, ...]:
         items = self._compute({node.variable: node.items}, scope.values)

@@ -4,30 +4,42 @@ from __future__ import annotations
 
 import importlib
 import inspect
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 
 from skillc_compiler.library.skills import Parameter
 from skillc_runtime.primitives.primitive import Primitive
+from skillc_runtime.world.foreign import EvaluationError, resolve
 
 
 class PrimitiveError(Exception):
     """A primitive's class cannot be had or takes other parameters; the message says what to change."""
 
 
+CALLED_WITH = {"start": (), "tick": (), "halt": ("why",), "pause": (), "resume": (), "release": ()}
+"""The methods of a primitive that are called, with what."""
+
+
 @cache
 def primitive_class(python: str) -> type[Primitive]:
-    """Import "module:Class"; PrimitiveError when that is not there or no Primitive."""
+    """Import "module:Class"; PrimitiveError when that is not there, or no Primitive whose methods can be called."""
     module_name, _, class_name = python.partition(":")
     try:
         module = importlib.import_module(module_name)
-    except ImportError as error:
-        raise PrimitiveError(f"the Python module of `{python}` cannot be imported: {error}") from error
+    except Exception as error:  # foreign code: whatever it raises, it cannot be used
+        reason = error if isinstance(error, ImportError) else f"{type(error).__name__}: {error}"
+        raise PrimitiveError(f"the Python module of `{python}` cannot be imported: {reason}") from error
     found = getattr(module, class_name, None)
     if found is None:
         raise PrimitiveError(f"the Python module {module_name} has no class {class_name}")
     if not (isinstance(found, type) and issubclass(found, Primitive)):
         raise PrimitiveError(f"`{python}` is no subclass of skillc_runtime.primitives.primitive.Primitive")
+    if found.tick is Primitive.tick:
+        raise PrimitiveError(f"`{python}` has no method `tick`")
+    for name, values in CALLED_WITH.items():
+        problem = _refused(getattr(found, name), None, *values)
+        if problem is not None:
+            raise PrimitiveError(f"the method `{name}` of `{python}` cannot be called: {problem}")
     return found
 
 
@@ -46,13 +58,39 @@ def fitting_class(python: str, parameters: Sequence[Parameter]) -> type[Primitiv
 
 @cache
 def _mismatch(python: str, given: tuple[str, ...]) -> str | None:
-    _, *taken = inspect.signature(primitive_class(python)).parameters.values()
-    if any(parameter.kind is parameter.VAR_KEYWORD for parameter in taken):
+    cls = primitive_class(python)
+    reason = _refused(cls, None, **dict.fromkeys(given))
+    if reason is None:
         return None
-    names = {parameter.name for parameter in taken}
-    needed = {parameter.name for parameter in taken if parameter.default is parameter.empty}
-    untaken = [name for name in given if name not in names]
-    ungiven = sorted(needed - set(given))
+    taken = list(inspect.signature(cls).parameters.values())[1:]
+    anything = any(each.kind is each.VAR_KEYWORD for each in taken)
+    untaken = [] if anything else [name for name in given if name not in {each.name for each in taken}]
     if untaken:
         return f"takes no parameter {', '.join(untaken)}"
-    return f"needs the parameter {', '.join(ungiven)}" if ungiven else None
+    single = (each for each in taken if each.kind not in (each.VAR_POSITIONAL, each.VAR_KEYWORD))
+    ungiven = sorted({each.name for each in single if each.default is each.empty} - set(given))
+    return f"needs the parameter {', '.join(ungiven)}" if ungiven else f"cannot be called: {reason}"
+
+
+@cache
+def function_problem(python: str, count: int) -> str | None:
+    """Return why "module:function" cannot be called with the world and so many values, None when it can."""
+    try:
+        function = resolve(python)
+    except EvaluationError as error:
+        return str(error)
+    reason = _refused(function, None, *(None,) * count) if callable(function) else "it is no function"
+    return None if reason is None else f"the Python function {python} cannot be called with {count} values: {reason}"
+
+
+def _refused(called: Callable[..., object], /, *values: object, **named: object) -> str | None:
+    """Return why Python would refuse a call; None when it would not, or when that cannot be told."""
+    if inspect.iscoroutinefunction(called):
+        return "it is `async`, which is never waited for"
+    try:
+        inspect.signature(called).bind(*values, **named)
+    except TypeError as error:
+        return str(error)
+    except ValueError:
+        return None
+    return None

@@ -10,7 +10,7 @@ import numpy as np
 
 from skillc_runtime.motion.layout import Hole
 from skillc_runtime.motion.pose import Array, Pose, quaternion_of
-from skillc_runtime.simulation.devices import add_arm, add_tool
+from skillc_runtime.simulation.devices import add_arm, add_pressing_sensor, add_tool
 from skillc_runtime.simulation.facts import BaseFacts, SceneFacts, SurfaceFacts
 from skillc_runtime.simulation.fixtures import add_fixture
 from skillc_runtime.simulation.names import base_body, box_geom, hole, obstacle, part, weld
@@ -65,6 +65,9 @@ def described(scene: SceneFacts, variation: Variation, timestep_s: float = 0.001
     for tool in scene.tools:
         add_tool(spec, scene.names, tool, None if tool.rigid else variation.pad_stiffness(tool))
     _add_welds(spec, scene)
+    for tool, surface in product(scene.tools, scene.surfaces):
+        if variation.of(surface.individual).present:
+            add_pressing_sensor(spec, scene.names[tool.individual], scene.names[surface.individual])
     return spec
 
 

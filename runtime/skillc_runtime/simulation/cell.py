@@ -25,10 +25,10 @@ from skillc_runtime.simulation.observer import ToolObserver
 from skillc_runtime.simulation.person import people
 from skillc_runtime.simulation.recorder import Recording
 from skillc_runtime.simulation.variation import Variation, draw
-from skillc_runtime.world.changes import RemoveRelation, SetProperty
+from skillc_runtime.world.changes import SetProperty
 from skillc_runtime.world.frames import placed, size
 from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.terms import CONTAIN, DEVICE_STATE
+from skillc_runtime.world.terms import DEVICE_STATE
 
 
 class SimulatedCell:
@@ -64,16 +64,16 @@ class SimulatedCell:
         self._bases = {b.individual: SimulatedBase(b, names[b.individual], self.model, self.data) for b in facts.bases}
         mujoco.mj_forward(self.model, self.data)
         self._drivers = {a.individual: driver(a, self.arms[a.individual], self.period_s) for a in facts.arms}
-        self.coverage = {s.individual: CoverageMap(self.true_pose(s), s.layout) for s in facts.surfaces}
+        self.coverage = {s.individual: CoverageMap(self.true_pose(s), s.layout, s.least_n) for s in facts.surfaces}
         self._observers = {
-            tool.individual: ToolObserver(tool, names[tool.individual], self.model, self.data, self.coverage)
-            for tool in facts.tools
+            tool.individual: ToolObserver(tool, names, self.model, self.data, self.coverage) for tool in facts.tools
         }
         self._camera = SimulatedCamera(self.coverage)
         self.watchdog = Watchdog()
         self._buttons = buttons(facts.fixtures, self.variation.fixtures, names, self.data)
         self.people = people(facts, self.variation, self._drivers, self.data)
-        world.commit([SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(self._drivers)], "start of the cell")
+        idle = [SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(self._drivers)]
+        world.commit(idle, "start of the cell", "reported")
 
     @property
     def now(self) -> float:
@@ -193,7 +193,7 @@ class SimulatedCell:
             arm.step(now)
         finally:
             if worked and arm.broken is not None:
-                self._world.commit([SetProperty(individual, DEVICE_STATE, "Fault")], arm.broken)
+                self._world.commit([SetProperty(individual, DEVICE_STATE, "Fault")], arm.broken, "reported")
 
     def _observe(self, now: float) -> None:
         for button in self._buttons.values():
@@ -206,12 +206,12 @@ class SimulatedCell:
                     self._lose(arm, gripper, gripper.holding, why)
 
     def _lose(self, arm: str, gripper: SimulatedGripper, thing: str, why: str) -> None:
-        """Stop an arm whose gripper cannot hold a thing any more, and note that the thing is no longer in it."""
+        """Stop an arm whose gripper cannot hold a thing any more, and note where that was."""
         state, there = self._world.snapshot(), self._drivers[arm].pose
         left_at = there @ working_face(size(state, thing)).inverse()
         gripper.lose()
         self._drivers[arm].abort(why)
-        self._world.commit([RemoveRelation(gripper.individual, CONTAIN, thing), *placed(thing, left_at)], why)
+        self._world.commit(placed(thing, left_at), why, "assumed")
 
     def _carry_along(self, robot: str, motion: Pose) -> None:
         """Move what the arms of a driving robot hold along with it."""

@@ -1,4 +1,4 @@
-"""Which parts of a surface were wiped: cells of 5 mm, wiped when their centre lay under a pressed tool."""
+"""Which parts of a surface were worked on: cells of 5 mm that a tool reached while it was pressed on the surface."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from skillc_runtime.numerics.linear import add_under, product, times
 CELL_M = 0.005
 """Edge of a cell."""
 
-PRESSED_N = 1.0
-"""Normal force above which a tool wipes."""
+TOUCHES_M = 1e-4
+"""How far above a cell the face of a tool that does not yield may be and still touches it."""
 
 NEAR_PLANE_M = 0.03
 """How far from a surface's plane a pressed tool may be to work on it: a tilted tool's middle is a little off."""
@@ -23,10 +23,12 @@ NEAR_PLANE_M = 0.03
 class CoverageMap:
     """The contact time of every cell of one surface: `dose` (rows along y, columns along x) in s; 0 is unwiped.
 
-    `surface` is the true frame in the middle of the surface; `layout` says which cells count.
+    `surface` is the true frame in the middle of the surface; `layout` says which cells count. A tool that is pressed on
+    the surface with less than `least_n` does nothing to it.
     """
 
-    def __init__(self, surface: Pose, layout: Layout) -> None:
+    def __init__(self, surface: Pose, layout: Layout, least_n: float) -> None:
+        self.least_n, self.normal = least_n, surface.rotation[:, 2]
         self._in_surface = surface.inverse()
         self.x, self.y = _centres(float(layout.size[0])), _centres(float(layout.size[1]))
         self.counts = layout.counts(self.x, self.y)
@@ -43,10 +45,10 @@ class CoverageMap:
         return float(((dose > 0) & (dose >= seconds)).mean()) if dose.size else 1.0
 
     def add(self, position: Array, rotation: Array, tool: Array, seconds: float) -> None:
-        """Count the cells under a tool's working face for some seconds.
+        """Count, for some seconds, the cells that a tool's working face reaches.
 
-        position (3,), rotation (3, 3): the middle of the face in the world, x and y along its edges; tool (2,): its
-        size in m.
+        position (3,), rotation (3, 3): the middle of the face in the world, x and y along its edges, as if it did not
+        yield: pressed it lies below the surface, and tilted one side of it above. tool (2,): its size in m.
         """
         frame = self._in_surface
         add_dose(self.dose, self.x, self.y, frame.position, frame.rotation, position, rotation, tool, seconds)
@@ -82,4 +84,4 @@ def add_dose(
     for i in range(3):
         middle[i] += origin[i]
     product(turn, rotation, axes)
-    add_under(dose, x, y, middle, axes, tool, seconds)
+    add_under(dose, x, y, middle, axes, tool, seconds, TOUCHES_M)

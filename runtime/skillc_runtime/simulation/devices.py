@@ -11,7 +11,14 @@ import numpy as np
 from skillc_runtime.motion.pose import Pose, quaternion_of
 from skillc_runtime.robots.tools import working_face
 from skillc_runtime.simulation.facts import ArmFacts, GripperFacts, ToolFacts
-from skillc_runtime.simulation.names import contact_sensor, face_sensor, part, wrist_sensor
+from skillc_runtime.simulation.names import (
+    box_geom,
+    contact_sensor,
+    face_sensor,
+    part,
+    pressing_sensor,
+    wrist_sensor,
+)
 from skillc_runtime.world.sheet import SheetError
 
 WRIST_SENSORS = (
@@ -127,6 +134,19 @@ def _add_face_sensors(spec: Any, name: str) -> None:
         ("velocity", mujoco.mjtSensor.mjSENS_FRAMELINVEL),
     ):
         _add_sensor(spec, face_sensor(name, quantity), kind, part(name, "face"))
+
+
+def add_pressing_sensor(spec: Any, tool: str, surface: str) -> None:
+    """Add the force (3,) of a tool on a surface itself, without what lies on that, as the solver has it."""
+    spec.add_sensor(
+        name=pressing_sensor(tool, surface),
+        type=mujoco.mjtSensor.mjSENS_CONTACT,
+        objtype=mujoco.mjtObj.mjOBJ_XBODY,
+        objname=part(tool, "block"),
+        reftype=mujoco.mjtObj.mjOBJ_GEOM,
+        refname=box_geom(surface),
+        intprm=[1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), NET_FORCE, 1],
+    )
 
 
 def _add_contact_sensor(spec: Any, name: str, root: Any) -> None:

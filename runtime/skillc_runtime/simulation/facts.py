@@ -40,6 +40,7 @@ from skillc_runtime.world.terms import (
     VELOCITY_CONTROLLED_ARM,
     WEIGHT,
 )
+from skillc_runtime.world.working import LEAST_FORCE_N, least_force_n
 
 MODES: Final[dict[str, Mode]] = {
     TORQUE_CONTROLLED_ARM: "torque",
@@ -129,7 +130,7 @@ class ToolFacts:
 class SurfaceFacts:
     """A surface as it is believed to be, and how far reality may differ: m along the normal, rad, friction.
 
-    `layout` says which of it is to be worked on.
+    `layout` says which of it is to be worked on; a tool pressed with less than `least_n` does nothing to it.
     """
 
     individual: str
@@ -139,6 +140,7 @@ class SurfaceFacts:
     friction: tuple[float, float]
     offset_range_m: float
     tilt_range_rad: float
+    least_n: float = LEAST_FORCE_N
 
 
 @dataclass(frozen=True, slots=True)
@@ -252,4 +254,5 @@ def _surface(state: WorldState, surface: str) -> SurfaceFacts:
         friction=friction(state, surface),
         offset_range_m=number(state, surface, OFFSET_RANGE, default=0.0),
         tilt_range_rad=number(state, surface, TILT_RANGE, default=0.0),
+        least_n=least_force_n(state, surface),
     )

@@ -10,7 +10,7 @@ import numpy as np
 
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose, rotation_of
-from skillc_runtime.simulation.coverage import PRESSED_N, CoverageMap
+from skillc_runtime.simulation.coverage import CoverageMap
 from skillc_runtime.simulation.dwell import LaneDwell, lane_dwell
 from skillc_runtime.simulation.highpass import highpass
 from skillc_runtime.simulation.recorder import Recording, joined
@@ -27,12 +27,16 @@ COVERAGE_PERIOD_S = 0.01
 
 @dataclass(frozen=True, slots=True)
 class Wiped:
-    """What was wiped, with what: the surface's true frame in the world and layout, the tool's size (2,) m, force N."""
+    """What was wiped, with what: the surface's true frame in the world and layout, the tool's size (2,) m, force N.
+
+    `least_n` is the least force with which a tool does something to the surface.
+    """
 
     surface: Pose
     layout: Layout
     tool: Array
     force_command_n: float
+    least_n: float
 
     @property
     def extent(self) -> Array:
@@ -93,10 +97,10 @@ def wiping_metrics(recording: Recording, strokes: Sequence[Stroke], wiped: Wiped
 
 def coverage(window: Recording, wiped: Wiped) -> CoverageMap:
     """Return the contact time of every cell of the surface, sampled at 100 Hz or more."""
-    result = CoverageMap(wiped.surface, wiped.layout)
+    result = CoverageMap(wiped.surface, wiped.layout, wiped.least_n)
     stride = max(1, int(COVERAGE_PERIOD_S / _step(window) + 1e-6))
     seconds = stride * _step(window)
-    for row in np.flatnonzero(window.force[::stride] > PRESSED_N) * stride:
+    for row in np.flatnonzero(window.on_surface[::stride] >= wiped.least_n) * stride:
         result.add(window.position[row], rotation_of(window.quaternion[row]), wiped.tool, seconds)
     return result
 

@@ -43,6 +43,11 @@ def contact_sensor(tool: str) -> str:
     return f"{tool}/contact"
 
 
+def pressing_sensor(tool: str, surface: str) -> str:
+    """Return the name of the sensor of the contacts of a tool with a surface itself."""
+    return f"{tool}/presses/{surface}"
+
+
 def face_sensor(tool: str, quantity: str) -> str:
     """Return the name of a sensor at a tool's working face."""
     return f"{tool}/face/{quantity}"

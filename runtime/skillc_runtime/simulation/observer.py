@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from skillc_runtime.motion.pose import rotation_of
+from skillc_runtime.motion.pose import Array, rotation_of
 from skillc_runtime.robots.driver import ArmDriver
-from skillc_runtime.simulation.coverage import PRESSED_N, CoverageMap
+from skillc_runtime.simulation.coverage import CoverageMap
 from skillc_runtime.simulation.facts import ToolFacts
-from skillc_runtime.simulation.names import face_sensor
+from skillc_runtime.simulation.names import face_sensor, pressing_sensor
 from skillc_runtime.simulation.recorder import Recorder
 from skillc_runtime.simulation.strongest import StrongestForce
 
@@ -20,10 +20,14 @@ STEPS_PER_UPDATE = 10
 
 
 class ToolObserver:
-    """Looks at one tool once a step, from the sensors at its working face."""
+    """Looks at one tool once a step, from the sensors at its working face and those of what it presses on."""
 
-    def __init__(self, facts: ToolFacts, name: str, model: Any, data: Any, coverage: Mapping[str, CoverageMap]) -> None:
-        self._extent, self._coverage = facts.size[:2], coverage
+    def __init__(
+        self, facts: ToolFacts, names: Mapping[str, str], model: Any, data: Any, coverage: Mapping[str, CoverageMap]
+    ) -> None:
+        name = names[facts.individual]
+        self._extent = facts.size[:2]
+        self._pressing = tuple(_pressing(name, names, model, data, coverage))
         first = int(model.sensor(face_sensor(name, "touch")).adr[0])
         self._truth = data.sensordata[first : first + 11]
         self._reach = float(np.hypot(*self._extent)) / 2
@@ -36,13 +40,28 @@ class ToolObserver:
         self.recorder.sample(time)
         self.strongest.sample()
         if self._steps % STEPS_PER_UPDATE == 0:
-            self.recorder.sample_reference(time, driver.reference, driver.path)
-            if self._truth[0] > PRESSED_N:
-                self._cover()
+            self.recorder.sample_reference(time, driver.reference, driver.path, self._cover())
         self._steps += 1
 
-    def _cover(self) -> None:
-        position, rotation = self._truth[1:4], rotation_of(self._truth[4:8])
-        for surface in self._coverage.values():
-            if surface.near(position, self._reach):
-                surface.add(position, rotation, self._extent, self._seconds)
+    def _cover(self) -> float:
+        """Count what the tool works on now; return the greatest force in N with which it presses on a surface."""
+        greatest = 0.0
+        for surface, force in self._pressing:
+            force_n = abs(float(surface.normal @ force))
+            greatest = max(greatest, force_n)
+            if force_n >= surface.least_n and surface.near(self._truth[1:4], self._reach):
+                surface.add(self._truth[1:4], rotation_of(self._truth[4:8]), self._extent, self._seconds)
+        return greatest
+
+
+def _pressing(
+    tool: str, names: Mapping[str, str], model: Any, data: Any, coverage: Mapping[str, CoverageMap]
+) -> list[tuple[CoverageMap, Array]]:
+    """Return the surfaces that are really there, each with the view (3,) of the force of the tool on it."""
+    found = []
+    for individual, surface in coverage.items():
+        sensor = pressing_sensor(tool, names[individual])
+        if any(model.sensor(each).name == sensor for each in range(model.nsensor)):
+            first = int(model.sensor(sensor).adr[0])
+            found.append((surface, data.sensordata[first : first + 3]))
+    return found

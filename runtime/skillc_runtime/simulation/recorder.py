@@ -13,8 +13,9 @@ from skillc_runtime.motion.reference import Reference
 MEASURED = 12
 """time; normal force; face position 3, quaternion 4, velocity 3."""
 
-COLUMNS = 24
-"""Those, then position 3 and velocity 3 of the reference, and the same of the path: the reference without overlays."""
+COLUMNS = 25
+"""Those, then position 3 and velocity 3 of the reference, and the same of the path: the reference without overlays; the
+normal force on a surface."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +24,8 @@ class Recording:
 
     force (n,): N, normal force of all contacts of the tool's working face. position (n, 3), quaternion (n, 4),
     velocity (n, 3): of the middle of that face, z out of the tool. reference, reference_velocity (n, 3): what the
-    arm's controller was asked for; path, path_velocity (n, 3): the same without overlays.
+    arm's controller was asked for; path, path_velocity (n, 3): the same without overlays. on_surface (n,): N, of the
+    force on the face that part which presses on a surface, and not on what lies on it.
     """
 
     rows: Array
@@ -73,6 +75,11 @@ class Recording:
         """Velocity the controller was asked for, overlays aside (n, 3) in m/s."""
         return self.rows[:, 21:24]
 
+    @property
+    def on_surface(self) -> Array:
+        """Normal force on a surface itself (n,) in N."""
+        return self.rows[:, 24]
+
     def between(self, start: float, end: float) -> Recording:
         """Return the rows with start <= time < end."""
         first, last = np.searchsorted(self.time, (start, end))
@@ -109,13 +116,13 @@ class Recorder:
         row[0], row[1:] = time, self._truth
         self._count += 1
 
-    def sample_reference(self, time: float, reference: Reference, path: Reference) -> None:
-        """Take what the arm is asked for at `time` s, and the same without overlays, in the world."""
-        asked = (reference.pose.position, reference.twist[:3], path.pose.position, path.twist[:3])
+    def sample_reference(self, time: float, reference: Reference, path: Reference, on_surface_n: float) -> None:
+        """Take what the arm is asked for at `time` s, and the same without overlays, in the world; the force there."""
+        asked = (reference.pose.position, reference.twist[:3], path.pose.position, path.twist[:3], (on_surface_n,))
         self._references.append((time, np.concatenate(asked)))
 
     def recording(self) -> Recording:
-        """Return what was taken so far, as a read-only copy; between two samples a reference is interpolated."""
+        """Return what was taken so far, as a read-only copy; between two samples those are interpolated."""
         rows = np.empty((self._count, COLUMNS))
         rows[:, :MEASURED] = self._rows[: self._count]
         if self._references:

@@ -9,10 +9,13 @@ import msgspec
 
 from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.trace.failure import Failure, Rejected
+from skillc_runtime.trace.known import KnownFact
 from skillc_runtime.trace.reasons import Attempted, Determined, Untried
+from skillc_runtime.world.evidence import Evidence
 
-FORMAT = 2
-"""Raised with every change of what the events mean; 2 says why parameters are what they are and what failures met."""
+FORMAT = 3
+"""Raised with every change of what the events mean; 2 says why parameters are what they are and what failures met, 3
+how facts are known."""
 
 
 class _Event(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -100,10 +103,14 @@ class ImplementationChosen(_Event, tag="implementation-chosen", frozen=True, kw_
 
 
 class WorldChanged(_Event, tag="world-changed", frozen=True, kw_only=True):
-    """The world model changed; one line of text for each change."""
+    """The world model changed; one line of text for each change.
+
+    `known` is how this is known, None for what others wrote and in recordings of older formats.
+    """
 
     origin: str
     changes: tuple[str, ...]
+    known: Evidence | None = None
 
 
 class Measured(_Event, tag="measured", frozen=True, kw_only=True):
@@ -131,11 +138,16 @@ class Resumed(_Event, tag="resumed", frozen=True, kw_only=True):
 
 
 class TaskEnded(_Event, tag="task-ended", frozen=True, kw_only=True):
-    """A task is over."""
+    """A task is over; `facts` are those that a success rests on.
+
+    `verified` tells whether none of them is only assumed; None where there is no success, and in older formats.
+    """
 
     task: str
     status: str
     failure: Failure | None = None
+    verified: bool | None = None
+    facts: tuple[KnownFact, ...] = ()
 
 
 Event: TypeAlias = (

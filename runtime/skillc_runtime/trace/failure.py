@@ -9,7 +9,7 @@ import msgspec
 from skillc_compiler.library.vocabulary import Position
 
 FailureKind: TypeAlias = Literal[
-    "pre", "hold", "verify", "post", "inference", "lock", "timeout", "body", "plan", "error", "halted"
+    "pre", "hold", "verify", "post", "inference", "lock", "timeout", "body", "plan", "contradiction", "error", "halted"
 ]
 Stage: TypeAlias = Literal["argument", "inference", "pre", "hold", "lock", "start", "run"]
 

@@ -68,6 +68,8 @@ class _History:
         return Story(
             task=self._started.task,
             status=self._ended.status if self._ended is not None else "",
+            verified=self._ended.verified if self._ended is not None else None,
+            known=self._ended.facts if self._ended is not None else (),
             library=self._started.library,
             hash=self._started.hash,
             format=self._started.format,
@@ -86,7 +88,9 @@ class _History:
 
     def _note(self, event: events.WorldChanged) -> None:
         for change in event.changes:
-            self._written[_about(change)] = Fact(text=change, since=event.time, by=event.origin)
+            self._written[_about(change)] = Fact(
+                text=change, since=event.time, by=event.origin, known=event.known or ""
+            )
 
     def _facts(self, event: events.NodeEnded) -> tuple[Fact, ...]:
         """Return the facts that a failure met, each with who wrote it if that was during the run."""

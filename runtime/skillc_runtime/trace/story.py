@@ -8,6 +8,7 @@ import msgspec
 
 from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.trace.failure import Failure, Rejected
+from skillc_runtime.trace.known import KnownFact
 from skillc_runtime.trace.reasons import Determined, Untried
 
 
@@ -16,11 +17,15 @@ class _Part(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class Fact(_Part, frozen=True, kw_only=True):
-    """A fact at some moment; `since` and `by` say when it was written and by whom, where that was during the run."""
+    """A fact at some moment; `since` and `by` say when it was written and by whom, where that was during the run.
+
+    `known` says how it is known: sensed, reported or assumed; empty where nobody said so.
+    """
 
     text: str
     since: float | None = None
     by: str = ""
+    known: str = ""
 
 
 class Link(_Part, frozen=True, kw_only=True):
@@ -97,10 +102,16 @@ class Attempt(_Part, frozen=True, kw_only=True):
 
 
 class Story(_Part, frozen=True, kw_only=True):
-    """A run. `status` is empty where the recording ends before the task does; `last` is the time of the last event."""
+    """A run. `status` is empty where the recording ends before the task does; `last` is the time of the last event.
+
+    `known` are the facts that a success rests on, `verified` tells whether none of them is only assumed; None where
+    that is not known.
+    """
 
     task: str
     status: str = ""
+    verified: bool | None = None
+    known: tuple[KnownFact, ...] = ()
     library: str = ""
     hash: str = ""
     format: int = 1

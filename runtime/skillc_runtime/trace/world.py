@@ -22,7 +22,7 @@ from skillc_runtime.world.values import show
 def world_changed(event: ChangeEvent, time: float) -> WorldChanged:
     """Return a change of the world model as an event of the trace; `time` in seconds of the cell's clock."""
     changes = tuple(change_text(change, event.after.vocabulary) for change in event.changes)
-    return WorldChanged(time=time, origin=event.origin, changes=changes)
+    return WorldChanged(time=time, origin=event.origin, changes=changes, known=event.known)
 
 
 def change_text(change: Change, vocabulary: Vocabulary) -> str:

@@ -17,6 +17,7 @@ from skillc_runtime.tree.enclosing import Enclosing, Frame
 from skillc_runtime.tree.node import Node
 from skillc_runtime.tree.primitive_node import PrimitiveNode
 from skillc_runtime.tree.restore import reverse_of
+from skillc_runtime.tree.sensing import not_sensed, unsensed
 from skillc_runtime.tree.verifying import violation, watched
 from skillc_runtime.world.changes import Change
 from skillc_runtime.world.conditions import evaluate
@@ -34,15 +35,27 @@ class Activation:
     `checked` is the state in which the holds were last seen to hold: the same snapshot gives the same answer.
     """
 
-    __slots__ = ("_context", "_holder", "body", "checked", "fitted", "frame", "implementation", "skill")
+    __slots__ = (
+        "_before",
+        "_begun",
+        "_context",
+        "_holder",
+        "body",
+        "checked",
+        "fitted",
+        "frame",
+        "implementation",
+        "skill",
+    )
 
-    def __init__(self, context: Context, skill: Skill, fitted: Fitted, holder: object, body: Node) -> None:
+    def __init__(self, context: Context, skill: Skill, fitted: Fitted, holder: object, body: Node, begun: int) -> None:
         self.fitted = fitted
         self.implementation = fitted.implementation
         self.skill = skill
         self.frame: Frame = fitted.bindings
         self.body = body
         self.checked: WorldState = context.state
+        self._before, self._begun = context.state, begun
         self._context = context
         self._holder = holder
 
@@ -104,9 +117,12 @@ class Activation:
         effects = tuple(e for post in self.implementation.post if not post.sensed for e in post.effects)
         before = self._context.state
         changes = changes_of(effects, before, self.frame)
+        assumed = unsensed(changes, self._context.cell.world, self._begun)
+        if assumed:
+            self._context.assume(assumed, self.skill.name)
         if changes:
-            self._context.commit(changes, self.skill.name)
-            body.restore = partial(_restore, self._context, self.skill.name, changes, before, self._context.state)
+            start = before if assumed == changes else self._before
+            body.restore = partial(_restore, self._context, self.skill.name, changes, start, self._context.state)
 
     def _missing_output(self) -> Failure | None:
         missing = [name for name in self.outputs if name not in self.frame]
@@ -122,6 +138,10 @@ class Activation:
         for post in self.implementation.post:
             if not evaluate(post.condition, state, self.frame):
                 message = broken_text(self.implementation, post, "post", self.frame, state)
+                return Failure(kind="post", message=message, source=post.source, skill=self.skill.name)
+            why = not_sensed(post, self._context.cell.world, self.frame, self._begun) if post.sensed else None
+            if why is not None:
+                message = f"{self.skill.name}: {why}"
                 return Failure(kind="post", message=message, source=post.source, skill=self.skill.name)
         return None
 
@@ -148,7 +168,7 @@ def activate(
     except Exception:
         context.locks.give_back(holder)
         raise
-    return Activation(context, skill, fitted, holder, body)
+    return Activation(context, skill, fitted, holder, body, context.cell.world.ledger.count)
 
 
 def _take_locks(
@@ -166,7 +186,8 @@ def _body(context: Context, skill: Skill, fitted: Fitted, holder: object, enclos
     implementation, frame = fitted.implementation, fitted.bindings
     match implementation.body:
         case Compound(node=node):
-            return build(node, context, Enclosing(enclosing.undo, frame, implementation, (*enclosing.calls, holder)))
+            calls, begun = (*enclosing.calls, holder), context.cell.world.ledger.count
+            return build(node, context, Enclosing(enclosing.undo, frame, implementation, calls, begun=begun))
         case Primitive(python=python):
             cls = fitting_class(python, implementation.parameters)
             names = [p.name for p in implementation.parameters if p.direction != "out"]
@@ -181,7 +202,7 @@ def _restore(context: Context, skill: str, changes: tuple[Change, ...], before: 
     context.refresh()
     reverse = reverse_of(changes, before, after, context.state)
     if reverse:
-        context.commit(reverse, f"{skill} undone")
+        context.assume(reverse, f"{skill} undone")
 
 
 def _rejected(implementation: Implementation, stage: Stage, reason: str) -> Rejected:

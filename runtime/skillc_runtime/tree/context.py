@@ -49,9 +49,9 @@ class Context:
         """Take the newest snapshot, after somebody wrote."""
         self.state = self._snapshot()
 
-    def commit(self, changes: Sequence[Change], origin: str) -> None:
-        """Write changes in one transaction and read on from the result; WorldError refuses them all."""
-        self.cell.world.commit(changes, origin)
+    def assume(self, changes: Sequence[Change], origin: str) -> None:
+        """Write what nothing measured in one transaction and read on from the result; WorldError refuses it all."""
+        self.cell.world.commit(changes, origin, "assumed")
         self.refresh()
 
     def note(self, message: str, node: int = 0, source: Position | None = None) -> None:

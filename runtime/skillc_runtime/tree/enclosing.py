@@ -19,8 +19,9 @@ class Enclosing:
 
     `frame` has the values in scope: parameters, lets, loop variables, outputs; an optional parameter that was not
     passed is absent. `implementation` is whose body this is, None in a task. `calls` are the calls around it, which
-    may hold locks, outermost first. `undo` is the innermost scope: what a scoped skill sets up is undone when it ends.
-    `failures` are those of former attempts at the goal, None where the calls are no steps of a plan.
+    may hold locks, outermost first; `begun` is how many writes the world had seen when the innermost of them started.
+    `undo` is the innermost scope: what a scoped skill sets up is undone when it ends. `failures` are those of former
+    attempts at the goal, None where the calls are no steps of a plan.
     """
 
     undo: Undo
@@ -28,6 +29,7 @@ class Enclosing:
     implementation: Implementation | None = None
     calls: tuple[object, ...] = ()
     failures: Failures | None = None
+    begun: int = 0
 
     @property
     def skill(self) -> str:

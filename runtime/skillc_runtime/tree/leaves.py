@@ -12,6 +12,7 @@ from skillc_runtime.trace.failure import Failure
 from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.enclosing import Enclosing, Frame
 from skillc_runtime.tree.node import RUNNING, Node
+from skillc_runtime.tree.sensing import unsensed
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.effects import changes_of
 from skillc_runtime.world.explain import explain
@@ -103,7 +104,7 @@ class CheckNode(Node):
 
 
 class ApplyNode(Node):
-    """Writes posts of the enclosing skill into the world model."""
+    """Writes posts of the enclosing skill into the world model, but for what was sensed since that skill started."""
 
     kind: ClassVar[str] = "apply"
     __slots__ = ("enclosing", "posts")
@@ -117,8 +118,9 @@ class ApplyNode(Node):
     def begin(self) -> Status:
         effects = tuple(effect for post in self.posts for effect in post.effects)
         changes = changes_of(effects, self.context.state, self.enclosing.frame)
-        if changes:
-            self.context.commit(changes, f"{self.enclosing.skill}: {self.name}")
+        assumed = unsensed(changes, self.context.cell.world, self.enclosing.begun)
+        if assumed:
+            self.context.assume(assumed, f"{self.enclosing.skill}: {self.name}")
         return self.end()
 
     def still(self) -> bool:

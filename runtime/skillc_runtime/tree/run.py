@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from skillc_compiler.library import tree
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.plans.failures import Failures
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.robots.cell import Cell
+from skillc_runtime.robots.contradictions import DeviceWatch
 from skillc_runtime.robots.watchdog import Silence
 from skillc_runtime.trace.events import Listener, Paused, Resumed
 from skillc_runtime.trace.failure import Failure
@@ -16,14 +17,16 @@ from skillc_runtime.trace.listeners import Listeners
 from skillc_runtime.trace.outcome import Outcome
 from skillc_runtime.trace.world import world_changed
 from skillc_runtime.tree.build import build
+from skillc_runtime.tree.call import CallNode
 from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.enclosing import Enclosing
 from skillc_runtime.tree.errors import told
 from skillc_runtime.tree.locks import Locks
-from skillc_runtime.tree.node import RUNNING
+from skillc_runtime.tree.node import FAILURE, RUNNING, Node
 from skillc_runtime.tree.outcome import outcome
 from skillc_runtime.tree.strand import Strand
 from skillc_runtime.tree.undo import Undo
+from skillc_runtime.verifying import Claim
 from skillc_runtime.world.model import ChangeEvent
 
 _ALIVE = (RUNNING, Status.IDLE)
@@ -58,6 +61,7 @@ class Run:
         self._root = build(body, self._context, Enclosing(self._undo, failures=failures))
         self._strand = Strand(self._root)
         self._paused_at: float | None = None
+        self._devices = DeviceWatch(cell)
         self.status = Status.IDLE
         self.failure: Failure | None = None
 
@@ -77,6 +81,11 @@ class Run:
         return outcome(self._root)
 
     @property
+    def claims(self) -> tuple[Claim, ...]:
+        """The posts of the outermost calls that succeeded."""
+        return tuple(_claims(self._root))
+
+    @property
     def problems(self) -> tuple[str, ...]:
         """What went wrong with those who listened."""
         return tuple(self._listeners.problems)
@@ -90,8 +99,12 @@ class Run:
         try:
             self._context.begin_tick()
             self._beat()
+            contradiction = self._contradiction()
             status = self._strand.pulse() if self.status is RUNNING else self._start()
-            if status is RUNNING or self._strand.climb(status) is RUNNING:
+            running = status is RUNNING or self._strand.climb(status) is RUNNING
+            if contradiction is not None and self._root.status is not FAILURE:
+                return self._refuted(contradiction)
+            if running:
                 return RUNNING
         except Exception as error:  # noqa: BLE001  the task's boundary: it reports, halts and ends
             self.abort(error)
@@ -111,6 +124,18 @@ class Run:
             message = told(error)
             self._root.halt(message)
             self._ended(Status.FAILURE, Failure(kind="error", message=message, source=self._root.source))
+
+    def look_again(self) -> None:
+        """After the end: look whether a device contradicts the world model; a success is none then."""
+        if self.status is not Status.SUCCESS:
+            return
+        unlisten = self._context.cell.world.listen(self._tell_world)
+        try:
+            contradiction = self._devices.contradiction()
+        finally:
+            unlisten()
+        if contradiction is not None:
+            self.status, self.failure = Status.FAILURE, self._refutation(contradiction)
 
     def pause(self) -> None:
         """Let everything that runs hold still; the run's time stands still too."""
@@ -140,6 +165,21 @@ class Run:
         if not cell.watchdog.beat(self, cell.now):
             raise Silence("the tree was not ticked for too long, so everything was stopped")
 
+    def _contradiction(self) -> str | None:
+        """Withdraw what a device contradicts; return that in words."""
+        found = self._devices.contradiction()
+        if found is not None:
+            self._context.refresh()
+        return found
+
+    def _refuted(self, contradiction: str) -> Status:
+        """Fail because a device contradicts what the world model says: halt everything that runs."""
+        self._root.halt(contradiction)
+        return self._ended(Status.FAILURE, self._refutation(contradiction))
+
+    def _refutation(self, contradiction: str) -> Failure:
+        return Failure(kind="contradiction", message=contradiction, source=self._root.source)
+
     def _still_there(self) -> Status:
         """Give a sign of life while paused."""
         try:
@@ -168,3 +208,12 @@ class Run:
 
     def _tell_world(self, event: ChangeEvent) -> None:
         self._listeners(world_changed(event, self._context.time))
+
+
+def _claims(node: Node) -> Iterator[Claim]:
+    if not isinstance(node, CallNode):
+        for child in node.children:
+            yield from _claims(child)
+    elif node.activation is not None and node.status is Status.SUCCESS:
+        frame = dict(node.activation.frame)
+        yield from ((post.condition, frame) for post in node.activation.implementation.post)

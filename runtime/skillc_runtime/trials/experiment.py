@@ -16,6 +16,7 @@ from skillc_runtime.report.wiping import find_wipings
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import execute
 from skillc_runtime.trace.events import Listener
+from skillc_runtime.trace.known import assumed
 from skillc_runtime.trials.disturbance import Person, reality
 from skillc_runtime.trials.measures.evidence import Evidence
 from skillc_runtime.trials.measuring import works
@@ -70,6 +71,8 @@ class Laboratory:
             seed=cell.variation.seed,
             status=result.status,
             reason=result.failure,
+            verified=result.verified,
+            assumed=tuple(fact.fact for fact in assumed(result.facts)),
             variation=result.variation,
             works=works(Evidence(self._library, cell, trees, choices, judged)),
             coverage=min((surface.fraction for surface in cell.coverage.values()), default=1.0),

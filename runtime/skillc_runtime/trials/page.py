@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from skillc_runtime.trials.series import Series, Spread
+from skillc_runtime.trials.table import unverified_words
 
 WIDTH, HEIGHT, MARGIN = 420, 34, 8
 """Of a drawing, px."""
@@ -38,7 +39,9 @@ def render(series: Series) -> str:
         lstrip_blocks=True,
     )
     strips = [strip(spread) for spread in series.spreads]
-    return environment.get_template("page.html.j2").render(series=series, strips=strips, width=WIDTH, height=HEIGHT)
+    return environment.get_template("page.html.j2").render(
+        series=series, unverified=unverified_words(series), strips=strips, width=WIDTH, height=HEIGHT
+    )
 
 
 def strip(spread: Spread) -> Strip:

@@ -41,7 +41,10 @@ class Failed(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Series(msgspec.Struct, frozen=True, kw_only=True):
-    """All trials of one task. `wanted` seeds were asked for; those of `passed` went as they should."""
+    """All trials of one task. `wanted` seeds were asked for; those of `passed` went as they should.
+
+    In `unverified` of them the task finished, but the facts `assumed` were not sensed.
+    """
 
     task: str
     disturbance: Disturbance
@@ -51,6 +54,8 @@ class Series(msgspec.Struct, frozen=True, kw_only=True):
     spreads: tuple[Spread, ...]
     failed: tuple[Failed, ...]
     trials: tuple[Trial, ...]
+    unverified: int = 0
+    assumed: tuple[str, ...] = ()
 
     @property
     def good(self) -> bool:
@@ -72,6 +77,8 @@ def series(task: str, disturbance: Disturbance, wanted: int, trials: Sequence[Tr
         spreads=spreads(ordered, judged_by_targets=disturbance == "none"),
         failed=failed,
         trials=ordered,
+        unverified=sum(trial.verified is False for trial in ordered),
+        assumed=tuple(dict.fromkeys(fact for trial in ordered for fact in trial.assumed)),
     )
 
 

@@ -6,12 +6,13 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from skillc_runtime.trace.known import UNVERIFIED
 from skillc_runtime.trials.series import Series, Spread
 
 
 def render(series: Series) -> RenderableType:
     """Return the spread of each metric, each failed seed with its reasons, and how many trials went as they should."""
-    return Group(_headline(series), *_spreads(series.spreads), *_failed(series), "")
+    return Group(_headline(series), *_unverified(series), *_spreads(series.spreads), *_failed(series), "")
 
 
 def _headline(series: Series) -> Text:
@@ -20,6 +21,18 @@ def _headline(series: Series) -> Text:
     done = "" if series.done == series.wanted else f", {series.wanted - series.done} not done"
     passed = f"{series.passed} of {series.wanted} as they should be{done}"
     return Text.assemble((series.task, "bold"), disturbed, "  ", (passed, style))
+
+
+def _unverified(series: Series) -> list[RenderableType]:
+    words = unverified_words(series)
+    return [Text(words, style="yellow")] if words else []
+
+
+def unverified_words(series: Series) -> str:
+    """Return how many trials finished without being verified and why; nothing where all were."""
+    if not series.unverified:
+        return ""
+    return f"{series.unverified} of {series.done} {UNVERIFIED}: only assumed: {'; '.join(series.assumed)}"
 
 
 def _spreads(spreads: tuple[Spread, ...]) -> list[RenderableType]:

@@ -18,6 +18,7 @@ Disturbance: TypeAlias = Literal["none", "missing", "obstacle", "push"]
 class Trial(msgspec.Struct, frozen=True, kw_only=True):
     """One run: its seed, how it ended and why, how reality differed from the world model, and what was measured.
 
+    `assumed` are the facts that a success rests on and nothing sensed; it is `verified` when there are none.
     `works` has an entry for each thing that was worked on; `coverage` is of all the run did, lowest of all surfaces
     wiped or not.
     `greatest_force_n` is the most that any tool felt, `force_limit_n` the least of what makes an arm hold
@@ -29,6 +30,8 @@ class Trial(msgspec.Struct, frozen=True, kw_only=True):
     seed: int
     status: Status
     reason: str | None = None
+    verified: bool | None = None
+    assumed: tuple[str, ...] = ()
     variation: str = ""
     works: tuple[Work, ...] = ()
     coverage: float = 0.0

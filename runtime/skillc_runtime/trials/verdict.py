@@ -7,7 +7,7 @@ from typing import assert_never
 
 from skillc_runtime.trials.targets import Value, values, values_of
 from skillc_runtime.trials.trial import Disturbance, Trial
-from skillc_runtime.trials.work import Inserted, Pressed
+from skillc_runtime.trials.work import Inserted, Polished, Pressed, Wiped
 
 
 def misses(trial: Trial, disturbance: Disturbance) -> tuple[str, ...]:
@@ -52,8 +52,11 @@ def _off_target(trial: Trial) -> Iterator[str]:
 
 
 def _untrue(trial: Trial) -> Iterator[str]:
-    """Yield what a trial claims to have done to a fixture in which something was in the way."""
+    """Yield what a trial claims to have done where something was in the way."""
     fixed = [work for work in trial.works if isinstance(work, Pressed | Inserted)]
+    worked = [work for work in trial.works if isinstance(work, Wiped | Polished)]
+    if trial.status == "success" and worked and trial.coverage < 1.0:
+        yield f"success, wanted a failure that says why: coverage {100 * trial.coverage:.1f} %"
     if trial.status == "success" and fixed:
         yield f"success, wanted a failure that says why: {', '.join(_missed(v) for w in fixed for v in values_of(w))}"
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Mapping
-from typing import TypeAlias, assert_never
+from typing import TypeAlias, assert_never, cast
 
 import numpy as np
 
@@ -18,11 +18,13 @@ from skillc_compiler.library.conditions import (
     Variable,
 )
 from skillc_compiler.library.vocabulary import local_name
+from skillc_compiler.library.words import type_text
 from skillc_runtime.world.cache import ByIdentity
 from skillc_runtime.world.foreign import EvaluationError as EvaluationError
 from skillc_runtime.world.foreign import called, resolve
 from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.typed import is_of
+from skillc_runtime.world.values import Value, show
 
 Bindings: TypeAlias = Mapping[str, "Value | None"]
 """What the names in scope stand for; an unset optional parameter is missing or None."""
@@ -105,7 +107,9 @@ def call(target: str, name: str, state: WorldState, *arguments: Value) -> Value 
 
 
 def _listed(result: Value) -> Value:
-    """Return lists, which Python functions like to give, as the tuples that values are; also those within lists."""
+    """Return lists and NumPy's numbers, which Python functions like to give, as tuples and numbers, also in lists."""
+    if isinstance(result, np.generic):
+        return cast(Value, result.item())
     return tuple(map(_listed, result)) if isinstance(result, list | tuple) else result
 
 
@@ -155,6 +159,11 @@ def _invocation(name: str, arguments: tuple[Read, ...]) -> Read:
             values.append(value)
         if name not in state.vocabulary.functions:
             raise EvaluationError(f"there is no function {name} in the vocabulary of this library")
-        return call(state.vocabulary.functions[name].python, name, state, *values)
+        function = state.vocabulary.functions[name]
+        result = call(function.python, name, state, *values)
+        if result is None or is_of(result, function.result, state):
+            return result
+        declared = type_text(function.result, state.vocabulary)
+        raise EvaluationError(f"{name} gives {show(result)}, where its declaration says `{declared}`")
 
     return compute

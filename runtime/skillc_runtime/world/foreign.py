@@ -26,8 +26,10 @@ def resolve(target: str) -> Any:
     module, _, attribute = target.partition(":")
     try:
         return getattr(import_module(module), attribute)
-    except (ImportError, AttributeError, ValueError) as error:
-        raise EvaluationError(f"the Python function {target} cannot be loaded: {error}") from error
+    except Exception as error:  # foreign code: whatever it raises, it cannot be used
+        expected = isinstance(error, ImportError | AttributeError | ValueError)
+        reason = error if expected else f"{type(error).__name__}: {error}"
+        raise EvaluationError(f"the Python function {target} cannot be loaded: {reason}") from error
 
 
 def called(function: Callable[..., T], name: str, state: object, *arguments: object) -> T:

@@ -6,12 +6,15 @@ import math
 import re
 from difflib import get_close_matches
 
+import numpy as np
 import pyoxigraph as ox
 
-from skillc_compiler.library.vocabulary import NumberType, PlainType, PropertyTerm
+from skillc_compiler.library.vocabulary import DirectionType, NumberType, PlainType, PropertyTerm, VectorType
 from skillc_compiler.library.words import SI_UNITS
 from skillc_compiler.turtle.terms import XSD
+from skillc_runtime.world.terms import SKILLC
 from skillc_runtime.world.values import Value
+from skillc_runtime.world.vectors import is_direction, vector_of
 
 INTEGERS = frozenset(
     XSD + name
@@ -22,6 +25,7 @@ INTEGERS = frozenset(
 )
 NUMBERS = INTEGERS | {XSD + "decimal", XSD + "double", XSD + "float"}
 TEXTS = frozenset({XSD + "string", "http://www.w3.org/1999/02/22-rdf-syntax-ns#langString", XSD + "anyURI"})
+VECTORS = frozenset({XSD + "string", SKILLC + "Vector", SKILLC + "Direction"})
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
 
 
@@ -45,6 +49,8 @@ def read(literal: ox.Literal, term: PropertyTerm) -> Value:
             return text in ("true", "1")
         case PlainType("Text") if kind in TEXTS:
             return _one_of(text, term.values)
+        case VectorType() | DirectionType() if kind in VECTORS:
+            return _vector(text, term.type)
         case _:
             help_, instead = _cure(literal, term)
             raise LiteralError(f"it takes {_expected(term)}, and this is {literal}", help_, instead)
@@ -58,6 +64,17 @@ def _number(text: str) -> float:
     if not math.isfinite(number):
         raise LiteralError("NaN and infinity are no values")
     return number
+
+
+def _vector(text: str, type_: VectorType | DirectionType) -> Value:
+    vector = vector_of(text)
+    if vector is None:
+        raise LiteralError(f'"{text}" is not three numbers', 'write three numbers with spaces between them: "0 0 1"')
+    if isinstance(type_, VectorType) or is_direction(vector):
+        return vector
+    length = float(np.linalg.norm(vector))
+    near = " ".join(f"{part / length:.4g}" for part in vector) if length else "0 0 1"
+    raise LiteralError(f'a direction is of length 1, and "{text}" is of length {length:g}', f'write "{near}"')
 
 
 def _one_of(text: str, values: tuple[str, ...]) -> str:
@@ -81,6 +98,8 @@ def _expected(term: PropertyTerm) -> str:
             return "true or false"
         case PlainType("Text"):
             return "a text in quotes"
+        case VectorType() | DirectionType():
+            return "three numbers in quotes"
         case _:
             return "a computed value that no file can state"
 
@@ -100,5 +119,7 @@ def _cure(literal: ox.Literal, term: PropertyTerm) -> tuple[str, str | None]:
             return ("write true or false, without quotes", word if word in ("true", "false") else None)
         case PlainType("Text"):
             return f'write "{text}"', f'"{text}"'
+        case VectorType() | DirectionType():
+            return 'write three numbers with spaces between them, in quotes: "0 0 1"', None
         case _:
             return "", None

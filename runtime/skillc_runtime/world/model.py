@@ -18,6 +18,8 @@ from skillc_runtime.world.changes import (
     about,
 )
 from skillc_runtime.world.event import ChangeEvent, Listener
+from skillc_runtime.world.evidence import Established, Evidence, Ledger
+from skillc_runtime.world.facts import Fact
 from skillc_runtime.world.rules import broken, unknown
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.store.store import Nowhere, Store, StoreError
@@ -34,7 +36,7 @@ class WorldError(ValueError):
 
 
 class WorldModel:
-    """The current version of the world and whoever wants to hear of the next."""
+    """The current version of the world, how its facts are known, and whoever wants to hear of the next."""
 
     def __init__(self, state: WorldState, store: Store | None = None, sequence: int = 0) -> None:
         """Begin with a version: the one that `store`, if there is one, holds after the transaction `sequence`."""
@@ -45,6 +47,7 @@ class WorldModel:
         self._lock = RLock()
         self._gathering = False
         self._past: deque[ChangeEvent] = deque(maxlen=UNDOABLE)
+        self.ledger = Ledger()
 
     def snapshot(self) -> WorldState:
         """Return the current version, which never changes."""
@@ -55,21 +58,26 @@ class WorldModel:
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener)
 
-    def commit(self, changes: Iterable[Change], origin: str = "") -> ChangeEvent:
+    def known(self, fact: Fact) -> Established | None:
+        """Return the write that decides how a fact of the current version is known; None for one given at the start."""
+        return self.ledger.established(fact, self._state)
+
+    def commit(self, changes: Iterable[Change], origin: str = "", known: Evidence = "assumed") -> ChangeEvent:
         """Make all the changes or, when the world would break an axiom, none: WorldError says which.
 
+        `known` is `sensed` or `reported` only where a device was read for them, now.
         Where others wrote to the store in the meantime, the changes are made to what they left. StoreError when the
         store cannot keep the changes, and then the world stays as it was.
         """
         with self._lock:
             if self._gathering:
                 raise WorldError("a transaction is open: write to it")
-            event = self._written(tuple(changes), origin)
+            event = self._written(tuple(changes), origin, known)
         self._tell(event)
         return event
 
     @contextmanager
-    def transaction(self, origin: str = "") -> Iterator[OpenTransaction]:
+    def transaction(self, origin: str = "", known: Evidence = "assumed") -> Iterator[OpenTransaction]:
         """Gather writes and commit them all when the block ends; none when it raises, nor when they are refused.
 
         Other threads wait with their writes for its end, and go on reading. WorldError for one within another.
@@ -83,12 +91,12 @@ class WorldModel:
                 yield gathered
             finally:
                 self._gathering = False
-            event = self._written(tuple(gathered.changes), origin) if gathered.changes else None
+            event = self._written(tuple(gathered.changes), origin, known) if gathered.changes else None
         if event is not None:
             self._tell(event)
 
     def undo(self, origin: str = "undo") -> ChangeEvent:
-        """Take back the last write that is not taken back yet, as a write of its own.
+        """Take back the last write that is not taken back yet, as a write of its own; facts are known as before it.
 
         WorldError when there is none: nothing was written here, others wrote since, or it is more than UNDOABLE ago.
         """
@@ -100,11 +108,12 @@ class WorldModel:
                 raise WorldError("there is nothing to take back: nothing was written here since others wrote")
             last = self._past[-1]
             named = {individual for change in last.changes for individual in about(change)}
-            event = self._checked(between(self._state, last.before, named), origin)
+            event = self._checked(between(self._state, last.before, named), origin, None)
             if not self._store.append(event, self._sequence):
                 raise WorldError("others wrote to the world meanwhile: nothing was taken back")
             self._advance(event)
             self._past.pop()
+            self.ledger.drop_last()
         self._tell(event)
         return event
 
@@ -115,28 +124,34 @@ class WorldModel:
             for transaction in self._store.since(self._sequence):
                 before, self._sequence = self._state, transaction.sequence
                 self._state = before.changed(transaction.changes)
-                events.append(ChangeEvent(transaction.changes, transaction.origin, before, self._state))
+                event = ChangeEvent(transaction.changes, transaction.origin, before, self._state, None)
+                events.append(event)
+                self._enter(event)
                 self._past.clear()
         for event in events:
             self._tell(event)
 
-    def _written(self, changes: tuple[Change, ...], origin: str) -> ChangeEvent:
-        event = self._checked(changes, origin)
+    def _written(self, changes: tuple[Change, ...], origin: str, known: Evidence) -> ChangeEvent:
+        event = self._checked(changes, origin, known)
         while not self._store.append(event, self._sequence):
-            known = self._sequence
+            before = self._sequence
             self.follow()
-            if self._sequence == known:
+            if self._sequence == before:
                 raise StoreError(f"{self._store} refuses a write, although nobody else has written")
-            event = self._checked(changes, origin)
+            event = self._checked(changes, origin, known)
         self._advance(event)
         self._past.append(event)
+        self._enter(event)
         return event
 
     def _advance(self, event: ChangeEvent) -> None:
         self._state = event.after
         self._sequence += 1
 
-    def _checked(self, made: tuple[Change, ...], origin: str) -> ChangeEvent:
+    def _enter(self, event: ChangeEvent) -> None:
+        self.ledger.add(event.changes, event.before, event.after, event.known, event.origin)
+
+    def _checked(self, made: tuple[Change, ...], origin: str, known: Evidence | None) -> ChangeEvent:
         """Return what the changes would make of the current version; WorldError when that is refused."""
         before = self._state
         strange = [iri for change in made if (iri := unknown(before, change)) is not None]
@@ -146,7 +161,7 @@ class WorldModel:
         problems = [breach.message for change in _lasting(made) for breach in broken(after, change)]
         if problems:
             raise WorldError("; ".join(dict.fromkeys(problems)))
-        return ChangeEvent(made, origin, before, after)
+        return ChangeEvent(made, origin, before, after, known)
 
     def _tell(self, event: ChangeEvent) -> None:
         for listener in tuple(self._listeners):

@@ -7,11 +7,10 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import TypeAlias, assert_never
 
-import numpy as np
-
 from skillc_compiler.library.vocabulary import (
     THING,
     ClassType,
+    DirectionType,
     ListType,
     NumberType,
     PlainType,
@@ -33,6 +32,7 @@ from skillc_runtime.world.changes import (
 )
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value, finite, show
+from skillc_runtime.world.vectors import is_direction, is_vector
 
 Fact: TypeAlias = tuple[str, str, str]
 """A relation or a class as it was written: subject, predicate and object, all IRIs."""
@@ -260,14 +260,12 @@ def _expected(type_: ValueType, value: Value) -> str | None:
         case PlainType("Pose"):
             return None if isinstance(value, Pose) else "a pose"
         case VectorType():
-            return None if _is_vector(value) else "a vector of three numbers"
+            return None if is_vector(value) else "a vector of three numbers"
+        case DirectionType():
+            return None if is_direction(value) else "a direction: a vector of length 1"
         case ClassType():
             return None if isinstance(value, str) else "an individual"
         case ListType():
             return None if isinstance(value, tuple) else "a list"
         case _:
             raise AssertionError(f"no such type: {type_}")
-
-
-def _is_vector(value: Value) -> bool:
-    return isinstance(value, np.ndarray) and value.shape == (3,)

@@ -18,6 +18,7 @@ from skillc_runtime.world.individuals import facts, iri_of, with_own_classes
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.store.facts import CLASS, SUBCLASS, TYPE
 from skillc_runtime.world.values import Value, has, show
+from skillc_runtime.world.vectors import is_vector, text_of_vector
 
 _LOCAL = re.compile(r"[A-Za-z_](?:[\w-]*\w)?", re.ASCII)
 LISTED = 3
@@ -142,6 +143,8 @@ class _Written:
                 text = _double(float(value))
             case str():
                 text = str(ox.Literal(value))
+            case _ if is_vector(value):
+                text = f'"{text_of_vector(value)}"'
             case _:
                 raise SaveError(
                     f"no scene can say <{property_}> of <{individual}>: {show(value)} is no number, text or truth value"

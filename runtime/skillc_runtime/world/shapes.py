@@ -2,7 +2,7 @@
 
 They say what individuals must state, datatypes, sets of values and bounds, domains and ranges, how many values there
 may be, and which classes are disjoint. What SHACL Core has no word for stays with skillc: asymmetric, irreflexive and
-transitive relations, misspelt terms, frames and poses.
+transitive relations, misspelt terms, frames, poses, and the length of directions.
 """
 
 from __future__ import annotations
@@ -13,10 +13,12 @@ from skillc_compiler.library.vocabulary import (
     THING,
     Bounds,
     ClassTerm,
+    DirectionType,
     NumberType,
     PlainType,
     PropertyTerm,
     RelationTerm,
+    VectorType,
     Vocabulary,
 )
 from skillc_runtime.world.axioms import Axioms
@@ -25,6 +27,9 @@ SHAPES = "https://w3id.org/skillc/shapes#"
 PREFIXES = {"sh": "http://www.w3.org/ns/shacl#", "xsd": "http://www.w3.org/2001/XMLSchema#", "shape": SHAPES}
 NUMBERS = ("double", "float", "decimal", "integer", "int", "nonNegativeInteger")
 PLAIN = {"Text": ("string",), "Bool": ("boolean",), "Int": ("integer", "int", "nonNegativeInteger")}
+NUMBER = r"[+-]?(\\d+\\.?\\d*|\\.\\d+)([eE][+-]?\\d+)?"
+VECTOR = rf"^\\s*{NUMBER}\\s+{NUMBER}\\s+{NUMBER}\\s*$"
+"""What a vector is like as a text, with the backslashes doubled as Turtle wants them."""
 
 
 def shapes(vocabulary: Vocabulary) -> str:
@@ -65,6 +70,7 @@ class _Shapes:
     def _of_property(self, term: PropertyTerm) -> Iterator[str]:
         kinds = _datatypes(term)
         within = [f"sh:or ( {' '.join(f'[ sh:datatype xsd:{kind} ]' for kind in kinds)} )"] if kinds else []
+        within += [f'sh:pattern "{VECTOR}"'] if isinstance(term.type, VectorType | DirectionType) else []
         within += ["sh:in ( " + " ".join(f'"{value}"' for value in term.values) + " )"] if term.values else []
         within += _ends(term.bounds) if term.bounds is not None else []
         within += ["sh:maxCount 1"] if term.functional else []

@@ -45,6 +45,15 @@ def finite(value: Value) -> bool:
     return all(finite(part) for part in value) if isinstance(value, tuple) else True
 
 
+def plain(value: Value) -> object:
+    """Return a value as JSON has it; what JSON has no form for as text."""
+    if isinstance(value, tuple):
+        return [plain(part) for part in value]
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    return show(value) if isinstance(value, Pose) else value
+
+
 def show(value: Value) -> str:
     """Return a value as a reader wants to see it, numbers in SI units."""
     if isinstance(value, bool):
@@ -56,5 +65,5 @@ def show(value: Value) -> str:
     if isinstance(value, Pose):
         return f"pose at {show(value.position)}"
     if isinstance(value, np.ndarray):
-        return "(" + ", ".join(f"{float(part):g}" for part in value.ravel()) + ")"
+        return "(" + ", ".join(f"{float(part) + 0.0:g}" for part in value.ravel()) + ")"
     return "[" + ", ".join(show(part) for part in value) + "]" if isinstance(value, tuple) else str(value)

@@ -15,6 +15,7 @@ from skillc_runtime.world.individuals import OWL, RDFS
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.store.store import StoreError
 from skillc_runtime.world.values import Value
+from skillc_runtime.world.vectors import is_vector, text_of_vector
 
 TYPE, CLASS = ox.NamedNode(RDF_TYPE), ox.NamedNode(f"{OWL}Class")
 SUBCLASS = ox.NamedNode(f"{RDFS}subClassOf")
@@ -87,6 +88,8 @@ def _valued(individual: str, term: PropertyTerm, value: Value | None) -> Iterato
             yield ox.Triple(_node(individual), _node(term.iri), ox.Literal(float(one)))
         elif isinstance(one, bool | int | float | str):
             yield ox.Triple(_node(individual), _node(term.iri), ox.Literal(one))
+        elif is_vector(one):
+            yield ox.Triple(_node(individual), _node(term.iri), ox.Literal(text_of_vector(one)))
         elif one is not None:
             raise StoreError(f"no store can keep <{term.iri}> of <{individual}>: it is no number, text or truth value")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import http.client
 import ssl
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 from skillc_runtime.world.store.address import Address, shown
 from skillc_runtime.world.store.deadline import Deadline, TimedSocket
@@ -119,10 +119,11 @@ class HttpEndpoint:
     def _exchange(self, url: Address, kind: str, text: str, accept: str) -> _Answer:
         deadline = Deadline(TOTAL * self._timeout_s, self._timeout_s)
         connection = self._connection = self._connection or _connection(url, self._timeout_s)
-        if connection.sock is None:
+        timed: Any = connection.sock
+        if timed is None:
             connection.connect()
-            connection.sock = TimedSocket(connection.sock)
-        connection.sock.deadline = deadline
+            connection.sock = timed = TimedSocket(connection.sock)
+        timed.deadline = deadline
         headers = {"Content-Type": f"{kind}; charset=utf-8", "Accept": accept, **url.authorization()}
         connection.request("POST", url.target, text.encode(), headers)
         response = connection.getresponse()

@@ -9,13 +9,15 @@ from typing import get_args
 import msgspec
 
 from skillc_runtime.world.changes import Change
+from skillc_runtime.world.vectors import is_vector, text_of_vector, vector_of
 
 KINDS: dict[str, Callable[..., Change]] = {kind.__name__: kind for kind in get_args(Change)}
 
 
 def as_text(changes: tuple[Change, ...]) -> str:
     """Return changes as one line of JSON: a list for each, of its kind and its fields in order."""
-    return msgspec.json.encode([[type(each).__name__, *_fields(each)] for each in changes]).decode()
+    told = [[type(each).__name__, *_fields(each)] for each in changes]
+    return msgspec.json.encode(told, enc_hook=_vector_text).decode()
 
 
 def changes_of(text: str) -> tuple[Change, ...]:
@@ -31,4 +33,21 @@ def _fields(change: Change) -> list[object]:
 
 
 def _change(kind: object, *values: object) -> Change:
-    return KINDS[str(kind)](*(tuple(each) if isinstance(each, list) else each for each in values))
+    return KINDS[str(kind)](*map(_value, values))
+
+
+def _vector_text(value: object) -> dict[str, str]:
+    """Return a vector as JSON has it; TypeError for what no change has."""
+    if is_vector(value):
+        return {"vector": text_of_vector(value)}
+    raise TypeError(f"{type(value).__name__} has no form in a journal")
+
+
+def _value(written: object) -> object:
+    match written:
+        case list():
+            return tuple(map(_value, written))
+        case {"vector": str(text)}:
+            return vector_of(text)
+        case _:
+            return written

@@ -1,0 +1,140 @@
+"""What a class inherits, how it is made and which methods it has, read from its text."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Sequence
+from typing import TypeAlias
+
+from skillc_compiler.python.dataclass_fields import DATACLASS, fields_taken, is_dataclass
+from skillc_compiler.python.found import UNCLEAR, ClassFound, Method, Signature, Unclear
+from skillc_compiler.python.modules import Defined, Function, defined_by, dotted
+from skillc_compiler.python.signatures import method_found
+
+Lineage: TypeAlias = "tuple[Defined | Unclear, ...]"
+"""A class and what it inherits from, in the order in which Python looks for methods."""
+
+NEUTRAL = frozenset(("object", "typing.Generic", "typing.Protocol", "abc.ABC"))
+"""Classes that neither take nor do anything."""
+PLAIN_DECORATORS = frozenset((DATACLASS, "typing.final", "typing.runtime_checkable", "functools.total_ordering"))
+PLAIN_METACLASSES = frozenset(("abc.ABCMeta", "type"))
+
+
+def class_found(of: Defined) -> ClassFound:
+    """Return what is certain of a class."""
+    lineage = _lineage(of, frozenset())
+    known = tuple(each for each in lineage if isinstance(each, Defined))
+    unusual = any(_is_decorated(each) or _is_made_otherwise(each) for each in known)
+    return ClassFound(
+        constructor=None if unusual else _constructor(lineage),
+        ancestors=tuple(_called(each) for each in known),
+        complete=len(known) == len(lineage) and not any(map(_is_decorated, known)),
+        methods=dict(_methods(lineage)),
+    )
+
+
+def _lineage(of: Defined, around: frozenset[str]) -> Lineage:
+    """Return the classes, each before those that it inherits from; of one that is reached twice the last counts."""
+    found: list[Defined | Unclear] = [of]
+    bases = of.node.bases if isinstance(of.node, ast.ClassDef) else []
+    for base in bases:
+        if dotted(of.module, base.value if isinstance(base, ast.Subscript) else base) in NEUTRAL:
+            continue
+        match defined_by(of.module, base):
+            case Defined(node=ast.ClassDef()) as parent if _called(parent) not in around:
+                found += _lineage(parent, around | {_called(of)})
+            case _:
+                found.append(UNCLEAR)
+    names = [each if isinstance(each, Unclear) else _called(each) for each in found]
+    return tuple(each for index, each in enumerate(found) if names[index] not in names[index + 1 :])
+
+
+def _called(of: Defined) -> str:
+    return f"{of.module}:{of.node.name}"
+
+
+def _is_decorated(of: Defined) -> bool:
+    """Whether a decorator may make something else of a class."""
+    return any(dotted(of.module, each) not in PLAIN_DECORATORS for each in of.node.decorator_list)
+
+
+def _is_made_otherwise(of: Defined) -> bool:
+    """Whether a metaclass or `__new__` may take what the constructor would not."""
+    keywords = of.node.keywords if isinstance(of.node, ast.ClassDef) else []
+    metaclasses = (each.value for each in keywords if each.arg == "metaclass")
+    unusual = any(dotted(of.module, each) not in PLAIN_METACLASSES for each in metaclasses)
+    return unusual or "__new__" in dict(_members(of.node))
+
+
+def _members(node: ast.stmt) -> Iterator[tuple[str, ast.stmt]]:
+    """Yield what a class's own body defines."""
+    for part in node.body if isinstance(node, ast.ClassDef) else ():
+        match part:
+            case ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name):
+                yield name, part
+            case ast.Assign(targets=targets):
+                yield from ((target.id, part) for target in targets if isinstance(target, ast.Name))
+            case ast.If() | ast.Try() | ast.With():
+                yield from ((inner.name, part) for inner in ast.walk(part) if isinstance(inner, Function))
+            case _:
+                pass
+
+
+def _methods(lineage: Lineage) -> Iterator[tuple[str, Method | None]]:
+    seen: set[str] = set()
+    for each in lineage:
+        if isinstance(each, Unclear):
+            return
+        for name, member in dict(_members(each.node)).items():
+            if name not in seen:
+                found = method_found(each.module, member) if isinstance(member, Function) else None
+                yield name, Method(_called(each), found) if found else None
+            seen.add(name)
+
+
+def _constructor(lineage: Sequence[Defined | Unclear]) -> Signature | None:
+    """Return what the first class that has a constructor takes, without `self`; None where that is not certain."""
+    for index, each in enumerate(lineage):
+        if isinstance(each, Unclear):
+            return None
+        match dict(_members(each.node)).get("__init__"):
+            case ast.FunctionDef() as function:
+                own = method_found(each.module, function).signature
+                return own and _passed_on(own, function, lineage[index + 1 :])
+            case None:
+                if is_dataclass(each):
+                    return fields_taken([one for one in lineage[index:] if isinstance(one, Defined)])
+            case _:
+                return None
+    return Signature()
+
+
+def _passed_on(own: Signature, function: ast.FunctionDef, above: Sequence[Defined | Unclear]) -> Signature:
+    """Return what a constructor takes; what it takes in `**rest` and only passes on is what the next one takes."""
+    rest = function.args.kwarg.arg if function.args.kwarg else ""
+    uses = [node for node in ast.walk(function) if isinstance(node, ast.Name) and node.id == rest]
+    calls = [node for node in ast.walk(function) if isinstance(node, ast.Call) and _is_super_init(node.func)]
+    if len(uses) != 1 or len(calls) != 1 or any(isinstance(each, ast.Starred) for each in calls[0].args):
+        return own
+    passing = {each.arg: each.value for each in calls[0].keywords}
+    next_one = _constructor(above)
+    if passing.get(None) is not uses[0] or next_one is None:
+        return own
+    left = next_one.without_first(len(calls[0].args))
+    names = tuple(n for n in (*left.by_position, *left.by_name) if n not in passing and n not in own.by_position)
+    return Signature(
+        own.by_position,
+        own.unnamed,
+        tuple(dict.fromkeys((*own.by_name, *names))),
+        (*own.needed, *(n for n in left.needed if n in names)),
+        own.args,
+        left.named,
+    )
+
+
+def _is_super_init(written: ast.expr) -> bool:
+    match written:
+        case ast.Attribute(value=ast.Call(func=ast.Name(id="super")), attr="__init__"):
+            return True
+        case _:
+            return False

@@ -1,0 +1,215 @@
+"""Finds where a module's names are defined, through imports, re-exports, `import *` and aliases."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from importlib.machinery import ModuleSpec, PathFinder
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TypeAlias
+
+from skillc_compiler.python.found import UNCLEAR, BrokenModule, NoModule, NoName, Other, Unclear
+
+Function: TypeAlias = ast.FunctionDef | ast.AsyncFunctionDef
+Place: TypeAlias = tuple[str, str]
+"""A module and a name in it."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Defined:
+    """The definition of a class or function, and the module it stands in."""
+
+    module: str
+    node: ast.ClassDef | Function
+
+
+@dataclass(frozen=True, slots=True)
+class _Names:
+    """What a module binds at its top, by name, and where it imports everything from."""
+
+    bound: Mapping[str, ast.stmt | ast.expr | Unclear]
+    stars: tuple[ast.ImportFrom, ...]
+
+
+Definition: TypeAlias = Defined | Other | NoModule | BrokenModule | NoName | Unclear
+
+
+def definition(module: str, name: str, seen: frozenset[Place] = frozenset()) -> Definition:
+    """Return where a name of a module is really defined."""
+    names = _names_in(module)
+    if not isinstance(names, _Names):
+        return names
+    if (module, name) in seen:
+        return UNCLEAR
+    match names.bound.get(name):
+        case ast.ClassDef() | ast.FunctionDef() | ast.AsyncFunctionDef() as node:
+            return Defined(module, node)
+        case ast.ImportFrom() as line:
+            found = definition(_source(module, line), _original(line, name), seen | {(module, name)})
+            return Other() if isinstance(found, NoName) and _module_at(module, ast.Name(name)) else found
+        case ast.Import() | ast.Constant() | ast.JoinedStr() | ast.List() | ast.Dict() | ast.Tuple() | ast.Set():
+            return Other()
+        case ast.Name() | ast.Attribute() as alias:
+            return defined_by(module, alias, seen | {(module, name)})
+        case None:
+            return _starred(module, name, names, seen | {(module, name)})
+        case _:
+            return UNCLEAR
+
+
+def defined_by(module: str, written: ast.expr, seen: frozenset[Place] = frozenset()) -> Definition:
+    """Return what a name, or a name in an imported module, stands for in a module."""
+    match written:
+        case ast.Name(id=name):
+            return definition(module, name, seen)
+        case ast.Attribute(value=value, attr=name):
+            of = _module_at(module, value)
+            return definition(of, name, seen) if of else UNCLEAR
+        case ast.Subscript(value=value):
+            return defined_by(module, value, seen)
+        case _:
+            return UNCLEAR
+
+
+def dotted(module: str, written: ast.expr) -> str:
+    """Return the "module.name" that an expression imports, as far as its own file tells; else as it is written."""
+    match written:
+        case ast.Call(func=func):
+            return dotted(module, func)
+        case ast.Attribute(value=value, attr=name):
+            return f"{_module_at(module, value) or dotted(module, value)}.{name}"
+        case ast.Name(id=name):
+            names = _names_in(module)
+            line = names.bound.get(name) if isinstance(names, _Names) else None
+            if isinstance(line, ast.ImportFrom):
+                return f"{_source(module, line)}.{_original(line, name)}"
+            return name
+    return ""
+
+
+def _starred(module: str, name: str, names: _Names, seen: frozenset[Place]) -> Definition:
+    """Return what `import *` brings; the last that has the name wins."""
+    if "__getattr__" in names.bound:
+        return UNCLEAR
+    if not name.startswith("_"):
+        for line in reversed(names.stars):
+            found = definition(_source(module, line), name, seen)
+            if not isinstance(found, NoName):
+                return found if isinstance(found, Defined | Other) else UNCLEAR
+    return NoName(tuple(sorted(n for n, node in names.bound.items() if isinstance(node, ast.ClassDef | Function))))
+
+
+def _module_at(module: str, written: ast.expr) -> str:
+    """Return the module that an expression stands for, empty if it stands for none."""
+    match written:
+        case ast.Attribute(value=value, attr=name):
+            of = _module_at(module, value)
+            return f"{of}.{name}" if of and isinstance(_file(f"{of}.{name}"), Path) else ""
+        case ast.Name(id=name):
+            names = _names_in(module)
+            match names.bound.get(name) if isinstance(names, _Names) else None:
+                case ast.Import(names=aliases):
+                    alias = next(each for each in aliases if name in (each.asname, each.name.partition(".")[0]))
+                    return alias.name if alias.asname else alias.name.partition(".")[0]
+                case ast.ImportFrom() as line:
+                    found = f"{_source(module, line)}.{_original(line, name)}"
+                    return found if isinstance(_file(found), Path) else ""
+    return ""
+
+
+def _source(module: str, line: ast.ImportFrom) -> str:
+    """Return the module that a line imports from, which may be given relative to its own."""
+    if line.level == 0:
+        return line.module or ""
+    file = _file(module)
+    is_package = isinstance(file, Path) and file.name == "__init__.py"
+    parts = module.split(".") if is_package else module.split(".")[:-1]
+    around = parts[: len(parts) - line.level + 1]
+    return ".".join([*around, *([line.module] if line.module else [])])
+
+
+def _original(line: ast.ImportFrom, name: str) -> str:
+    return next(alias.name for alias in line.names if name in (alias.asname, alias.name))
+
+
+def _file(module: str) -> Path | NoModule | Unclear:
+    """Return the file of a module; packages on the way are not imported."""
+    first, *rest = module.split(".")
+    try:
+        spec = find_spec(first) if first else None
+    except ValueError:
+        return UNCLEAR
+    if spec is None:
+        return NoModule(installed=False)
+    for depth, _ in enumerate(rest, 2):
+        spec = _below(spec, ".".join(module.split(".")[:depth]))
+        if spec is None:
+            return NoModule(installed=True)
+    return Path(spec.origin) if spec.origin and spec.origin.endswith(".py") else UNCLEAR
+
+
+def _below(package: ModuleSpec, name: str) -> ModuleSpec | None:
+    places = package.submodule_search_locations
+    return PathFinder.find_spec(name, list(places)) if places is not None else None
+
+
+def _names_in(module: str) -> _Names | NoModule | BrokenModule | Unclear:
+    file = _file(module)
+    if not isinstance(file, Path):
+        return file
+    try:
+        return _read(file, file.stat().st_mtime_ns)
+    except OSError:
+        return UNCLEAR
+
+
+@lru_cache(maxsize=256)
+def _read(file: Path, _changed_ns: int) -> _Names | BrokenModule | Unclear:
+    """Return what a file's text defines at its top."""
+    try:
+        body = ast.parse(file.read_bytes()).body
+    except SyntaxError as error:
+        return BrokenModule(error.lineno or 1, error.msg)
+    except (ValueError, RecursionError, MemoryError):
+        return UNCLEAR
+    bound: dict[str, ast.stmt | ast.expr | Unclear] = {}
+    for name, node, sure in _bound(body, sure=True):
+        bound[name] = node if sure or name not in bound else UNCLEAR
+    stars = tuple(node for name, node, _ in _bound(body, sure=True) if name == "*" and isinstance(node, ast.ImportFrom))
+    return _Names({name: node for name, node in bound.items() if name != "*"}, stars)
+
+
+def _bound(body: Iterable[ast.stmt], sure: bool) -> Iterator[tuple[str, ast.stmt | ast.expr | Unclear, bool]]:
+    """Yield each name that statements bind, with what it stands for and whether the statement is always run."""
+    for node in body:
+        match node:
+            case ast.ClassDef(name=name) | ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name):
+                yield name, node, sure
+            case ast.Import(names=aliases):
+                yield from ((alias.asname or alias.name.partition(".")[0], node, sure) for alias in aliases)
+            case ast.ImportFrom(names=aliases):
+                yield from ((alias.asname or alias.name, node, sure) for alias in aliases)
+            case ast.Assign(targets=targets, value=value):
+                yield from (pair for target in targets for pair in _assigned(target, value, sure))
+            case ast.AnnAssign(target=target, value=ast.expr() as value):
+                yield from _assigned(target, value, sure)
+            case ast.With(body=inner):
+                yield from _bound(inner, sure)
+            case ast.If() | ast.For() | ast.While():
+                yield from _bound((*node.body, *node.orelse), sure=False)
+            case ast.Try():
+                rescue = [line for each in node.handlers for line in each.body]
+                yield from _bound((*node.body, *rescue, *node.orelse, *node.finalbody), sure=False)
+            case _:
+                pass
+
+
+def _assigned(target: ast.expr, value: ast.expr, sure: bool) -> Iterator[tuple[str, ast.expr | Unclear, bool]]:
+    match target:
+        case ast.Name(id=name):
+            yield name, value, sure
+        case ast.Tuple(elts=parts) | ast.List(elts=parts):
+            yield from ((part.id, UNCLEAR, sure) for part in parts if isinstance(part, ast.Name))

@@ -1,0 +1,44 @@
+"""Vectors in the world: how files state them, and which of them are directions."""
+
+from __future__ import annotations
+
+import re
+from math import isfinite
+from typing import TypeGuard
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+UNIT_WITHIN = 1e-3
+"""The length of a direction may differ from 1 by so much: files state it with three or four decimals."""
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+
+
+def vector_of(text: str) -> Array | None:
+    """Return the vector (3,) that a text states as three numbers with spaces between them, None if it states none."""
+    parts = text.split()
+    if len(parts) != 3 or not all(_NUMBER.fullmatch(part) for part in parts):
+        return None
+    numbers = [float(part) for part in parts]
+    if not all(map(isfinite, numbers)):
+        return None
+    vector = np.array(numbers)
+    vector.setflags(write=False)
+    return vector
+
+
+def text_of_vector(vector: Array) -> str:
+    """Return the text from which `vector_of` reads the same vector."""
+    return " ".join(repr(float(part)) for part in vector)
+
+
+def is_vector(value: object) -> TypeGuard[Array]:
+    """Whether a value is a vector (3,)."""
+    return isinstance(value, np.ndarray) and value.shape == (3,)
+
+
+def is_direction(value: object) -> bool:
+    """Whether a value is a vector (3,) of length 1."""
+    return is_vector(value) and abs(float(np.linalg.norm(value)) - 1.0) <= UNIT_WITHIN

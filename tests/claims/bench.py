@@ -1,0 +1,190 @@
+"""A cell without physics: parts lie where `truth` says, devices tell it, and skills look or do not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+
+from msgspec import structs
+
+from skillc_compiler.goals import parse_call, parse_goal
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, prepare
+from skillc_runtime.commands import _library
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.primitives.primitive import Primitive, Status
+from skillc_runtime.robots.watchdog import Watchdog
+from skillc_runtime.task import Execution, execute
+from skillc_runtime.trace.events import Event
+from skillc_runtime.world.changes import AddIndividual, AddRelation, SetProperty
+from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.terms import (
+    ARRIVAL_TOLERANCE,
+    AT,
+    BASE_FRAME_ID,
+    BASE_SHEET,
+    CONTAIN,
+    FRAME_ID,
+    HAS_SHEET,
+    IS_CLEAN,
+    ORIENTATION,
+    POSITION,
+    SKILLC,
+    SKIROS,
+    WIPING,
+)
+
+LAB = "http://example.org/lab#"
+RPARTS = "http://www.inf.ufrgs.br/phi-group/ontologies/RParts.owl#"
+
+
+@cache
+def library() -> SkillLibrary:
+    outcome = _library.compile_library(_library.find(Path(__file__).with_name("bench.skill")))
+    assert outcome.ok, outcome.diagnostics
+    return outcome.value
+
+
+def iri(name: str) -> str:
+    return LAB + name
+
+
+def world(clean: bool = False) -> WorldState:
+    """Return a part in a tray, a box, a gripper, a table, and a robot at the dock, from which a shelf is 2 m away."""
+    kinds = {
+        "tray": SKIROS + "Location",
+        "box": SKIROS + "Location",
+        "dock": SKILLC + "Workstation",
+        "shelf": SKILLC + "Workstation",
+        "part": SKIROS + "Product",
+        "gripper": RPARTS + "GripperEffector",
+        "table": WIPING + "TableTop",
+        "robot": SKILLC + "MobileRobot",
+        "sheet": BASE_SHEET,
+    }
+    changes = [AddIndividual(iri(name), (kind,)) for name, kind in kinds.items()]
+    changes += [AddRelation(iri("tray"), CONTAIN, iri("part")), AddRelation(iri("robot"), AT, iri("dock"))]
+    changes += [AddRelation(iri("robot"), HAS_SHEET, iri("sheet")), SetProperty(iri("table"), IS_CLEAN, clean)]
+    changes += [SetProperty(iri("sheet"), ARRIVAL_TOLERANCE, 0.1)]
+    for name, x in (("dock", 0.0), ("shelf", 2.0)):
+        places = dict(zip((*POSITION, *ORIENTATION), (x, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0), strict=True))
+        frame = {FRAME_ID: name, BASE_FRAME_ID: "map", **places}
+        changes += [SetProperty(iri(name), property_, value) for property_, value in frame.items()]
+    known = library().vocabulary
+    return WorldState.empty(structs.replace(known, prefixes={**known.prefixes, "lab": LAB})).changed(changes)
+
+
+@dataclass
+class Hand:
+    """A gripper that reports what it holds."""
+
+    holding: str | None = None
+
+
+@dataclass
+class Base:
+    """A base that reports where it stands."""
+
+    pose: Pose = field(default_factory=lambda: Pose.of((0.0, 0.0, 0.0)))
+    at_rest: bool = True
+
+
+@dataclass
+class Bench:
+    """The cell; `meanwhile` happens once, when its time has come."""
+
+    world: WorldModel
+    meanwhile: dict[float, Callable[[Bench], object]] = field(default_factory=dict)
+    now: float = 0.0
+    watchdog: Watchdog = field(default_factory=Watchdog)
+    hand: Hand = field(default_factory=Hand)
+    wheels: Base = field(default_factory=Base)
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether nothing more is to happen."""
+        return not self.meanwhile
+
+    def gripper(self, individual: str) -> Hand:
+        """Return the one gripper."""
+        return {iri("gripper"): self.hand}[individual]
+
+    def base(self, individual: str) -> Base:
+        """Return the one base."""
+        return {iri("robot"): self.wheels}[individual]
+
+    def secure(self) -> tuple[str, ...]:
+        """Leave nothing behind, for nothing here moves."""
+        return ()
+
+    def advance(self, seconds: float) -> None:
+        """Let time pass."""
+        self.now += seconds
+        for time in [time for time in self.meanwhile if time <= self.now]:
+            self.meanwhile.pop(time)(self)
+
+
+class Does(Primitive):
+    """Takes half a second and looks at nothing."""
+
+    def __init__(self, cell: Bench, **parameters: str) -> None:
+        super().__init__(cell)  # type: ignore[arg-type]
+        self._parameters, self._ends = parameters, cell.now + 0.5
+
+    def tick(self) -> Status:
+        if self.cell.now < self._ends:
+            return Status.RUNNING
+        self.done(self.cell.world, **self._parameters)
+        return Status.SUCCESS
+
+    def done(self, world: WorldModel, **parameters: str) -> None:
+        """Nothing more."""
+
+
+class Writes(Does):
+    """Writes what it never looked at."""
+
+    def done(self, world: WorldModel, *, surface: str) -> None:
+        world.commit([SetProperty(surface, IS_CLEAN, True)], "Pretend")
+
+
+class Measures(Does):
+    """Reads a device."""
+
+    def done(self, world: WorldModel, *, surface: str) -> None:
+        world.commit([SetProperty(surface, IS_CLEAN, True)], "Measure", "sensed")
+
+
+class Looks(Does):
+    """Reads a device."""
+
+    def done(self, world: WorldModel, *, part: str, at: str) -> None:
+        world.commit([AddRelation(at, CONTAIN, part)], "Look", "sensed")
+
+
+class Grips(Does):
+    """Closes the hand, which feels the part."""
+
+    def done(self, world: WorldModel, *, gripper: str, part: str, **_: str) -> None:
+        self.cell.gripper(gripper).holding = part  # type: ignore[misc]
+        world.commit([AddRelation(gripper, CONTAIN, part)], "Take", "sensed")
+
+
+def run(aim: str, bench: Bench, events: list[Event] | None = None) -> Execution:
+    """Run `goal ..` or a call to its end."""
+    state, lib = bench.world.snapshot(), library()
+    individuals = {each: sorted(state.types(each)) for each in state.individuals}
+    prefixes = {**state.vocabulary.prefixes, "lab": LAB}
+    if aim.startswith("goal "):
+        asked = parse_goal(aim.removeprefix("goal "), lib.vocabulary, individuals, prefixes)
+        assert asked.value is not None, asked.diagnostics
+        prepared = prepare(Assignment("task", state, Reach(asked.value)), lib)
+    else:
+        called = parse_call(aim, lib, individuals, prefixes)
+        assert called.value is not None, called.diagnostics
+        prepared = prepare(Assignment("task", state, Perform(called.value)), lib)
+    assert isinstance(prepared, Prepared), prepared
+    return execute(prepared, lib, bench, [] if events is None else [events.append])  # type: ignore[arg-type]

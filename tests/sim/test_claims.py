@@ -1,0 +1,142 @@
+"""Nothing is claimed that did not happen: a bouncing pad, an obstacle, a part let go in the air, one that slips."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+
+import pytest
+
+from skillc_compiler.goals import parse_call
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_ontology import catalogue
+from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, prepare
+from skillc_runtime.commands import _library
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.simulation.facts import SceneFacts
+from skillc_runtime.simulation.variation import Variation, draw, with_obstacles
+from skillc_runtime.task import Execution, execute
+from skillc_runtime.trials.disturbance import reality
+from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.scene import load_scene
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.terms import (
+    BASE_FRAME_ID,
+    CONTACT_SHARE,
+    CONTAIN,
+    COVERAGE,
+    FRAME_ID,
+    HAS_A,
+    IS_CLEAN,
+    ORIENTATION,
+    POSITION,
+    SKIROS,
+    WEIGHT,
+)
+
+pytestmark = pytest.mark.sim
+
+LAB = "http://example.org/lab#"
+Reality = Callable[[SceneFacts, int], Variation]
+
+
+@cache
+def library() -> SkillLibrary:
+    outcome = _library.compile_library(_library.find(_library.SHIPPED / "wiping"))
+    assert outcome.ok
+    return outcome.value
+
+
+@cache
+def scene(task: str) -> WorldState:
+    file = library().tasks[task].scene
+    assert file is not None
+    return load_scene(catalogue.scene(file), library().vocabulary)
+
+
+def wiped(task: str, real: Reality = draw) -> Execution:
+    """Run the plan of a task once; it is not made again when it fails."""
+    goal = library().tasks[task].goal
+    assert goal is not None
+    planned = prepare(Assignment(task, scene(task), Reach(goal)), library())
+    assert isinstance(planned, Prepared), planned
+    once = prepare(Assignment(task, scene(task), Perform(planned.body)), library())
+    assert isinstance(once, Prepared), once
+    return execute(once, library(), SimulatedCell(WorldModel(scene(task)), 1, reality=real))
+
+
+def stiff(facts: SceneFacts, seed: int) -> Variation:
+    """Return a reality in which every pad is eight times as stiff as its data sheet says."""
+    drawn = draw(facts, seed)
+    return replace(drawn, pad_share=dict.fromkeys(drawn.pad_share, 7.0))
+
+
+def test_a_pad_that_bounces_is_felt_and_the_wipe_fails() -> None:
+    execution = wiped("clean_whiteboard", stiff)
+    assert execution.status is Status.FAILURE and execution.failure is not None
+    assert "contact with lab:Whiteboard-1 was lost for" in execution.failure.message
+    after = execution.cell.world.snapshot()
+    share = after.value(LAB + "Whiteboard-1", CONTACT_SHARE)
+    assert isinstance(share, float) and share < 0.75
+    assert after.value(LAB + "Whiteboard-1", IS_CLEAN) is False
+
+
+def test_a_pad_as_it_should_be_keeps_its_contact() -> None:
+    execution = wiped("clean_whiteboard")
+    assert execution.status is Status.SUCCESS and execution.verified
+    assert execution.cell.world.snapshot().value(LAB + "Whiteboard-1", CONTACT_SHARE) == pytest.approx(1.0, abs=0.02)
+
+
+def test_an_obstacle_is_not_taken_for_the_surface() -> None:
+    execution = wiped("clean_desk", lambda facts, seed: with_obstacles(draw(facts, seed), facts))
+    assert execution.status is Status.FAILURE
+    assert execution.failure is not None and "lab:Desk-1.isClean is false" in execution.failure.message
+    after = execution.cell.world.snapshot()
+    coverage = after.value(LAB + "Desk-1", COVERAGE)
+    assert isinstance(coverage, float) and 0.5 < coverage < 1.0, "what the eraser reached is clean all the same"
+    assert reality("obstacle", execution.cell.facts, 1).surfaces[0].obstacle is not None
+
+
+PLACING = {FRAME_ID: "placing", BASE_FRAME_ID: "map"}
+IN_THE_AIR = (*zip(POSITION, (0.48, -0.45, 0.8), strict=True), *zip(ORIENTATION, (0.0, 1.0, 0.0, 0.0), strict=True))
+
+
+def moved(calls: tuple[str, ...], changes: tuple[Change, ...]) -> list[Execution]:
+    """Run calls one after the other in the cell of the table, whose facts were changed before."""
+    state = scene("clean_table").changed(changes)
+    cell, executions = SimulatedCell(WorldModel(state)), []
+    for text in calls:
+        now = cell.world.snapshot()
+        individuals = {each: sorted(now.types(each)) for each in now.individuals}
+        call = parse_call(text, library(), individuals, now.vocabulary.prefixes)
+        assert call.value is not None, call.diagnostics
+        prepared = prepare(Assignment("move", now, Perform(call.value)), library())
+        assert isinstance(prepared, Prepared), prepared
+        executions.append(execute(prepared, library(), cell))
+    return executions
+
+
+PICK = "Pick(arm: lab:Iiwa-1, object: lab:Eraser-1)"
+
+
+def test_a_part_that_is_let_go_in_the_air_is_not_said_to_be_placed() -> None:
+    placing = LAB + "Cell-placing"
+    facts = [SetProperty(placing, name, value) for name, value in (*PLACING.items(), *IN_THE_AIR)]
+    there = (AddIndividual(placing, (SKIROS + "PlacingPose",)), AddRelation(LAB + "Cell", HAS_A, placing), *facts)
+    picked, placed = moved((PICK, "Place(arm: lab:Iiwa-1, object: lab:Eraser-1, to: lab:Cell)"), there)
+    assert picked.status is Status.SUCCESS and picked.verified, picked.failure
+    assert placed.status is Status.SUCCESS, placed.failure
+    assert placed.verified is False
+    known = {fact.fact: fact.known for fact in placed.facts}
+    assert known["lab:Cell contain lab:Eraser-1"] == "assumed"
+    assert known["not lab:Robotiq-1 contain lab:Eraser-1"] == "sensed", "the fingers opened"
+
+
+def test_a_part_that_slips_out_while_it_is_carried_fails_the_run() -> None:
+    (picked,) = moved((PICK,), (SetProperty(LAB + "Eraser-1", WEIGHT, 7.0),))
+    assert picked.status is Status.FAILURE
+    assert picked.failure is not None and "slips out of lab:Robotiq-1" in picked.failure.message
+    assert not picked.cell.world.snapshot().holds(LAB + "Robotiq-1", CONTAIN, LAB + "Eraser-1")
