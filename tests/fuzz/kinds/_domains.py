@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from random import Random
 
 import msgspec
@@ -11,13 +12,23 @@ import msgspec
 from oracle.drawing import RELATIONS, VOCABULARY, Dice
 from oracle.forced import steps, worked
 from oracle.text import Contradictory, asked, condition_text
-from skillc_compiler.library.conditions import And, Anything, Condition, Holds, Individual, Not
+from skillc_compiler.library.conditions import (
+    And,
+    Anything,
+    Compare,
+    Condition,
+    Holds,
+    Individual,
+    Not,
+    PropertyOf,
+)
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import RelationTerm, Signature
 from skillc_compiler.pipeline import compile
 from skillc_dsl.source import Source
 from skillc_runtime.world.changes import AddIndividual, AddRelation, SetProperty
 from skillc_runtime.world.conditions import evaluate
+from skillc_runtime.world.model import WorldError, WorldModel
 from skillc_runtime.world.state import WorldState
 from world.lab import iri
 
@@ -33,6 +44,8 @@ _MORE = (
     RelationTerm(iri=iri("on"), signatures=_ANY, functional=True, inverse_functional=True),
     RelationTerm(iri=iri("under"), signatures=_ANY, inverse=iri("on")),
     RelationTerm(iri=iri("within"), signatures=_ANY, transitive=True),
+    RelationTerm(iri=iri("beside"), signatures=_ANY, irreflexive=True, functional=True),
+    RelationTerm(iri=iri("before"), signatures=_ANY, asymmetric=True),
     RelationTerm(iri=iri("kept"), signatures=(Signature(iri("Tool"), iri("Place")),), parents=(iri("at"),)),
 )
 _CLASSES = ("Item", "Place", "Thing1", "Tool")
@@ -45,7 +58,7 @@ class Domains(Dice):
     """Draws domains, scenes and goals."""
 
     vocabulary = msgspec.structs.replace(VOCABULARY, relations={**VOCABULARY.relations, **{t.iri: t for t in _MORE}})
-    relations = (*RELATIONS, "on", "under", "within", "kept")
+    relations = (*RELATIONS, "on", "under", "within", "beside", "before", "kept")
 
     def __init__(self, random: Random) -> None:
         self._random = random
@@ -96,18 +109,30 @@ class Domains(Dice):
 
     def scene(self) -> WorldState:
         """Draw the facts of a small world that breaks no axiom."""
-        state = WorldState.empty(self.vocabulary)
-        state = state.changed(
-            [AddIndividual(iri(name), tuple(map(iri, classes))) for name, classes in self._typed.items()]
-        )
+        people = [AddIndividual(iri(name), tuple(map(iri, classes))) for name, classes in self._typed.items()]
+        model = WorldModel(WorldState.empty(self.vocabulary).changed(people))
         names = list(self._typed)
         for _ in range(self._random.randint(1, 6)):
             subject, object_ = self._random.choice(names), self._random.choice(names)
-            relation = self._random.choice([each for each in self.relations if each != "kept"])
-            state = state.changed([AddRelation(iri(subject), iri(relation), iri(object_))])
+            with suppress(WorldError):
+                model.commit((AddRelation(iri(subject), iri(self._random.choice(self.relations)), iri(object_)),))
         sizes = [SetProperty(iri(name), iri("size"), n) for n, name in enumerate(names) if self._random.random() < 0.8]
         modes = [SetProperty(iri(name), iri("mode"), "c") for name in names if self._random.random() < 0.5]
-        return state.changed([*sizes, *modes])
+        return model.snapshot().changed([*sizes, *modes])
+
+    def literal(self, names: list[str], anything: bool) -> Condition:
+        """Draw a relation or property, mostly of variables, else of an individual that the scene may lack."""
+        drawn = super().literal(names, anything)
+        if not self._chance(0.2):
+            return drawn
+        known = Individual(iri(self._random.choice(list(INDIVIDUALS))))
+        match drawn:
+            case Holds():
+                return msgspec.structs.replace(drawn, **{self._random.choice(["subject", "object"]): known})
+            case Compare(left=PropertyOf() as read):
+                return msgspec.structs.replace(drawn, left=msgspec.structs.replace(read, of=known))
+            case _:
+                return drawn
 
     def _skill(self, number: int) -> Iterator[str]:
         names = [f"a{n}" for n in range(self._random.randint(1, 3))]
@@ -119,6 +144,9 @@ class Domains(Dice):
         optional = self._chance(0.2)
         if optional:
             yield "    opt factor: Int = 2"
+        if self._chance(0.1):
+            yield f"    opt spare: {self._random.choice(_CLASSES)} = t:{self._random.choice(list(INDIVIDUALS))}"
+            names = [*names, "spare"]
         for position in range(self._random.randint(1, 2)):
             yield f"    pre p{position}: {self._condition(names)}"
         if self._chance(0.25):
@@ -178,6 +206,8 @@ class Domains(Dice):
         match self._random.randrange(6):
             case 0:
                 return f"{number} + {self._random.choice(names)}.size * 0.7 s"
+            case 1 if self._chance(0.3):
+                return f"{number} + t:{self._random.choice(list(INDIVIDUALS))}.size * 0.7 s"
             case 1 if optional:
                 return f"factor * ({number})"
             case _:
