@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import msgspec
@@ -27,7 +28,7 @@ from skillc_compiler.library.conditions import (
     PropertyOf,
     Variable,
 )
-from skillc_compiler.library.pddl.domain import Action, GuardFact, PlanningDomain, RelationFact
+from skillc_compiler.library.pddl.domain import Action, ClassFact, GuardFact, PlanningDomain, Predicate, RelationFact
 from skillc_compiler.library.pddl.formulas import (
     FALSE,
     TRUE,
@@ -37,8 +38,10 @@ from skillc_compiler.library.pddl.formulas import (
     Formula,
     Negation,
     Typed,
+    Universal,
     conjunction,
     conjuncts,
+    disjunction,
 )
 from skillc_compiler.library.pddl.goals import ground_goal
 from skillc_compiler.library.pddl.planning import planning_domain
@@ -286,6 +289,21 @@ def test_forall_is_written_out_for_the_objects() -> None:
     }
     assert empty == set(OBJECTS)
     assert after.domain.constants == before.objects
+
+
+def test_what_nothing_changes_is_settled_where_forall_is_written_out() -> None:
+    """A planner multiplies out what would be left of each object, so that a few of them are a million cases."""
+    domain = planning_domain(library(PICK))
+    pick, place = domain.action["pick"], Typed("?place", "place")
+    fixed = Predicate("is-fixed", (place,), ClassFact("fixed"), False)
+    at_place = Atom("core-at", (pick.parameters[0].name, place.name))
+    every = Universal(place, disjunction((Negation(Atom("is-fixed", (place.name,))), at_place)))
+    actions = (replace(pick, precondition=every),)
+    before = problem(replace(domain, predicates=(*domain.predicates, fixed), actions=actions), TRUE)
+    for fixed_ones in ((), ("dock",), ("dock", "wall")):
+        facts = tuple(Atom("is-fixed", (name,)) for name in fixed_ones)
+        after = prepared(replace(before, init=(*before.init, *facts))).domain.action["pick"].precondition
+        assert after == conjunction(Atom("core-at", (at_place.terms[0], name)) for name in fixed_ones)
 
 
 def test_goals_are_ground_and_settle_what_never_changes() -> None:

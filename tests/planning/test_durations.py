@@ -165,6 +165,52 @@ def test_a_duration_that_is_not_known_beforehand_claims_nothing(
     assert ("assumed: " in said) == bool(assumed)
 
 
+ROUNDS = """
+skill Brush { in x: Part\n opt rounds: Int = 2\n post x.clean == true\n duration rounds * 1 s }
+impl long of Brush { refine rounds: Int = 5\n pre x has weight\n run python "nobody:Needs" }
+impl short of Brush { run python "nobody:Needs" }
+"""
+
+
+@pytest.mark.parametrize(("thing", "seconds"), [("big", 5), ("light", 2)])
+def test_a_duration_reads_the_defaults_of_the_implementation_that_is_taken(
+    thing: str, seconds: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    said = last(plan(tmp_path, ROUNDS, f"lab:{thing}.clean == true", "built-in A*", monkeypatch))
+    assert said == f"1 steps, {seconds} s expected, proved optimal (built-in A*)"
+
+
+LAB = "prefix lab: <http://example.org/lab#>\n"
+LIKE = "duration lab:{}.weight / (1 kg) * (1.5 s)\n"
+
+
+@pytest.mark.parametrize(("thing", "seconds"), [("big", 3.0), ("small", 1.5)])
+def test_a_duration_may_name_an_individual(
+    thing: str, seconds: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    skills = LAB + BRUSH.format("8 s") + HAND.format(LIKE.format(thing))
+    said = last(plan(tmp_path, skills, "lab:light.clean == true", "built-in A*", monkeypatch))
+    assert said == f"1 steps, {seconds:g} s expected, proved optimal (built-in A*)"
+
+
+def test_what_is_claimed_names_all_that_it_depends_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    absent = BRUSH.replace("Brush", "Polish").format("1 s") + HAND.replace("Brush", "Polish").format(
+        LIKE.format("none")
+    )
+    skills = "\n".join((LAB, BY_WEIGHT, SENSED, HAND.format(""), absent))
+    answer = json.loads(plan(tmp_path, skills, "lab:big.clean == true", "built-in A*", monkeypatch, "--json"))
+    assert answer["quality"] == "optimal for the skills that can be planned with and approximate durations"
+    assert (answer["optimal"], answer["at_least_s"]) == ("optimal for approximate durations", None)
+    assert [each["what"] for each in answer["left_out"] if not each["harmless"]] == [["Polish"]]
+    assert answer["assumptions"]
+
+
+def test_a_skill_of_which_one_action_helps_is_not_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    skills = "\n".join((BRUSH.format("8 s"), HAND.format(""), OWN, WASH.format("1 s")))
+    answer = json.loads(plan(tmp_path, skills, "lab:big.clean == true", "built-in A*", monkeypatch, "--json"))
+    assert [each["what"] for each in answer["left_out"] if each["kind"] == "skills"] == [["Wash"]]
+
+
 def test_exact_numbers_come_from_decimals_and_from_what_was_computed_with_them() -> None:
     assert exact_seconds(0.1) == Fraction(1, 10)
     assert exact_seconds(0.1 + 0.2) == Fraction(3, 10)
