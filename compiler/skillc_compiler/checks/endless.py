@@ -14,7 +14,7 @@ Bad:
     use skillc
     import "motion.skill"
     import "overlay.skill"
-    skill Rub { in arm: CompliantArm  in up: Vector  in there: Pose  noplan }
+    skill Rub { in arm: CompliantArm  in up: Direction  in there: Pose  noplan }
     impl round of Rub {
         do seq {
             OverlayCircle(arm, plane: up)
@@ -27,7 +27,7 @@ Good:
     use skillc
     import "motion.skill"
     import "overlay.skill"
-    skill Rub { in arm: CompliantArm  in up: Vector  in there: Pose  noplan }
+    skill Rub { in arm: CompliantArm  in up: Direction  in there: Pose  noplan }
     impl round of Rub {
         do par lead {
             MoveLinear(arm, target: there)
@@ -49,7 +49,7 @@ Good:
     use skillc
     import "motion.skill"
     import "overlay.skill"
-    skill Hover { in arm: CompliantArm  in there: Pose  in up: Vector  endless  noplan }
+    skill Hover { in arm: CompliantArm  in there: Pose  in up: Direction  endless  noplan }
     impl circling of Hover {
         do seq {
             MoveLinear(arm, target: there)
