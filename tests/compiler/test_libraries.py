@@ -44,3 +44,18 @@ def test_one_mistake_gives_one_error(library: str, name: str, old: str, new: str
     assert text.count(old) >= 1
     found = problems(text.replace(old, new, 1))
     assert [d.name for d in found] == [name], [(d.name, d.span.line, d.message) for d in found]
+
+
+def test_a_name_that_a_quantifier_binds_is_not_the_caller_s() -> None:
+    text = (
+        "use skiros\n"
+        "relation rests(Product, Location)\n"
+        "skill Look { in thing: Product  in place: Location\n"
+        "    pre exists p: Product (p rests place and not p == thing)  noplan }\n"
+        'impl one of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }\n'
+        "skill Ask { in p: Product  in place: Location\n"
+        "    pre exists q: Product (q rests place and not q == p)  noplan }\n"
+        "impl one of Ask { do Look(thing: p, place) }\n"
+    )
+    assert problems(text) == ()
+    assert [d.name for d in problems(text.replace("not q == p", "q == p"))] == ["child-precondition"]
