@@ -168,7 +168,7 @@ def _check(conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Req
 
 def _same(effect: Effect | NoEffect, names: Mapping[str, Expression]) -> Effect | NoEffect:
     """Return the effect with one name for all that are the same."""
-    return effect if isinstance(effect, NoEffect) else replaced(effect, names)  # type: ignore[type-var]
+    return effect if isinstance(effect, NoEffect) else replaced(effect, names)
 
 
 def _values(
