@@ -25,7 +25,10 @@ FAMILIES: tuple[tuple[str, str], ...] = (
         " different-from-itself containment-circle",
     ),
     ("properties", "verify-*"),
-    ("implementations", "*-python* not-a-device not-narrower recursion missing-body no-implementation *-select*"),
+    (
+        "implementations",
+        "*-python* not-a-primitive not-a-device not-narrower recursion missing-body no-implementation *-select*",
+    ),
     (
         "data flow",
         "*argument* out-* unset-* no-output *-inference sensed-* not-scoped not-an-individual",

@@ -97,7 +97,7 @@ def _differs(written: s.Declaration, old: ClassTerm | RelationTerm | PropertyTer
     """Whether a property is declared with a type that the old one certainly has not."""
     if not isinstance(written, s.PropertyDeclaration) or not isinstance(old, PropertyTerm):
         return False
-    return isinstance(written.type, s.ListOf) or BUILT_IN.get(written.type.text) != old.type
+    return not isinstance(written.type, s.Name) or BUILT_IN.get(written.type.text) != old.type
 
 
 def _declared_at(term: ClassTerm | RelationTerm | PropertyTerm) -> tuple[Label, ...]:
