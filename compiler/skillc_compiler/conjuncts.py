@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 
-from skillc_compiler.library.conditions import And, Condition, Not, Or
+from skillc_compiler.library.conditions import And, Condition, Expression, Individual, Not, Or, Same, Variable
+from skillc_compiler.library.pddl.rewriting import replaced
 from skillc_compiler.program import Clause, Implementation, Program, Requirement, Skill
 from skillc_compiler.walk import clauses_in, steps
 
@@ -45,6 +46,30 @@ def conjuncts(clause: Clause, holds: bool = True, source: Clause | None = None) 
                 yield from conjuncts(part, holds=False, source=source)
         case _:
             yield Fact(clause, holds, source or clause)
+
+
+def equal_names(requirements: Iterable[Requirement]) -> dict[str, Expression]:
+    """Return for each name that preconditions say to be the same as another which of these stands for all of them."""
+    facts = (fact for r in requirements if r.kind != "post" for fact in conjuncts(r.clause))
+    return names_of(facts)
+
+
+def names_of(facts: Iterable[Fact]) -> dict[str, Expression]:
+    """Return for each name that facts say to be the same as another which of these stands for all of them."""
+    names: dict[str, Expression] = {}
+    for fact in facts:
+        if fact.holds and isinstance(fact.meaning, Same):
+            one, other = (replaced(each, names) for each in (fact.meaning.left, fact.meaning.right))
+            one, other = (other, one) if isinstance(other, Variable) else (one, other)
+            if isinstance(one, Variable) and isinstance(other, Variable | Individual) and one != other:
+                names = {name: replaced(each, {one.name: other}) for name, each in names.items()}
+                names[one.name] = other
+    return names
+
+
+def renamed(fact: Fact, names: Mapping[str, Expression]) -> Fact:
+    """Return the fact with one name for all that are the same."""
+    return replace(fact, clause=replace(fact.clause, meaning=replaced(fact.meaning, names))) if names else fact
 
 
 def together(program: Program) -> Iterator[Together]:

@@ -135,12 +135,16 @@ def _of_conditions(problems: Iterable[Diagnostic]) -> Iterator[Explains]:
 
 
 def _of_bodies(problems: Iterable[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Explains]:
-    """A declaration with another mistake, and the implementations of such a skill, are not reasoned about."""
+    """A declaration with another mistake, and what implements or calls such a skill, are not reasoned about."""
     wrong = _errors(problems, REASONED)
     declarations = [d for unit in files for d in unit.file.declarations]
     broken = [d for d in declarations if any(_inside(place, d.span) for place in wrong)]
     skills = {d.name.text for d in broken if isinstance(d, s.SkillDeclaration)}
-    done = [d for d in declarations if isinstance(d, s.ImplementationDeclaration) and d.skill.text in skills]
+    implementations = [d for d in declarations if isinstance(d, s.ImplementationDeclaration)]
+    done = [d for d in implementations if d.skill.text in skills]
+    while more := [d for d in implementations if d not in done and _calls(d, skills)]:
+        done += more
+        skills |= {d.skill.text for d in more}
     spans = [d.span for d in (*broken, *done)]
     yield (
         lambda d: (
@@ -148,6 +152,25 @@ def _of_bodies(problems: Iterable[Diagnostic], files: Sequence[ReadFile]) -> Ite
             and any(_inside(place, whole) for whole in spans for place in (d.span, *(label.span for label in d.labels)))
         )
     )
+
+
+def _calls(declaration: s.ImplementationDeclaration, skills: Set[str]) -> bool:
+    """Whether a body calls one of these skills."""
+    todo: list[s.Node] = [member.node for member in declaration.members if isinstance(member, s.Body)]
+    while todo:
+        match todo.pop():
+            case s.CallSkill(skill=skill):
+                if skill.text in skills:
+                    return True
+            case s.With(call=call, children=children):
+                todo += [call, *children]
+            case s.If(then=then, orelse=orelse):
+                todo += [*then, *(orelse or ())]
+            case s.Block() | s.Counted() | s.Timeout() | s.While() | s.For() as node:
+                todo += node.children
+            case s.Wait() | s.WaitUntil() | s.CheckNode() | s.ApplyPosts():
+                pass
+    return False
 
 
 def _of_arguments(problems: Iterable[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Explains]:

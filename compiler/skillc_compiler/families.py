@@ -12,7 +12,10 @@ FAMILIES: tuple[tuple[str, str], ...] = (
         "syntax un*-brace unterminated-* unknown-character encoding empty-file duplicate-member repeated-member"
         " file-* nesting-* empty-block missing-space-* not-formatted *-allow allow-*",
     ),
-    ("quantities", "*dimension* *-unit empty-range out-of-range *-angle *-count *-operands numeric-*"),
+    (
+        "quantities",
+        "*dimension* *-unit empty-range out-of-range *-angle bad-count bad-time bad-number *-operands numeric-*",
+    ),
     (
         "scenes",
         "*-scene *turtle json-ld missing-prefix missing-property missing-friction no-fitting-* no-implementation-fits"
@@ -22,7 +25,10 @@ FAMILIES: tuple[tuple[str, str], ...] = (
         " different-from-itself containment-circle",
     ),
     ("properties", "verify-*"),
-    ("implementations", "*-python* not-narrower recursion missing-body no-implementation *-select*"),
+    (
+        "implementations",
+        "*-python* not-a-primitive not-a-device not-narrower recursion missing-body no-implementation *-select*",
+    ),
     (
         "data flow",
         "*argument* out-* unset-* no-output *-inference sensed-* not-scoped not-an-individual",
@@ -32,13 +38,14 @@ FAMILIES: tuple[tuple[str, str], ...] = (
         "ontology",
         "relation-* property-* wrong-type disjoint-* two-values breaks-* unknown-datatype unknown-dimension"
         " unknown-value computed-* contradicting-declaration class-* impossible-* *-vocabulary shipped-term"
-        " undeclared-term prefix-taken missing-import unused-axiom several-inverses several-domains beyond-owl-dl",
+        " undeclared-term redeclared-term prefix-taken missing-import unused-axiom several-inverses several-domains"
+        " beyond-owl-dl",
     ),
     ("names", "unknown-* ambiguous-* duplicate-[adlnp]* unused-* import-* deprecated-*"),
     (
         "logic",
-        "always-* contradict* duplicate-condition no-effect post-* hold-* *-effect *-precondition not-a-condition"
-        " *-released *parallel* unreachable-* not-decided",
+        "never-ends not-endless always-* contradict* duplicate-condition no-effect post-* hold-* *-effect"
+        " *-precondition not-a-condition *-released *parallel* unreachable-* not-decided",
     ),
 )
 """Patterns of names; the first family with one that fits counts."""

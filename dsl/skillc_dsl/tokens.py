@@ -35,7 +35,7 @@ KEYWORDS: MappingProxyType[Group, tuple[str, ...]] = MappingProxyType(
             *("in", "opt", "infer", "any", "out", "range", "refine", "pre", "hold", "post", "sensed", "duration"),
             *("uses", "shares", "let", "prefer", "run", "python", "do", "scene", "goal", "verify"),
         ),
-        "flag": ("scoped", "noplan", "fallback"),
+        "flag": ("scoped", "noplan", "fallback", "endless"),
         "trait": ("functional", "symmetric", "transitive", "inverse", "sub"),
         "step": (
             *("seq", "sel", "reactive", "par", "all", "race", "lead", "try", "invert", "once", "retry", "repeat"),

@@ -114,10 +114,10 @@ def test_an_implementation_is_complete() -> None:
 
 def test_constants_are_folded_and_implies_is_spelled_out() -> None:
     outcome = compiled(
-        "skill Use { in arm: ArmDevice opt speed: Speed\n"
+        "skill Use { in arm: ArmDevice in pace: Speed opt speed: Speed\n"
         "    pre given speed implies speed < 2 * 5 cm/s + 0.1 m/s\n"
         "    post sensed arm.deviceState == Idle and not arm hasGripper _ }\n"
-        "impl one of Use { do seq { wait 2 * 250 ms wait 1 s / (3 - 3)\n"
+        "impl one of Use { do seq { wait 2 * 250 ms wait 1 m / pace\n"
         "    check(arm.deviceState == Idle and not arm hasGripper _) } }\n"
     )
     assert errors(outcome) == []
@@ -127,9 +127,9 @@ def test_constants_are_folded_and_implies_is_spelled_out() -> None:
     assert number(compared.right) == 0.2  # type: ignore[union-attr]
     made = outcome.value.implementations["Use.one"].body
     assert isinstance(made, Compound) and isinstance(made.node, Sequence)
-    half, broken, _ = made.node.children
+    half, open_, _ = made.node.children
     assert isinstance(half, Wait) and half.seconds == Literal(0.5)
-    assert isinstance(broken, Wait) and isinstance(broken.seconds, Arithmetic)
+    assert isinstance(open_, Wait) and isinstance(open_.seconds, Arithmetic)
     post = outcome.value.skills["Use"].post[0]
     assert isinstance(post.condition, And)
     assert [type(effect) for effect in post.effects] == [Assign, Retract]

@@ -14,7 +14,7 @@ pytestmark = pytest.mark.asyncio(loop_scope="session")
 BEGINNINGS = ("class", "function", "impl", "import", "prefix", "property", "relation", "skill", "task", "use")
 DIMENSIONS = " ".join(units.DIMENSIONS)
 EXACT = [
-    ("infer at", "    |", "duration fallback hold in infer noplan opt out post pre range scoped shares uses"),
+    ("infer at", "    |", "duration endless fallback hold in infer noplan opt out post pre range scoped shares uses"),
     ("do seq {", "        par |", "all any lead race"),
     ("do seq {", "        Move(arm, |", "target: speed:"),
     ("do seq {", "        Move(speed: 1 m/s, |", "arm arm: target:"),

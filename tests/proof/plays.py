@@ -36,6 +36,9 @@ class Writer:
         text += "skill Find {\n    in a: Item\n    infer any s: Spot\n    pre a touches s\n"
         text += f"    post {self.literal('a', 'a', 's', 's')}\n    noplan\n}}\n"
         text += 'impl one of Find { run python "proof.actors:Actor" }\n'
+        text += "skill Any {\n    infer any a: Item\n    in s: Spot\n    pre a.on == true\n    pre not a at s\n"
+        text += f"    post {self.literal('a', 'a', 's', 's')}\n    noplan\n}}\n"
+        text += 'impl one of Any { run python "proof.actors:Actor" }\n'
         text += self.primitive("Setup", "    scoped\n")
         return text + "".join(self.compound(n) for n in range(COMPOUNDS))
 
@@ -89,7 +92,17 @@ class Writer:
             "_ at s", "exists x: Item (x at s)", f"not {one}" if not one.startswith("not") else one,
             f"({one} or {b}.on == true)", f"({one} and {a}.level <= 3)",
         )  # fmt: skip
-        return self.random.choice((one, one, one, *more))
+        return self.random.choice((one, one, one, *more, self.quantified(a), self.quantified(b)))
+
+    def quantified(self, a: str) -> str:
+        """Write a condition on all individuals of a class, or some one."""
+        return self.random.choice((
+            "exists x: Heavy (x at s)", "not exists x: Item (s holds x)", "forall x: Item (not x at t)",
+            f"exists x: Item ({a} near x)", f"exists x: Spot ({a} at x)", f"forall x: Spot (not {a} touches x)",
+            "exists x: Item (x at s and x.on == true)", "forall x: Item (x at s implies x.on == true)",
+            f"forall x: Heavy (x.level > 2 or x near {a})", "exists x: Item (exists y: Spot (x at y and not y == s))",
+            f"exists x: Item (x follows {a} and not x == {a})", f"not exists x: Item ({a} near x and x is Heavy)",
+        ))  # fmt: skip
 
 
 @dataclass
@@ -147,10 +160,12 @@ class Body:
     def leaf(self) -> str:
         """Write a node without children."""
         random = self.writer.random
-        kind = random.choice(("call",) * 6 + ("find", "check", "wait", "until", "apply"))
+        kind = random.choice(("call",) * 6 + ("find", "any", "check", "wait", "until", "apply"))
         match kind:
             case "find":
                 return f"Find(a: {random.choice(self.items)})"
+            case "any":
+                return f"Any(s: {random.choice('st')})"
             case "check":
                 return f"check({self.condition()})"
             case "wait":

@@ -1,7 +1,8 @@
 """Two conditions that cannot both hold.
 
 Told of preconditions and holds, those an implementation adds included, of goals and of conditions in bodies. A relation
-that has one value only, one that goes one way only, values of properties and classes are taken into account.
+that has one value only, one that goes one way only, values of properties, classes and who is said to be the same are
+taken into account.
 
 Bad:
 
@@ -32,7 +33,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.conflicts import Conflicts
-from skillc_compiler.conjuncts import Fact, Together, together
+from skillc_compiler.conjuncts import Fact, Together, names_of, renamed, together
 from skillc_compiler.program import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -47,8 +48,9 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 
 def _in_group(conflicts: Conflicts, group: Together) -> Iterator[Diagnostic]:
-    earlier = list(group.given)
-    for fact in group.own:
+    names = names_of((*group.given, *group.own))
+    earlier = [renamed(fact, names) for fact in group.given]
+    for fact in (renamed(each, names) for each in group.own):
         against = next((other for other in earlier if conflicts.between(other, fact)), None)
         if against is not None:
             yield _problem(fact, against)

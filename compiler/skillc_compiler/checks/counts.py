@@ -1,4 +1,6 @@
-"""A number of rounds that is not a whole number above zero.
+"""A count, a time or another number that no run can make sense of.
+
+## bad-count: a number of rounds is no whole number from 1 to a million
 
 Bad:
 
@@ -9,31 +11,142 @@ Good:
 
     skill Rest { noplan }
     impl patient of Rest { do repeat 3 { wait 1 s } }
+
+## bad-time: a time is negative, or longer than a year
+
+A `timeout` has to leave some time: with none, what is in it never runs. The ranges of parameters count.
+
+Bad:
+
+    skill Rest { noplan }
+    impl patient of Rest { do wait 1 s - 3 s }
+
+Good:
+
+    skill Rest { noplan }
+    impl patient of Rest { do wait 3 s - 1 s }
+
+## bad-number: a number is too large to compute with, or divided by zero
+
+Bad:
+
+    skill Press {
+        opt force: Force = 1e400 N
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    skill Press {
+        opt force: Force = 10 N
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
-from skillc_compiler.program import Program
-from skillc_compiler.walk import steps
+from skillc_compiler.intervals import Interval, interval_of, intervals
+from skillc_compiler.library.conditions import Arithmetic, Literal
+from skillc_compiler.lower.folding import MOST_ROUNDS, number
+from skillc_compiler.program import Program, Step, Valued
+from skillc_compiler.walk import steps, values, within
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Span
 
-NAMES = ("bad-count",)
+NAMES = ("bad-count", "bad-time", "bad-number")
+MOST = 1e100
+"""No quantity of a robot is larger; numbers like that only overflow."""
+YEAR_S = 366 * 24 * 3600.0
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each count of `retry`, `repeat` and `while .. max`."""
+    """Yield a problem for each count, each time and each number."""
     for step in steps(program):
         match step.written:
             case s.Counted(count=count) | s.While(limit=count):
-                if count.value < 1 or count.value != int(count.value):
-                    yield Diagnostic(
-                        "bad-count",
-                        count.span,
-                        f"`{count.text}` is no number of rounds",
-                        help="write a whole number, 1 or more",
-                    )
+                yield from _count(count)
             case _:
                 pass
+    yield from _times(program)
+    for value in values(program):
+        yield from _number(value)
+    for unit in program.files:
+        for declaration in unit.file.declarations:
+            if isinstance(declaration, s.ImplementationDeclaration):
+                yield from _preferences(declaration)
+
+
+def _count(count: s.Number) -> Iterator[Diagnostic]:
+    if not 1 <= count.value <= MOST_ROUNDS or count.value != int(count.value):
+        message = f"`{count.text}` is no number of rounds"
+        yield Diagnostic("bad-count", count.span, message, help="write a whole number, 1 or more, at most a million")
+
+
+def _times(program: Program) -> Iterator[Diagnostic]:
+    for skill in program.skills.values():
+        if skill.duration:
+            yield from _time(skill.duration, intervals(skill.parameters), "duration")
+    for implementation in program.implementations:
+        known = intervals(implementation.parameters, implementation.lets)
+        if implementation.duration:
+            yield from _time(implementation.duration, known, "duration")
+        if isinstance(implementation.body, Step):
+            yield from _in_body(within(implementation.body), known)
+    for task in program.tasks:
+        if task.body:
+            yield from _in_body(within(task.body), {})
+
+
+def _in_body(nodes: Iterable[Step], known: Mapping[str, Interval]) -> Iterator[Diagnostic]:
+    for step in nodes:
+        match step.written:
+            case s.Timeout():
+                yield from _time(step.values[0], known, "timeout")
+            case s.Wait():
+                yield from _time(step.values[0], known, "wait")
+            case _:
+                pass
+
+
+def _time(value: Valued, known: Mapping[str, Interval], word: str) -> Iterator[Diagnostic]:
+    found = interval_of(value.meaning, known)
+    if found is None:
+        return
+    low, high = found
+    if high < 0:
+        yield _bad_time(value.span, f"a `{word}` of {high:g} s is negative", "write a time of 0 s or more")
+    elif high == 0 and word == "timeout":
+        yield _bad_time(value.span, "the time is up at once, so what is in it never runs", "write a time above 0 s")
+    elif YEAR_S < low <= MOST:
+        yield _bad_time(value.span, f"a `{word}` of {low:g} s is longer than a year", "write a shorter time")
+
+
+def _bad_time(span: Span, message: str, help_: str) -> Diagnostic:
+    return Diagnostic("bad-time", span, message, help_)
+
+
+def _number(value: Valued) -> Iterator[Diagnostic]:
+    match value.meaning:
+        case Literal(value=int() | float() as found) if abs(found) > MOST:
+            yield Diagnostic("bad-number", value.span, "this number is too large", "write a smaller number")
+        case Arithmetic(operator="/", right=right) if number(right) == 0:
+            yield Diagnostic("bad-number", value.span, "this divides by zero", "divide by something else")
+        case Arithmetic() as sum_ if all(_is_finite(number(part.meaning)) for part in value.parts):
+            if not _is_finite(number(sum_)):
+                message = "the result is too large a number"
+                yield Diagnostic("bad-number", value.span, message, "write smaller numbers")
+
+
+def _is_finite(found: float | None) -> bool:
+    return found is None or abs(found) <= MOST
+
+
+def _preferences(declaration: s.ImplementationDeclaration) -> Iterator[Diagnostic]:
+    for member in declaration.members:
+        if isinstance(member, s.Prefer) and abs(member.value.value) > MOST:
+            yield Diagnostic("bad-number", member.value.span, "this number is too large", "write a smaller number")

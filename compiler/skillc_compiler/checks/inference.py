@@ -1,7 +1,8 @@
 """An inferred parameter that no precondition links to anything.
 
-The value of an `infer` parameter is looked up through the preconditions. Without one, any individual of its class
-would do, which is rarely meant.
+The value of an `infer` parameter is looked up through the preconditions: relations, values of properties and classes.
+Without one, any individual of its class would do, which is rarely meant. What something is not, as in
+`pre not slot contain _`, says enough only for `infer any`, which takes the first of several.
 
 Bad:
 
@@ -29,7 +30,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.library.conditions import And, Compare, Holds, Same, Variable
+from skillc_compiler.library.conditions import And, Compare, Exists, HasProperty, Holds, IsA, Or, Same
+from skillc_compiler.library.reading import free_variables
 from skillc_compiler.program import Clause, Program, Skill
 from skillc_dsl.diagnostics import Diagnostic
 
@@ -37,11 +39,12 @@ NAMES = ("unlinked-inference",)
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each inferred parameter that stands in no positive precondition."""
+    """Yield a problem for each inferred parameter of which no precondition says who it is."""
     for skill in program.skills.values():
         linked = {name for r in skill.requirements if r.kind == "pre" for name in _linked(r.clause)}
+        asked = {name for r in skill.requirements if r.kind == "pre" for name in free_variables(r.clause.meaning)}
         for parameter in skill.parameters:
-            if parameter.direction == "infer" and parameter.name not in linked:
+            if parameter.direction == "infer" and parameter.name not in (asked if parameter.any_ else linked):
                 yield _problem(skill, parameter.name, linked)
 
 
@@ -56,13 +59,14 @@ def _problem(skill: Skill, name: str, linked: set[str]) -> Diagnostic:
     )
 
 
-def _linked(clause: Clause) -> Iterator[str]:
-    """Yield the variables that a condition, when it holds, relates to something."""
+def _linked(clause: Clause) -> set[str]:
+    """Return the variables of which a condition, when it holds, says something that is not so of everybody."""
     match clause.meaning:
-        case And():
-            for part in clause.parts:
-                yield from _linked(part)
-        case Holds() | Same() | Compare(operator="=="):
-            yield from (v.meaning.name for v in clause.values if isinstance(v.meaning, Variable))
+        case And() | Exists():
+            return set().union(*(_linked(part) for part in clause.parts))
+        case Or():
+            return set.intersection(*(_linked(part) for part in clause.parts))
+        case Holds() | Same() | Compare() | HasProperty() | IsA():
+            return set(free_variables(clause.meaning))
         case _:
-            pass
+            return set()

@@ -32,13 +32,13 @@ Good:
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from skillc_compiler.conflicts import Conflicts, covers
-from skillc_compiler.conjuncts import Fact, conjuncts
+from skillc_compiler.conjuncts import Fact, conjuncts, equal_names, renamed
 from skillc_compiler.library.conditions import Holds
 from skillc_compiler.library.vocabulary import local_name
-from skillc_compiler.program import Program, Requirement, Skill
+from skillc_compiler.program import Program, Requirement
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
 
@@ -49,16 +49,21 @@ def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each relation that cannot be made true."""
     conflicts = Conflicts(program.vocabulary)
     for skill in program.skills.values():
-        yield from _in_skill(conflicts, skill)
+        yield from _of(conflicts, skill.requirements, ())
+    for implementation in program.implementations:
+        yield from _of(conflicts, implementation.requirements, implementation.skill.requirements)
 
 
-def _in_skill(conflicts: Conflicts, skill: Skill) -> Iterator[Diagnostic]:
-    posts = [(fact, r) for r in skill.requirements if r.kind == "post" for fact in conjuncts(r.clause)]
+def _of(conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Requirement]) -> Iterator[Diagnostic]:
+    whole = (*given, *own)
+    names = equal_names(whole)
+    posts = [(renamed(f, names), r) for r in whole if r.kind == "post" for f in conjuncts(r.clause)]
     gone = [fact.meaning for fact, _ in posts if not fact.holds and isinstance(fact.meaning, Holds)]
-    known = [fact for r in skill.requirements if r.kind == "pre" for fact in conjuncts(r.clause) if fact.holds]
+    pre = (renamed(fact, names) for r in whole if r.kind == "pre" for fact in conjuncts(r.clause))
+    known = [fact for fact in pre if fact.holds]
     staying = [fact for fact in known if not _undone(conflicts, fact, gone)]
     for number, (fact, post) in enumerate(posts):
-        if not fact.holds or not isinstance(fact.meaning, Holds):
+        if post not in own or not fact.holds or not isinstance(fact.meaning, Holds):
             continue
         others = [*(each for each, _ in posts[:number] if each.holds), *staying]
         yield from _breaks(conflicts, fact, fact.meaning, post, others)

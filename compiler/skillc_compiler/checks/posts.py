@@ -114,10 +114,22 @@ Good:
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from skillc_compiler.conflicts import Conflicts, covers
-from skillc_compiler.library.conditions import Assert, Assign, Effect, Holds, Literal, Retract
+from skillc_compiler.conjuncts import Fact, conjuncts, equal_names, renamed
+from skillc_compiler.library.conditions import (
+    Assert,
+    Assign,
+    Compare,
+    Effect,
+    Expression,
+    HasProperty,
+    Holds,
+    Literal,
+    Retract,
+)
+from skillc_compiler.library.pddl.rewriting import replaced
 from skillc_compiler.library.vocabulary import PropertyTerm, RelationTerm, Vocabulary, local_name
 from skillc_compiler.lower.effects import NoEffect, effects
 from skillc_compiler.program import Program, Requirement
@@ -136,7 +148,8 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 
 def _check(conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Requirement]) -> Iterator[Diagnostic]:
-    known = [(effect, post) for post in given if post.kind == "post" for effect in effects(post.clause)]
+    names = equal_names((*given, *own))
+    known = [(_same(effect, names), post) for post in given if post.kind == "post" for effect in effects(post.clause)]
     for post in (requirement for requirement in own if requirement.kind == "post"):
         for effect in effects(post.clause):
             if isinstance(effect, NoEffect):
@@ -145,10 +158,41 @@ def _check(conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Req
                 continue
             if not post.sensed:
                 yield from _computed(conflicts.vocabulary, effect, post)
+            seen = _same(effect, names)
             for other, earlier in known:
-                if not isinstance(other, NoEffect):
-                    yield from _conflict(conflicts, effect, post, other, earlier)
-            known.append((effect, post))
+                if not isinstance(other, NoEffect) and not isinstance(seen, NoEffect):
+                    yield from _conflict(conflicts, seen, post, other, earlier)
+            known.append((seen, post))
+    yield from _values(conflicts, own, given, names)
+
+
+def _same(effect: Effect | NoEffect, names: Mapping[str, Expression]) -> Effect | NoEffect:
+    """Return the effect with one name for all that are the same."""
+    return effect if isinstance(effect, NoEffect) else replaced(effect, names)
+
+
+def _values(
+    conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Requirement], names: Mapping[str, Expression]
+) -> Iterator[Diagnostic]:
+    """Report a value that is measured and cannot be the one that another post gives or measures."""
+    posts = [post for post in (*given, *own) if post.kind == "post"]
+    facts = [(renamed(fact, names), post) for post in posts for fact in conjuncts(post.clause)]
+    valued = [(fact, post) for fact, post in facts if isinstance(fact.meaning, Compare | HasProperty)]
+    for number, (fact, post) in enumerate(valued):
+        for other, earlier in valued[:number] if post in own else ():
+            told = _is_assigned(fact) and _is_assigned(other)
+            if not told and (post.sensed or earlier.sensed) and conflicts.between(fact, other):
+                yield _either("contradicting-posts", post, earlier, "another post says the opposite")
+
+
+def _is_assigned(fact: Fact) -> bool:
+    """Whether a post gives the value, so that a second one is reported as such."""
+    match fact.meaning:
+        case Compare(operator="=="):
+            return fact.holds
+        case Compare(left=Literal(value=bool())) | Compare(right=Literal(value=bool())):
+            return True
+    return False
 
 
 def _not_literal(part: NoEffect) -> Diagnostic:

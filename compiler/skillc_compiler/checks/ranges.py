@@ -52,6 +52,7 @@ Good:
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import isfinite
 
 from skillc_compiler.lower.folding import number
 from skillc_compiler.program import Parameter, Program, Valued
@@ -99,7 +100,15 @@ def _outside(parameter: Parameter, value: Valued | None, place: Span | None = No
     """Report a constant outside the range; `place` is where to report it if not at the value."""
     low, high = _bounds(parameter)
     known = _number(value, parameter.type)
-    if value is None or known is None or low is None or high is None or low > high or low <= known <= high:
+    if (
+        value is None
+        or known is None
+        or not isfinite(known)
+        or low is None
+        or high is None
+        or low > high
+        or low <= known <= high
+    ):
         return
     bounds = f"{_shown(low, parameter.type)} .. {_shown(high, parameter.type)}"
     yield Diagnostic(

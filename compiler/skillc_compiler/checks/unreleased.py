@@ -1,8 +1,8 @@
 """Something that is set up, or changed, and not put back when a child fails.
 
 A `scoped` skill that is called as a plain node lasts until an enclosing `with`, or the whole run, ends. And what one
-child changes and a later one changes back stays changed when a child between the two fails. `with` undoes what its
-skill set up on success, failure and halt.
+child sets and a later one sets back, such as whether a door is open, stays set when a child between the two fails.
+`with` undoes what its skill set up on success, failure and halt.
 
 Bad:
 

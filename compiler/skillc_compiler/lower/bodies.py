@@ -7,7 +7,7 @@ from typing import assert_never
 
 from skillc_compiler.library import tree as t
 from skillc_compiler.library.conditions import Condition, Expression
-from skillc_compiler.lower.folding import fold, fold_condition
+from skillc_compiler.lower.folding import fold, fold_condition, rounds_of
 from skillc_compiler.program import Step, position
 from skillc_dsl import syntax as s
 
@@ -43,13 +43,13 @@ def _around(step: Step, written: s.Counted | s.Timeout | s.While | s.For | s.Wit
     child = _together(step.children, step)
     match written:
         case s.Counted(kind="retry", count=count):
-            return t.Retry(int(count.value), child, source)
+            return t.Retry(rounds_of(count), child, source)
         case s.Counted(count=count):
-            return t.Repeat(int(count.value), child, source)
+            return t.Repeat(rounds_of(count), child, source)
         case s.Timeout():
             return t.Timeout(_value(step), child, source)
         case s.While(text=text, limit=limit):
-            return t.While(_condition(step), text, int(limit.value), child, source)
+            return t.While(_condition(step), text, rounds_of(limit), child, source)
         case s.For(variable=variable):
             return t.ForEach(variable.text, _value(step), child, source)
         case s.With():

@@ -18,6 +18,10 @@ from skillc_compiler.library.conditions import (
     Or,
     PropertyOf,
 )
+from skillc_dsl import syntax as s
+
+MOST_ROUNDS = 1_000_000
+"""More rounds than that count as endless."""
 
 
 def fold(expression: Expression) -> Expression:
@@ -71,3 +75,8 @@ def _arithmetic(expression: Arithmetic) -> Expression:
             return Literal(left * right)
         case "/":
             return Literal(left / right) if right else expression
+
+
+def rounds_of(written: s.Number) -> int:
+    """Return a number of rounds as a whole number that there can be; any other is reported as `bad-count`."""
+    return int(min(max(written.value, 1), MOST_ROUNDS))

@@ -164,6 +164,22 @@ Good:
     property filled(Product): Bool
     property filled(Location): Bool
 
+## redeclared-term: a declaration adds to a term of a vocabulary
+
+A class, relation or property whose bare name is visible already is no new term: what is declared is added to the one
+that there is, for every skill that speaks of it. Whoever means that writes the name with its prefix.
+
+Bad:
+
+    use skiros
+    class Container < Product
+
+Good:
+
+    use skiros
+    class Crate < Product
+    class skiros:Container < Product
+
 ## import-cycle: files import one another in a circle
 
 Also a file that imports itself. Move what both need into a third file.

@@ -92,20 +92,20 @@ def bound(sorts: Sorts, state: State, call: Call, requirements: Sequence[Require
     open_: dict[str, Parameter] = {}
     for parameter in call.skill.parameters:
         value = passed.get(parameter.name, parameter.default.meaning if parameter.default else None)
-        made_up = Variable(f"{call.skill.name}.{parameter.name}@{call.written.span.line}:{call.written.span.column}")
+        name = made_up(call, parameter)
         if parameter.direction == "out":
-            start[parameter.name] = made_up
-            after[parameter.name] = Variable(call.out.text) if call.out else made_up
+            start[parameter.name] = name
+            after[parameter.name] = Variable(call.out.text) if call.out else name
             continue
         if value is None:
             open_[parameter.name] = parameter
-            sorts.classes[made_up.name] = class_of(parameter)
-        start[parameter.name] = made_up if value is None else value
-        after[parameter.name] = value if isinstance(value, Variable | Individual | Literal) else made_up
-    for name, thing in _inferred(sorts, state, open_, start, requirements).items():
-        start[name] = after[name] = thing
-        open_.pop(name)
-    made = frozenset(value.name for name in open_ if isinstance(value := start[name], Variable))
+            sorts.classes[name.name] = class_of(parameter)
+        start[parameter.name] = name if value is None else value
+        after[parameter.name] = value if isinstance(value, Variable | Individual | Literal) else name
+    for found, thing in _inferred(sorts, state, open_, start, requirements).items():
+        start[found] = after[found] = thing
+        open_.pop(found)
+    made = frozenset(value.name for each in open_ if isinstance(value := start[each], Variable))
     return Binding(call.skill, start, after, made, {p.name: _given(p, passed) for p in call.skill.parameters})
 
 
@@ -116,6 +116,12 @@ def _passed(skill: Skill, call: Call) -> Iterator[tuple[str, Expression]]:
         takes_individual = parameter is not None and isinstance(parameter.declared, ClassType)
         if not takes_individual or isinstance(value, Variable | Individual):
             yield argument.name.text, value
+
+
+def made_up(call: Call, parameter: Parameter) -> Variable:
+    """Return the name of what a called skill finds by itself."""
+    assert call.skill is not None, "a call of an unknown skill has no parameters"
+    return Variable(f"{call.skill.name}.{parameter.name}@{call.written.span.line}:{call.written.span.column}")
 
 
 def class_of(parameter: Parameter) -> str:
@@ -163,8 +169,9 @@ def _inferred(
             (seen.subject, seen.object, sorts.axioms.single_subject, True),
             (seen.object, seen.subject, sorts.axioms.single_object, False),
         ):
-            if isinstance(unknown, Variable) and unknown in wanted and seen.relation in single:
-                for thing in _known(state, seen.relation, known, at_subject):
+            if isinstance(unknown, Variable) and unknown in wanted:
+                known_ones = _known(state, seen.relation, known, at_subject) if seen.relation in single else ()
+                for thing in (*known_ones, *_only(state, seen.relation, known, at_subject)):
                     found.setdefault(wanted[unknown], thing)
     return found
 
@@ -176,6 +183,12 @@ def _known(state: State, relation: str, other: Term, at_subject: bool) -> Iterat
             here, there = (fact.subject, fact.object) if at_subject else (fact.object, fact.subject)
             if there == other and isinstance(here, Variable | Individual):
                 yield here
+
+
+def _only(state: State, relation: str, other: Term, at_subject: bool) -> frozenset[Thing]:
+    """Return who may have the relation with the other where that is one only."""
+    rest = state.alone.get((relation, other, not at_subject)) if isinstance(other, Variable | Individual) else None
+    return rest if rest is not None and len(rest) == 1 else frozenset()
 
 
 def _conjuncts(condition: Condition) -> Iterator[Condition]:

@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from skillc_compiler.library.conditions import Variable
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.program import Call, Requirement
-from skillc_compiler.proof.binding import Binding, bound, candidates, changes, class_of, required
+from skillc_compiler.proof.binding import Binding, bound, candidates, changes, class_of, made_up, required
 from skillc_compiler.proof.forgetting import forgotten
-from skillc_compiler.proof.learning import learned
+from skillc_compiler.proof.learning import learned, merged
 from skillc_compiler.proof.run import Around, Effected, Run, disturbed
 from skillc_compiler.proof.state import State
 from skillc_compiler.proof.summaries import hidden, seen_from
 from skillc_compiler.proof.trail import Ends, Trail, Way, Ways, add, step
-from skillc_compiler.proof.truth import truth
+from skillc_compiler.proof.truth import things, truth
 from skillc_compiler.proof.writes import Write
 from skillc_compiler.proof.writing import applied
 
@@ -29,12 +30,27 @@ def called(run: Run, call: Call, ways: Ways, around: Around) -> Ends:
         if call.skill is None:
             _after_unknown(call, state, way, ends)
             continue
+        state = _aged(run, call, state)
         binding = bound(run.sorts, state, call, pre)
         for name in binding.open_:
             state = state.without(name)
         _look(run, call, binding, (*pre, *hold), state, way, around)
         _end(run, call, binding, (pre, hold), state, way, around, ends)
     return ends
+
+
+def _aged(run: Run, call: Call, state: State) -> State:
+    """Return the state with other names for those that an earlier round of the same call found by itself."""
+    assert call.skill is not None, "only calls of known skills find anything"
+    for parameter in call.skill.parameters:
+        name = made_up(call, parameter)
+        known = {thing.name for thing in things(state) if isinstance(thing, Variable)}
+        if name.name in known:
+            former = Variable(f"{name.name}'")
+            run.sorts.classes[former.name] = class_of(parameter)
+            state = merged(state.without(former.name), name, former)
+            state = state.replaced(same={key: thing for key, thing in state.same.items() if key != name.name})
+    return state
 
 
 def _after_unknown(call: Call, state: State, way: Way, ends: Ends) -> None:
@@ -71,6 +87,8 @@ def _end(
     less = disturbed(run, forgotten(run.sorts, state, _of(run, run.summaries.of_call(call, failing=True))), around)
     breaks = run.summaries.may_break(binding.skill)
     for outcome, ended, trail in _watched(run, call, state, (after, less), (succeeded, failed), breaks):
+        if outcome == "success" and "endless" in binding.skill.flags:
+            continue
         add({"success": ends.success, "failure": ends.failure, "broken": ends.broken}[outcome], ended, trail)
 
 

@@ -12,12 +12,14 @@ from skillc_compiler.library.conditions import (
     Forall,
     Holds,
     Invoke,
+    IsA,
     Not,
     PropertyOf,
+    Same,
     Variable,
 )
 from skillc_compiler.library.reading import free_variables, walk
-from skillc_compiler.program import Call, Implementation, Requirement
+from skillc_compiler.program import Body, Call, Implementation, Requirement, Step
 from skillc_compiler.proof.binding import changes
 from skillc_compiler.proof.findings import Finding, NeverAssigned, Undeclared, Unproved, Unreleased
 from skillc_compiler.proof.learning import learned
@@ -25,10 +27,13 @@ from skillc_compiler.proof.opening import requirements_of
 from skillc_compiler.proof.run import Effected, Run
 from skillc_compiler.proof.sorts import Sorts
 from skillc_compiler.proof.state import State
+from skillc_compiler.proof.summaries import calls_in
 from skillc_compiler.proof.trail import Ends, Way, Ways, length
 from skillc_compiler.proof.truth import truth
 from skillc_compiler.proof.writes import Related, Valued, Write, condition_of, write_of
 from skillc_compiler.proof.writing import applied
+from skillc_compiler.walk import within
+from skillc_dsl import syntax as s
 
 
 def findings(run: Run, implementation: Implementation, start: State, ends: Ends) -> Iterator[Finding]:
@@ -83,7 +88,12 @@ def effected(effect: Effect) -> Condition | None:
 
 def _accounted(sorts: Sorts, condition: Condition, before: tuple[State, State], state: State) -> bool:
     now = truth(sorts, state, condition)
-    return now is not None and any(truth(sorts, each, condition) is now for each in before)
+    return now is not None and any(truth(sorts, _knowing(each, state), condition) is now for each in before)
+
+
+def _knowing(state: State, other: State) -> State:
+    """Return the state with what the other knows of who is who and of which class, which nothing changes."""
+    return state.having({fact: true for fact, true in other.facts.items() if isinstance(fact, Same | IsA)})
 
 
 def _said(run: Run, implementation: Implementation, write: Write) -> bool:
@@ -147,13 +157,33 @@ def _undeclared(
     before: tuple[State, State],
     ways: Ways,
 ) -> Iterator[Finding]:
-    if one.post.sensed or any(truth(run.sorts, state, condition) is True for state in before):
+    if one.post.sensed or (
+        _speaks_of_unnamed(one.effect) and any(one.call is each for each in _repeated(implementation.body))
+    ):
         return
     if any(_same_but_for_names(run, one.effect, own) for _, own in changes(requirements_of(implementation, "post"))):
         return
-    found = [way for state, way in ways.items() if _passes(way, one.call) and truth(run.sorts, state, condition)]
+    found = [
+        way
+        for state, way in ways.items()
+        if _passes(way, one.call)
+        and truth(run.sorts, state, condition)
+        and not any(truth(run.sorts, _knowing(each, state), condition) for each in before)
+    ]
     if found:
         yield Undeclared(implementation, one.call, one.post, min(found, key=length))
+
+
+def _speaks_of_unnamed(effect: Effect) -> bool:
+    """Whether an effect is on an individual that the called skill finds by itself."""
+    return any(isinstance(part, Variable) and "@" in part.name for part in walk(effect))
+
+
+def _repeated(body: Body) -> Iterator[Call]:
+    """Yield the calls in loops: what they do to others in each round, no postcondition can say."""
+    for step in within(body) if isinstance(body, Step) else ():
+        if isinstance(step.written, s.While | s.Counted):
+            yield from calls_in(step)
 
 
 def _same_but_for_names(run: Run, effect: Effect, own: Effect) -> bool:
@@ -180,11 +210,33 @@ def _passes(way: Way, call: Call) -> bool:
 
 
 def _unreleased(run: Run, one: Effected, condition: Condition, start: State, ends: Ends) -> Iterator[Finding]:
-    """An effect that no success keeps, of which a failure after it leaves the world changed."""
-    if one.post.sensed or not ends.success or truth(run.sorts, start, condition) is not False:
+    """A value that no success keeps, of which a failure after it leaves the world changed.
+
+    Where things are carried to is no state of a device: a failure leaves them where they are. And where it is the
+    undoing that fails, nothing could have undone it.
+    """
+    if (
+        one.post.sensed
+        or not isinstance(write_of(one.effect), Valued)
+        or not ends.success
+        or truth(run.sorts, start, condition) is not False
+    ):
         return
     if all(truth(run.sorts, state, condition) is False for state in ends.success):
         failed = ends.failed
-        left = [way for state, way in failed.items() if _passes(way, one.call) and truth(run.sorts, state, condition)]
+        undoing = {
+            each.call.written.span for each in run.effects.values() if _undoes(run.sorts, each.effect, condition)
+        }
+        left = [
+            way
+            for state, way in failed.items()
+            if way is not None and way.span not in undoing and _passes(way, one.call)
+            if truth(run.sorts, state, condition)
+        ]
         if left:
             yield Unreleased(one.call, one.post, min(left, key=length))
+
+
+def _undoes(sorts: Sorts, effect: Effect, condition: Condition) -> bool:
+    """Whether an effect makes a condition untrue."""
+    return truth(sorts, applied(sorts, State(), [effect]), condition) is False

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from skillc_compiler.library.conditions import And, Anything, Condition, Holds, Individual, Not, Or, Same, Variable
 from skillc_compiler.library.pddl.rewriting import replaced
+from skillc_compiler.proof.axioms import Axioms
 from skillc_compiler.proof.sorts import Sorts
-from skillc_compiler.proof.state import State, Thing
+from skillc_compiler.proof.state import Side, State, Thing
 from skillc_compiler.proof.truth import canonical, truth
 
 
@@ -71,7 +74,22 @@ def _related(sorts: Sorts, state: State, fact: Holds, holds: bool) -> State:
             found[Holds(fact.object, relation, fact.subject)] = holds
         else:
             found[Holds(fact.subject, relation, fact.object)] = holds
-    return state.having(found)
+    alone = single_sides(axioms, found) if holds else {}
+    return state.replaced(facts={**state.facts, **found}, alone={**state.alone, **alone})
+
+
+def single_sides(axioms: Axioms, facts: Iterable[Condition]) -> dict[Side, frozenset[Thing]]:
+    """Return who alone may stand on the sides of relations that have one value only, where these facts hold."""
+    alone: dict[Side, frozenset[Thing]] = {}
+    for fact in facts:
+        match fact:
+            case Holds(Variable() | Individual() as start, above, Variable() | Individual() as end):
+                for source, turned in axioms.sources.get(above, ((above, False),)):
+                    if above in axioms.single_object:
+                        alone[(source, start, not turned)] = frozenset({end})
+                    if above in axioms.single_subject:
+                        alone[(source, end, turned)] = frozenset({start})
+    return alone
 
 
 def _related_to_any(sorts: Sorts, state: State, fact: Holds, holds: bool) -> State:

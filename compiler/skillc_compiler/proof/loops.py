@@ -2,28 +2,32 @@
 
 from __future__ import annotations
 
+from functools import reduce
 from typing import assert_never
 
+from skillc_compiler.lower.folding import rounds_of
 from skillc_compiler.program import Step
 from skillc_compiler.proof.learning import learned
 from skillc_compiler.proof.run import Around, Run, disturbed, in_order
-from skillc_compiler.proof.state import State
+from skillc_compiler.proof.state import State, joined
 from skillc_compiler.proof.trail import Ends, Way, Ways, add, after, few, merge, step
 from skillc_dsl import syntax as s
 
 ROUNDS = 6
-"""So many rounds are followed one by one; after them, only what no round can change is known."""
+"""So many rounds are followed one by one; after them, only what no round can change, or every round keeps, is known."""
+TRIALS = 2
+"""So often what every round keeps is narrowed down."""
 
 
 def rounds(run: Run, node: Step, written: s.Counted | s.While | s.For, ways: Ways, around: Around) -> Ends:
     """Return how a loop ends; a number of rounds that is none is told elsewhere."""
     match written:
         case s.Counted(kind="retry", count=count):
-            return _retried(run, node, max(1, int(count.value)), ways, around)
+            return _retried(run, node, rounds_of(count), ways, around)
         case s.Counted(count=count):
-            return _repeated(run, node, max(1, int(count.value)), ways, around)
+            return _repeated(run, node, rounds_of(count), ways, around)
         case s.While(limit=limit):
-            return _while(run, node, max(1, int(limit.value)), ways, around)
+            return _while(run, node, rounds_of(limit), ways, around)
         case s.For():
             return _each(run, node, written, ways, around)
         case _:
@@ -127,6 +131,44 @@ def _asked(run: Run, node: Step, ways: Ways, around: Around) -> tuple[dict[State
 def _any_number(run: Run, node: Step, ways: Ways, around: Around, target: dict[State, Way]) -> Ends:
     """Follow one round after any number of others; its successes go to `target`."""
     writes = run.writes(node)
-    one = in_order(run, node.children, after(run.sorts, ways, writes), around)
-    merge(target, after(run.sorts, one.success, writes))
+    kept = _kept(run, node, ways, around)
+    one = in_order(run, node.children, _knowing(after(run.sorts, ways, writes), kept), around)
+    ended = after(run.sorts, one.success, writes)
+    merge(target, ended if _is_retry(node) else _knowing(ended, kept))
     return one
+
+
+def _is_retry(node: Step) -> bool:
+    """Whether it is a failure that another round follows, not a success."""
+    return isinstance(node.written, s.Counted) and node.written.kind == "retry"
+
+
+def _kept(run: Run, node: Step, ways: Ways, around: Around) -> State | None:
+    """Return what is known before each further round because every round keeps it; None where nothing was found."""
+    if run.watch is not None or not ways:
+        return None
+    kept = reduce(joined, ways)
+    for _ in range(TRIALS):
+        run.quiet += 1
+        ends = in_order(run, node.children, {kept: None}, around)
+        run.quiet -= 1
+        after_round = reduce(joined, ends.failed if _is_retry(node) else ends.success, kept)
+        if after_round == kept:
+            return kept
+        kept = after_round
+    return None
+
+
+def _knowing(ways: Ways, kept: State | None) -> dict[State, Way]:
+    found: dict[State, Way] = {}
+    for state, way in ways.items():
+        add(found, _and(state, kept) if kept is not None else state, way)
+    return found
+
+
+def _and(state: State, kept: State) -> State:
+    return state.replaced(
+        facts={**state.facts, **kept.facts},
+        alone={**state.alone, **kept.alone},
+        assigned=state.assigned | kept.assigned,
+    )

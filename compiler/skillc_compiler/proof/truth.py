@@ -29,6 +29,7 @@ from skillc_compiler.library.conditions import (
 )
 from skillc_compiler.library.pddl.rewriting import replaced
 from skillc_compiler.library.reading import walk
+from skillc_compiler.proof.quantifying import is_bound, is_ruled_out, only, quantified
 from skillc_compiler.proof.sorts import Sorts, same
 from skillc_compiler.proof.state import State, Thing
 
@@ -58,6 +59,8 @@ def canonical(sorts: Sorts, state: State, condition: Condition) -> Condition:
             return same(left, right)
         case Compare(left=left, operator=sign, right=right) if _is_constant(left) and not _is_constant(right):
             return Compare(right, _MIRRORED[sign], left)
+        case Exists() | Forall():
+            return quantified(sorts, condition, lambda body: canonical(sorts, state, body))
     return condition
 
 
@@ -81,7 +84,7 @@ def _truth(sorts: Sorts, state: State, condition: Condition) -> bool | None:
         case Compare():
             return _compared(sorts, state, condition)
         case HasProperty(subject=subject, property=iri):
-            return None if isinstance(subject, Anything) else _has(state, condition, PropertyOf(subject, iri))
+            return None if isinstance(subject, Anything) else _has(sorts, state, condition, PropertyOf(subject, iri))
         case Exists():
             return _exists(sorts, state, condition)
         case Forall() | Given() | IsA():
@@ -114,6 +117,8 @@ def _related(sorts: Sorts, state: State, asked: Holds) -> bool | None:
     known = state.facts.get(asked)
     if known is not None:
         return known
+    if is_ruled_out(sorts, state, asked):
+        return False
     match asked.subject, asked.object:
         case Anything(), Anything():
             return True if any(_holds(state, asked.relation)) else None
@@ -167,17 +172,19 @@ def _exists(sorts: Sorts, state: State, condition: Exists) -> bool | None:
     known = state.facts.get(condition)
     if known is not None:
         return known
-    for thing in things(state):
-        body = canonical(sorts, state, replaced(condition.body, {condition.variable: thing}))
-        if sorts.is_a(state, thing, condition.cls) and _truth(sorts, state, body):
-            return True
-    return None
+
+    def of(thing: Thing) -> bool | None:
+        return _truth(sorts, state, canonical(sorts, state, replaced(condition.body, {condition.variable: thing})))
+
+    if any(sorts.is_a(state, thing, condition.cls) and of(thing) for thing in things(state)):
+        return True
+    return False if any(all(of(one) is False for one in group) for group in only(state, condition)) else None
 
 
 def things(state: State) -> tuple[Thing, ...]:
     """Return the individuals of which something is known, in the order in which it became known."""
     terms = (part for fact in state.facts for part in walk(fact) if isinstance(part, Variable | Individual))
-    return tuple(dict.fromkeys(terms))
+    return tuple(dict.fromkeys(term for term in terms if not is_bound(term)))
 
 
 def _compared(sorts: Sorts, state: State, asked: Compare) -> bool | None:
@@ -186,6 +193,8 @@ def _compared(sorts: Sorts, state: State, asked: Compare) -> bool | None:
         return known
     if isinstance(asked.left, Literal) and isinstance(asked.right, Literal):
         return _apply(asked.operator, asked.left.value, asked.right.value)
+    if is_ruled_out(sorts, state, asked):
+        return False
     if asked.left == asked.right and isinstance(asked.left, Variable):
         return asked.operator in ("==", "<=", ">=")
     if _is_missing(state, asked.left):
@@ -215,10 +224,12 @@ def _is_single(sorts: Sorts, value: Expression) -> bool:
     return term is not None and term.functional
 
 
-def _has(state: State, asked: HasProperty, value: PropertyOf) -> bool | None:
+def _has(sorts: Sorts, state: State, asked: HasProperty, value: PropertyOf) -> bool | None:
     known = state.facts.get(asked)
     if known is not None:
         return known
+    if is_ruled_out(sorts, state, asked):
+        return False
     compared = (true and fact.left == value for fact, true in state.facts.items() if isinstance(fact, Compare))
     return True if any(compared) else None
 

@@ -17,8 +17,9 @@ from skillc_compiler.library.conditions import (
     Variable,
 )
 from skillc_compiler.proof.forgetting import forgotten
+from skillc_compiler.proof.learning import single_sides
 from skillc_compiler.proof.sorts import Sorts
-from skillc_compiler.proof.state import Side, State, Thing
+from skillc_compiler.proof.state import State
 from skillc_compiler.proof.writes import Assigned, Ended, Related, Valued, Write, canonical, write_of
 
 
@@ -61,16 +62,9 @@ def _asserted(sorts: Sorts, state: State, write: Related) -> State:
         return state
     axioms = sorts.axioms
     facts: dict[Condition, bool] = {}
-    alone: dict[Side, frozenset[Thing]] = {}
     for above, turned in axioms.implied.get(relation, ((relation, False),)):
-        start, end = (object_, subject) if turned else (subject, object_)
-        facts[Holds(start, above, end)] = True
-        for source, source_turned in axioms.sources.get(above, ((above, False),)):
-            if above in axioms.single_object:
-                alone[(source, start, not source_turned)] = frozenset({end})
-            if above in axioms.single_subject:
-                alone[(source, end, source_turned)] = frozenset({start})
-    return state.replaced(facts={**state.facts, **facts}, alone={**state.alone, **alone})
+        facts[Holds(object_, above, subject) if turned else Holds(subject, above, object_)] = True
+    return state.replaced(facts={**state.facts, **facts}, alone={**state.alone, **single_sides(axioms, facts)})
 
 
 def _retracted(sorts: Sorts, state: State, write: Related) -> State:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeVar
 
 import msgspec
@@ -16,9 +16,9 @@ from skillc_compiler.library.vocabulary import (
     Vocabulary,
 )
 from skillc_compiler.program import ReadFile, position
-from skillc_compiler.resolve.declared import Declared, namespace, prefix
+from skillc_compiler.resolve.declared import Declared, kind_of, namespace, prefix
 from skillc_compiler.resolve.names import Kind, Names
-from skillc_compiler.resolve.typenames import value_type
+from skillc_compiler.resolve.typenames import BUILT_IN, value_type
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
@@ -34,6 +34,7 @@ def extend(
     properties, functions = dict(vocabulary.properties), dict(vocabulary.functions)
     for unit in files:
         here, look_up = declared[unit.file.path], names[unit.file.path]
+        look_up.problems += _added_to(unit, here, vocabulary)
         for declaration in unit.file.declarations:
             match declaration:
                 case s.ClassDeclaration():
@@ -64,6 +65,44 @@ def _declared(kind: Kind, name: s.Name, here: Declared, names: Names) -> str:
     if ":" in name.text:
         names.individual(name)
     return here.terms[kind][name.text]
+
+
+def _added_to(unit: ReadFile, here: Declared, vocabulary: Vocabulary) -> Iterator[Diagnostic]:
+    """Report the first declaration of each bare name that adds to a term of a vocabulary instead of making a new one.
+
+    A property of another type is reported elsewhere.
+    """
+    told: set[str] = set()
+    for declaration in unit.file.declarations:
+        if not isinstance(declaration, s.ClassDeclaration | s.RelationDeclaration | s.PropertyDeclaration):
+            continue
+        name, kind = declaration.name, kind_of(declaration)
+        table = {"class": vocabulary.classes, "relation": vocabulary.relations, "property": vocabulary.properties}
+        old: ClassTerm | RelationTerm | PropertyTerm | None = table[kind].get(here.terms[kind][name.text])  # type: ignore[attr-defined]
+        if old is None or ":" in name.text or old.iri in told or _differs(declaration, old):
+            continue
+        told.add(old.iri)
+        short = vocabulary.short(old.iri)
+        yield Diagnostic(
+            "redeclared-term",
+            name.span,
+            f"`{name.text}` is a {kind} already, `{short}`: this adds to it, and declares no new one",
+            help=f"choose another name, or write `{kind} {short}` if you mean to add to that one",
+            severity="warning",
+            labels=_declared_at(old),
+        )
+
+
+def _differs(written: s.Declaration, old: ClassTerm | RelationTerm | PropertyTerm) -> bool:
+    """Whether a property is declared with a type that the old one certainly has not."""
+    if not isinstance(written, s.PropertyDeclaration) or not isinstance(old, PropertyTerm):
+        return False
+    return not isinstance(written.type, s.Name) or BUILT_IN.get(written.type.text) != old.type
+
+
+def _declared_at(term: ClassTerm | RelationTerm | PropertyTerm) -> tuple[Label, ...]:
+    place = term.source
+    return (Label(Span(place.path, place.line, 1, place.line, 2), "declared here"),) if place else ()
 
 
 def _class(written: s.ClassDeclaration, iri: str, old: ClassTerm | None, names: Names) -> ClassTerm:
@@ -106,14 +145,12 @@ def _property(written: s.PropertyDeclaration, iri: str, old: PropertyTerm | None
 
 
 def _contradicted(written: s.PropertyDeclaration, old: PropertyTerm, names: Names) -> Diagnostic:
-    place = old.source
-    labels = (Label(Span(place.path, place.line, 1, place.line, 2), "declared here"),) if place else ()
     return Diagnostic(
         "contradicting-declaration",
         written.type.span,
         f"`{names.vocabulary.short(old.iri)}` is already declared with another type",
         help="give the property the same type here, or another name",
-        labels=labels,
+        labels=_declared_at(old),
     )
 
 

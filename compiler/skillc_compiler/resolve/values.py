@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isfinite
 from typing import assert_never
 
 from skillc_compiler.library.conditions import (
@@ -49,7 +50,7 @@ def value(setting: Setting, scope: Scope, written: s.Value, wanted: Wanted = ANY
         case s.Quantity(value=number, unit=unit, span=span):
             return Valued(Literal(to_si(number, unit)), Measure(dimension_of(unit)), span)
         case s.Number(value=number, text=text, span=span):
-            whole = text.lstrip("-").isdigit()
+            whole = text.lstrip("-").isdigit() and isfinite(number)
             return Valued(Literal(int(number) if whole else number), INT if whole else Measure(NUMBER), span)
         case s.Text(value=text, span=span):
             if wanted.values and text not in wanted.values:

@@ -65,8 +65,10 @@ class Members(Nodes):
         return s.DeviceUse(kind, self.as_name(children[1]), self.over(children))
 
     def flag(self, children: list[Child]) -> s.Flag:
-        """`scoped`, `noplan`, `fallback`"""
-        return s.Flag(cast(Literal["scoped", "noplan", "fallback"], word_at(children, 0)), self.over(children))
+        """`scoped`, `noplan`, `fallback`, `endless`"""
+        return s.Flag(
+            cast(Literal["scoped", "noplan", "fallback", "endless"], word_at(children, 0)), self.over(children)
+        )
 
     def let(self, children: list[Child]) -> s.Let:
         """`let name = value`"""

@@ -78,9 +78,9 @@ class DeviceUse:
 
 @dataclass(frozen=True, slots=True)
 class Flag:
-    """`scoped`, `noplan` or `fallback`, alone on its line."""
+    """`scoped`, `noplan`, `fallback` or `endless`, alone on its line."""
 
-    flag: Literal["scoped", "noplan", "fallback"]
+    flag: Literal["scoped", "noplan", "fallback", "endless"]
     span: Span
 
 

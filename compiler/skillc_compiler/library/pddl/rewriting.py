@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import count
 from typing import TypeVar, assert_never
 
 import msgspec
@@ -31,7 +32,7 @@ from skillc_compiler.library.conditions import (
     Term,
     Variable,
 )
-from skillc_compiler.library.reading import walk
+from skillc_compiler.library.reading import free_variables, walk
 
 T = TypeVar("T", bound=Condition | Effect | Expression | Term)
 ALWAYS, NEVER = And(()), Or(())
@@ -48,8 +49,21 @@ def replaced(item: T, values: Mapping[str, Expression]) -> T:
         return values.get(item.name, item)  # type: ignore[return-value]
     if isinstance(item, Exists | Forall):
         values = {name: value for name, value in values.items() if name != item.variable}
+        item = _without_capture(item, values)
     changes = {name: _replaced(getattr(item, name), values) for name in item.__struct_fields__}
     return msgspec.structs.replace(item, **changes)
+
+
+def _without_capture(item: T, values: Mapping[str, Expression]) -> T:
+    """Return a quantifier whose variable is none of those that come into it from outside."""
+    assert isinstance(item, Exists | Forall)
+    coming = {name for key in free_variables(item) if key in values for name in free_variables(values[key])}
+    if item.variable not in coming:
+        return item
+    taken = coming | free_variables(item.body)
+    new = next(name for number in count(2) if (name := f"{item.variable}_{number}") not in taken)
+    body = replaced(item.body, {item.variable: Variable(new)})
+    return msgspec.structs.replace(item, variable=new, body=body)
 
 
 def _replaced(value: object, values: Mapping[str, Expression]) -> object:

@@ -1,0 +1,78 @@
+"""What is locked by `uses`, or shared, and is no device.
+
+Bad:
+
+    use rparts
+    skill Press {
+        in arm:   ArmDevice
+        in force: Force
+        uses force
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
+
+Good:
+
+    use rparts
+    skill Press {
+        in arm:   ArmDevice
+        in force: Force
+        uses arm
+        noplan
+    }
+    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.library.vocabulary import THING, Vocabulary
+from skillc_compiler.program import Parameter, Program, Skill
+from skillc_compiler.types import UNKNOWN, Thing, describe, fits
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Label
+
+NAMES = ("not-a-device",)
+DEVICE = "http://www.inf.ufrgs.br/phi-group/ontologies/sumo.owl#Device"
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a problem for each `uses` and `shares` of a value, an output, or of what is certainly no device."""
+    for skill in program.skills.values():
+        for device in skill.devices:
+            parameter = skill.parameter(device.parameter.text)
+            if parameter is not None:
+                yield from _problem(program.vocabulary, skill, device, parameter)
+
+
+def _problem(vocabulary: Vocabulary, skill: Skill, device: s.DeviceUse, parameter: Parameter) -> Iterator[Diagnostic]:
+    what = _reason(vocabulary, parameter)
+    if what is None:
+        return
+    fitting = [p.name for p in skill.parameters if p.type != UNKNOWN and _reason(vocabulary, p) is None]
+    names = " or ".join(f"`{device.kind} {name}`" for name in fitting)
+    yield Diagnostic(
+        "not-a-device",
+        device.parameter.span,
+        f"`{parameter.name}` {what}, and `{device.kind}` is for devices",
+        help=f"write {names}" if names else "remove the line",
+        labels=(Label(parameter.span, "declared here"),),
+    )
+
+
+def _reason(vocabulary: Vocabulary, parameter: Parameter) -> str | None:
+    """Return why a parameter cannot be locked, None if it can."""
+    if parameter.type == UNKNOWN:
+        return None
+    if not isinstance(parameter.type, Thing):
+        return f"is {describe(parameter.type)}"
+    if parameter.direction == "out":
+        return "is an output, which has no value when the skill starts"
+    cls = parameter.type.cls
+    if cls is None or cls == THING or vocabulary.is_a(cls, DEVICE):
+        return None
+    below = (iri for iri in vocabulary.classes if fits(vocabulary, Thing(iri), Thing(cls)))
+    if DEVICE in vocabulary.classes and not any(vocabulary.is_a(iri, DEVICE) for iri in below):
+        return f"is {describe(parameter.type)}, which no device is"
+    return None

@@ -1,0 +1,180 @@
+"""A skill that never ends by itself, where nothing ends it.
+
+A skill that is declared `endless`, as motions added to another are, runs until it is halted and never succeeds. What
+halts it is a `timeout`, the end of the leading child of a `par lead`, a sibling in a `par race` or `par any`, or an
+earlier child of a `reactive` node that changes its mind.
+
+## never-ends: nothing halts an endless skill
+
+Also reported, as a warning, where the Python of a primitive never returns anything but `RUNNING` and its skill is not
+declared `endless`.
+
+Bad:
+
+    use skillc
+    import "motion.skill"
+    import "overlay.skill"
+    skill Rub { in arm: CompliantArm  in up: Direction  in there: Pose  noplan }
+    impl round of Rub {
+        do seq {
+            OverlayCircle(arm, plane: up)
+            MoveLinear(arm, target: there)
+        }
+    }
+
+Good:
+
+    use skillc
+    import "motion.skill"
+    import "overlay.skill"
+    skill Rub { in arm: CompliantArm  in up: Direction  in there: Pose  noplan }
+    impl round of Rub {
+        do par lead {
+            MoveLinear(arm, target: there)
+            OverlayCircle(arm, plane: up)
+        }
+    }
+
+## not-endless: an implementation of an endless skill ends, or the skill says what is so at its end
+
+Bad:
+
+    use skillc
+    import "motion.skill"
+    skill Hover { in arm: CompliantArm  in there: Pose  endless  noplan }
+    impl once of Hover { do MoveLinear(arm, target: there) }
+
+Good:
+
+    use skillc
+    import "motion.skill"
+    import "overlay.skill"
+    skill Hover { in arm: CompliantArm  in there: Pose  in up: Direction  endless  noplan }
+    impl circling of Hover {
+        do seq {
+            MoveLinear(arm, target: there)
+            OverlayCircle(arm, plane: up)
+        }
+    }
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import assert_never
+
+from skillc_compiler.program import Call, Implementation, Program, Skill, Step
+from skillc_compiler.python.returns import returned
+from skillc_compiler.walk import within
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Label
+
+NAMES = ("never-ends", "not-endless")
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a problem for each body that cannot end and each declaration of what does not last."""
+    for skill in program.skills.values():
+        if "endless" in skill.flags:
+            yield from _promises(skill)
+    for implementation in program.implementations:
+        endless = "endless" in implementation.skill.flags
+        match implementation.body:
+            case Step() as body if endless:
+                yield from _lasting(implementation, body)
+            case Step() as body:
+                yield from _ending(body)
+            case s.RunPython() as target:
+                yield from _in_python(implementation, target, endless)
+            case None:
+                pass
+            case _:
+                assert_never(implementation.body)
+    for task in program.tasks:
+        if task.body is not None:
+            yield from _ending(task.body)
+
+
+def unending(step: Step) -> Iterator[Call]:
+    """Yield the calls of endless skills in a node that nothing in it halts."""
+    match step.written:
+        case s.Timeout():
+            return
+        case s.Block(kind="par lead"):
+            yield from unending(step.children[0]) if step.children else ()
+        case s.Block(kind="par race" | "par any"):
+            each = [tuple(unending(child)) for child in step.children]
+            yield from (call for calls in each for call in calls if all(each))
+        case s.Block(kind="reactive seq" | "reactive sel"):
+            for number, child in enumerate(step.children):
+                if not any(_may_change(earlier) for earlier in step.children[:number]):
+                    yield from unending(child)
+        case _:
+            if step.call and step.call.skill and "endless" in step.call.skill.flags:
+                yield step.call
+            for child in (*step.children, *step.orelse):
+                yield from unending(child)
+
+
+def _may_change(step: Step) -> bool:
+    """Whether a node that has ended may end otherwise when it is looked at again."""
+    for each in within(step):
+        if each.clauses:
+            return True
+        if each.call and each.call.skill and any(r.kind == "post" for r in each.call.skill.requirements):
+            return True
+    return False
+
+
+def _ending(body: Step) -> Iterator[Diagnostic]:
+    call = next(unending(body), None)
+    if call is not None and call.skill is not None:
+        yield Diagnostic(
+            "never-ends",
+            call.written.skill.span,
+            f"`{call.skill.name}` never ends by itself, and nothing here halts it",
+            help="run it beside what it shall last for, `par lead { .. }` with that first, or in a `timeout`",
+            labels=(Label(call.skill.name_span, "declared `endless`"),),
+        )
+
+
+def _lasting(implementation: Implementation, body: Step) -> Iterator[Diagnostic]:
+    if next(unending(body), None) is None:
+        skill = implementation.skill
+        yield Diagnostic(
+            "not-endless",
+            implementation.name_span,
+            f"`{skill.name}` is declared `endless`, and `{implementation.name}` ends",
+            help="let it end with a call of an endless skill, or remove the flag `endless`",
+            labels=(Label(skill.name_span, "declared here"),),
+        )
+
+
+def _promises(skill: Skill) -> Iterator[Diagnostic]:
+    """What is true at the end of a skill that does not end never is."""
+    help_ = "remove it, or the flag `endless`"
+    for post in (r for r in skill.requirements if r.kind == "post"):
+        message = f"`{skill.name}` is `endless`, so this is never reached"
+        yield Diagnostic("not-endless", post.span, message, help_)
+    for parameter in (p for p in skill.parameters if p.direction == "out"):
+        message = f"`{skill.name}` is `endless`, so this output never gets a value"
+        yield Diagnostic("not-endless", parameter.span, message, help_)
+    if "scoped" in skill.flags:
+        message = f"`{skill.name}` is `endless`, so the block of a `with` never begins"
+        yield Diagnostic("not-endless", skill.name_span, message, "remove one of the flags `endless` and `scoped`")
+
+
+def _in_python(implementation: Implementation, written: s.RunPython, endless: bool) -> Iterator[Diagnostic]:
+    module, _, name = written.target.value.partition(":")
+    found = returned(module, name, "tick")
+    label = (Label(implementation.skill.name_span, "the skill"),)
+    if found == {"RUNNING"} and not endless:
+        message = f"`{name}` never ends by itself: its `tick` returns nothing but `RUNNING`"
+        help_ = f"declare `{implementation.skill.name}` `endless`, so that callers are checked"
+        yield Diagnostic("never-ends", written.target.span, message, help_, "warning", label)
+    if "SUCCESS" in found and endless:
+        message = (
+            f"`{implementation.skill.name}` is declared `endless`, and the `tick` of `{name}` may return `SUCCESS`"
+        )
+        help_ = "return nothing but `RUNNING`, or remove the flag `endless`"
+        yield Diagnostic("not-endless", written.target.span, message, help_, "warning", label)
