@@ -109,11 +109,9 @@ def _following(attempts: Sequence[Attempt], setting: Setting) -> Prepared | Refu
 
 
 def _blamed(last: Attempt, failures: Failures) -> bool:
-    """Whether a step is to blame for the end of an attempt: nothing else would go another way next time."""
+    """Whether a step of the plan, or a body that was not planned, failed: another plan may go another way."""
     planned = last.prepared.planned
-    return planned is not None and any(
-        each in failures.steps for each in progress(planned.steps, last.tree).of("failure")
-    )
+    return planned is None or any(each in failures.steps for each in progress(planned.steps, last.tree).of("failure"))
 
 
 def _another_way(now: Assignment, library: SkillLibrary, failures: Failures) -> Prepared | Refused:

@@ -72,7 +72,15 @@ KINDS = {
 """Of which classes the things are that parameters of these names stand for."""
 
 MOTION = {"posture": "home", "pace": 0.5, "speed": 0.2, "blend": 0.01, "settle": 5.0, "patience": 5.0, "travel": 0.5}
-PRESSING = {"stiffness": 0.0, "force": 10.0, "opening": 0.02, "approach": 0.05, "depth": 0.02, "still": 1.5}
+PRESSING = {
+    "stiffness": 0.0,
+    "force": 10.0,
+    "opening": 0.02,
+    "approach": 0.05,
+    "depth": 0.02,
+    "still": 1.5,
+    "over": 5.0,
+}
 SWINGING = {"radius": 0.01, "rate": 1.0, "amplitude": 0.01, "pitch": 0.001}
 FIGURE = {"width": 0.01, "height": 0.01, "across_rate": 2.0, "phase": 0.0}
 

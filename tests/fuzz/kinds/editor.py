@@ -14,6 +14,10 @@ SECONDS = 60.0
 NAME = "input.skill"
 _AT_PLACE = ("hover", "completion", "definition", "references", "documentHighlight", "signatureHelp", "prepareRename")
 _OF_FILE = ("documentSymbol", "foldingRange", "semanticTokens/full", "formatting")
+_MORE: dict[str, dict[str, object]] = {
+    "references": {"context": {"includeDeclaration": True}},
+    "formatting": {"options": {"tabSize": 4, "insertSpaces": True}},
+}
 _servers: list[Server] = []
 """The server that this process keeps for its sessions, once there is one."""
 
@@ -49,12 +53,9 @@ def _ask(server: Server, random: Random, document: dict[str, str], text: str) ->
     lines = text.split("\n")
     line = random.randrange(len(lines) + 1)
     place = {"line": line, "character": random.randrange(len(lines[line]) + 2 if line < len(lines) else 2)}
-    params = {"textDocument": document, "position": place, "context": {"includeDeclaration": True}}
-    if random.random() < 0.7:
-        server.request(f"textDocument/{random.choice(_AT_PLACE)}", params)
-    else:
-        options = {"options": {"tabSize": 4, "insertSpaces": True}}
-        server.request(f"textDocument/{random.choice(_OF_FILE)}", {**params, **options})
+    params = {"textDocument": document, "position": place}
+    method = random.choice([*2 * _AT_PLACE, *_OF_FILE])
+    server.request(f"textDocument/{method}", {**params, **_MORE.get(method, {})})
     whole = {"start": {"line": 0, "character": 0}, "end": place}
     about = {"textDocument": document, "range": whole, "context": {"diagnostics": []}}
     server.request("textDocument/codeAction", about)
