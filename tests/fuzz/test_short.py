@@ -8,9 +8,11 @@ from fuzz.kinds import kind_names
 from fuzz.runner import run_case
 
 CASES = 12
+SLOW = {"editor": 2, "planning": 4}
+"""How many cases of kinds that take long."""
 
 
 @pytest.mark.parametrize("kind", kind_names())
 def test_a_few_cases_find_nothing(kind: str, tmp_path: Path) -> None:
-    problems = [run_case(kind, 0, index, tmp_path / str(index)) for index in range(CASES)]
-    assert [problem for problem in problems if problem is not None] == []
+    problems = [run_case(kind, 0, index, tmp_path / str(index)) for index in range(SLOW.get(kind, CASES))]
+    assert not any(problems), "\n".join(filter(None, problems))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import queue
 import subprocess
 import sys
@@ -12,6 +13,8 @@ from typing import IO, Any
 
 SERVER = [sys.executable, "-c", "from skillc_runtime.commands.main import main; main(['lsp', '--stdio'])"]
 PATIENCE_S = 60.0
+_ENVIRONMENT = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+"""The server finds the Python modules that `check` finds in this process."""
 PUBLISHED = "textDocument/publishDiagnostics"
 REFUSED = -32602
 """The code of an answer that says why what was asked cannot be done there, as a rename of a keyword."""
@@ -22,7 +25,7 @@ class Server:
 
     def __init__(self) -> None:
         self._process = subprocess.Popen(
-            SERVER, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
+            SERVER, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, env=_ENVIRONMENT
         )
         self._inbox: queue.Queue[dict[str, Any] | None] = queue.Queue()
         self._numbers = count(1)
@@ -51,7 +54,8 @@ class Server:
             try:
                 self._note(self._receive())
             except AssertionError as error:
-                raise AssertionError(f"{error}: the editor has {self.published.get(uri)}, wanted {wanted}") from None
+                shown = summarise(self.published.get(uri, ()))
+                raise AssertionError(f"{error}: the editor shows {shown}, wanted {wanted}") from None
 
     def stop(self) -> None:
         """End the process."""
