@@ -6,9 +6,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.program import Program
-from skillc_dsl.diagnostics import Diagnostic
-from skillc_runtime.commands import _library, _telling
+from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_runtime.commands import _library, _named_texts, _telling
 from skillc_runtime.commands._files import LibraryFiles
 
 if TYPE_CHECKING:
@@ -19,12 +20,19 @@ def check(library: LibraryFiles, scene: Path | None) -> tuple[Diagnostic, ...]:
     """Return what is wrong with a library, the scenes of its tasks, and `scene`; paths are shown as from here."""
     scenes = _Scenes(library, scene)
     outcome = _library.compile_library(library, scenes.individuals)
-    if scenes.populated is None:
-        return _telling.in_order(outcome.diagnostics)
+    program, populated = scenes.program, scenes.populated
+    assert program is not None, "a library that was compiled was understood"
+    around = () if populated is None else _around(outcome, program, populated, library)
+    texts = _named_texts.warned(outcome, program, populated, around, library.shown)
+    return _telling.in_order((*outcome.diagnostics, *around, *texts))
+
+
+def _around(
+    compiled: Outcome[SkillLibrary], program: Program, populated: Populated, library: LibraryFiles
+) -> tuple[Diagnostic, ...]:
     from skillc_runtime.commands import _foresight
 
-    foreseen = _foresight.foreseen(outcome, scenes.populated, library.shown)
-    return _telling.in_order((*outcome.diagnostics, *scenes.populated.problems, *foreseen))
+    return (*populated.problems, *_foresight.foreseen(compiled, program, populated, library.shown))
 
 
 class _Scenes:
@@ -36,10 +44,12 @@ class _Scenes:
     def __init__(self, library: LibraryFiles, scene: Path | None) -> None:
         self._library = library
         self._others = () if scene is None else (scene,)
+        self.program: Program | None = None
         self.populated: Populated | None = None
 
     def individuals(self, program: Program) -> Mapping[str, Mapping[str, Sequence[str]]]:
         """Read the scenes and return the individuals that each task may name, with their classes."""
+        self.program = program
         if not self._others and not any(task.scene for task in program.tasks):
             return {}
         from skillc_runtime.commands import _scenes

@@ -6,20 +6,22 @@ Places are shown as from here, and those of the individuals that a message names
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from skillc_compiler.library.skills import SkillLibrary, Task
 from skillc_compiler.library.vocabulary import Position
+from skillc_compiler.program import Program
 from skillc_compiler.turtle.terms import RDF_TYPE
-from skillc_dsl.diagnostics import Diagnostic, Label, Outcome, Severity
+from skillc_dsl.diagnostics import Diagnostic, Label, Outcome, Severity, did_you_mean
 from skillc_dsl.source import Span
-from skillc_runtime.commands import _diagnostics
+from skillc_runtime.commands import _diagnostics, _named_texts
 from skillc_runtime.commands._arm_sheets import unfit_sheets
 from skillc_runtime.commands._controllers import unknown_controllers
 from skillc_runtime.commands._scenes import Populated
 from skillc_runtime.planning.reachable import Unreachable, why_unreachable
 from skillc_runtime.selection.first import first_refusals
-from skillc_runtime.selection.preflight import Refusal, preflight
+from skillc_runtime.selection.preflight import Origin, Refusal, preflight
 from skillc_runtime.selection.unfit import Unfit, unfit
 from skillc_runtime.world.individuals import iri_of
 from skillc_runtime.world.scene import Scene
@@ -30,20 +32,25 @@ LONGEST_TASK = 10
 """How many lines below its name a task's goal stands at most."""
 
 
-def foreseen(compiled: Outcome[SkillLibrary], populated: Populated, shown: Callable[[str], str]) -> list[Diagnostic]:
+def foreseen(
+    compiled: Outcome[SkillLibrary], program: Program, populated: Populated, shown: Callable[[str], str]
+) -> list[Diagnostic]:
     """Return what keeps tasks from being done in their scenes, whom no implementation fits, and arms none can control.
 
-    `shown` tells how diagnostics show the paths of the library. Of libraries and scenes with mistakes nothing is
-    foreseen, and nothing that was told while compiling.
+    `program` is what was compiled. `shown` tells how diagnostics show the paths of the library. Of libraries and
+    scenes with mistakes nothing is foreseen, and nothing that was told while compiling. What keeps several tasks from
+    being done is said of the first.
     """
     if not compiled.ok:
         return []
     library = compiled.value
     errors: list[Diagnostic] = []
+    places = _named_texts.places(program)
     for name, path in populated.of_tasks.items():
         if path in populated.sound and name in library.tasks:
-            found = _of_task(library.tasks[name], library, shown, populated.sound[path])
+            found = _of_task(library.tasks[name], library, shown, populated.sound[path], places)
             errors += (each for each in found if not _told(each, compiled.diagnostics))
+    errors = list({(each.span, each.name, each.message): each for each in reversed(errors)}.values())[::-1]
     labelled = {(label.span.path, label.span.line) for each in errors for label in each.labels}
     unfit_ = (_of_individuals(library, scene, str(path)) for path, scene in populated.sound.items())
     unknown = (unknown_controllers(scene, str(path)) for path, scene in populated.sound.items())
@@ -61,8 +68,10 @@ def _told(foreseen: Diagnostic, compiled: Sequence[Diagnostic]) -> bool:
     )
 
 
-def _of_task(task: Task, library: SkillLibrary, shown: Callable[[str], str], scene: Scene) -> Iterator[Diagnostic]:
-    """Yield what keeps a task from being done in its scene."""
+def _of_task(
+    task: Task, library: SkillLibrary, shown: Callable[[str], str], scene: Scene, places: Mapping[Origin, Span]
+) -> Iterator[Diagnostic]:
+    """Yield what keeps a task from being done in its scene; `places` is where values are written."""
     told = _Teller(shown, scene, task)
     if task.goal is not None:
         found = why_unreachable(library, scene.state, task.goal)
@@ -70,7 +79,8 @@ def _of_task(task: Task, library: SkillLibrary, shown: Callable[[str], str], sce
             yield told.unreachable(found)
     if task.body is not None:
         refusals = preflight(task.body, library, scene.state)
-        yield from (told.refusal(each) for each in refusals)
+        for refusal in refusals:
+            yield from told.misnamed(refusal, places) if refusal.misnamed else (told.refusal(refusal),)
         if not refusals:
             yield from (told.cannot_start(each) for each in first_refusals(task.body, library, scene.state))
 
@@ -96,6 +106,19 @@ class _Teller:
         around = f", in {' > '.join(refusal.within)}" if refusal.within else ""
         name = _problem_name(refusal, "no-implementation-fits")
         return self.diagnostic(name, f"{refusal.message}{around}", refusal, "error")
+
+    def misnamed(self, refusal: Refusal, places: Mapping[Origin, Span]) -> Iterator[Diagnostic]:
+        """Tell of the texts for which a call can never start, where they are written or else at the call."""
+        for origin, wrong in refusal.misnamed.items():
+            message = wrong.message(self._scene.state.vocabulary)
+            at_call = self.diagnostic("unknown-value", message, replace(refusal, rejected=()), "error")
+            written = places.get(origin)
+            if written is None:
+                yield replace(at_call, help=did_you_mean(wrong.text, wrong.known))
+                continue
+            span = replace(written, path=self._shown(written.path))
+            labels = (*([Label(at_call.span, "in this task")] if refusal.within else ()), *at_call.labels)
+            yield _named_texts.diagnostic(wrong, message, span, "error", labels)
 
     def cannot_start(self, refusal: Refusal) -> Diagnostic:
         """Tell of a call that cannot start as the scene is."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import chain
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,6 +15,7 @@ from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.joint_way import move_clear
 from skillc_runtime.primitives.posture import posture_of
 from skillc_runtime.primitives.primitive import SkillFailure
+from skillc_runtime.world.terms import HAS_POSTURE, HAS_SHEET, POSTURE_NAME
 
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
@@ -58,6 +60,8 @@ class MoveJoints(ArmMotion):
 
 class TakePosture(ArmMotion):
     """Take a posture of the arm's data sheet, around what the world model knows to be there."""
+
+    text_names = MappingProxyType({"posture": ("arm", HAS_SHEET, HAS_POSTURE, POSTURE_NAME)})
 
     def __init__(self, cell: Cell, *, arm: str, posture: str, pace: float) -> None:
         super().__init__(cell, arm)

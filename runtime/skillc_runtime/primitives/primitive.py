@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from enum import Enum
-from typing import TYPE_CHECKING
+from types import MappingProxyType
+from typing import TYPE_CHECKING, ClassVar
 
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
@@ -29,7 +31,12 @@ class Primitive:
     A subclass takes the cell and its parameters by name: `__init__(self, cell, *, arm: str, speed: float)`.
     Individuals come as IRIs, quantities in SI units, unset optional parameters as None. Any method may raise
     SkillFailure; from `start` it means that another implementation may be tried.
+
+    `text_names` says which texts name something, so that a misspelt one is reported before anything runs: a parameter with
+    the parameter to start from, the relations to follow and the property whose values are the names, all as IRIs.
     """
+
+    text_names: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType({})
 
     def __init__(self, cell: Cell) -> None:
         self.cell = cell

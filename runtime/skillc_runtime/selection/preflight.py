@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import assert_never
+from dataclasses import dataclass, field
+from typing import TypeAlias, assert_never
 
 from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Condition, Expression
+from skillc_compiler.library.conditions import Condition, Expression, Variable
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Compound, Implementation, Primitive, SkillLibrary
 from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.selection.fit import bind_arguments
 from skillc_runtime.selection.inferred import infer_fixed
 from skillc_runtime.selection.known import Known, known_values, unusable
+from skillc_runtime.selection.named import Misnamed, misnamed
 from skillc_runtime.selection.python import PrimitiveError, fitting_class
 from skillc_runtime.selection.reads import changing_terms, is_fixed
 from skillc_runtime.selection.select import candidates, why_none
@@ -22,16 +23,23 @@ from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
 
+Origin: TypeAlias = tuple[Position, str]
+"""Where a value is written: an argument's call and name, or an implementation and its parameter or local name."""
+
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """What can never run: a call of a skill or a loop; `within` are the implementations around it, outermost first."""
+    """What can never run: a call of a skill or a loop; `within` are the implementations around it, outermost first.
+
+    `misnamed` are the texts, by where they are written, for which implementations that fit otherwise were rejected.
+    """
 
     skill: str
     message: str
     source: Position
     within: tuple[str, ...] = ()
     rejected: tuple[Rejected, ...] = ()
+    misnamed: Mapping[Origin, Misnamed] = field(default_factory=dict)
 
     def __str__(self) -> str:
         around = f" (in {' > '.join(self.within)})" if self.within else ""
@@ -44,15 +52,16 @@ def preflight(body: tree.Node, library: SkillLibrary, state: WorldState) -> tupl
     Only what no skill changes counts: the classes of individuals, and relations and properties that are no effect
     of any skill. Values that depend on anything else fit everywhere. Alternatives are refused when all are.
     """
-    return _Preflight(library, state).node(body, _Scope({}, ()))
+    return _Preflight(library, state).node(body, _Scope({}, (), {}))
 
 
 @dataclass(frozen=True, slots=True)
 class _Scope:
-    """The values that are known in a body, and the implementations around it."""
+    """The values that are known in a body, the implementations around it, and where the values are written."""
 
     values: Mapping[str, Value]
     within: tuple[str, ...]
+    origins: Mapping[str, Origin]
 
 
 class _Preflight:
@@ -108,7 +117,7 @@ class _Preflight:
     def _each(self, node: tree.ForEach, scope: _Scope) -> tuple[Refusal, ...]:
         items = self._compute({node.variable: node.items}, scope.values)
         unknown = {name: value for name, value in scope.values.items() if name != node.variable}
-        inside = self.node(node.child, _Scope(unknown, scope.within))
+        inside = self.node(node.child, _Scope(unknown, scope.within, scope.origins))
         return (*self._never("for", items, node.source, scope.within), *inside)
 
     def _call(self, call: tree.Call, scope: _Scope) -> tuple[Refusal, ...]:
@@ -117,14 +126,28 @@ class _Preflight:
             return self._never(call.skill, arguments, call.source, scope.within)
         passed = frozenset(call.arguments)
         rejected: list[Rejected] = []
+        wrong: dict[Origin, Misnamed] = {}
         for implementation in candidates(self._library, call.skill, call.implementation):
             fitting = self._fit(implementation, arguments.values, passed)
             if isinstance(fitting, Rejected):
                 rejected.append(fitting)
-            else:
-                return self._body(implementation, fitting, scope.within)
+                continue
+            origins = _origins(call, implementation, scope)
+            texts = misnamed(implementation, fitting, self._state, self._changing)
+            if not texts:
+                return self._body(implementation, fitting, scope.within, origins)
+            wrong |= {origins[name]: text for name, text in texts.items()}
+            rejected.append(self._no_names(implementation, texts))
         message = why_none(call.skill, rejected)
-        return (Refusal(call.skill, message, call.source, scope.within, tuple(rejected)),)
+        return (Refusal(call.skill, message, call.source, scope.within, tuple(rejected), wrong),)
+
+    def _no_names(self, implementation: Implementation, texts: Mapping[str, Misnamed]) -> Rejected:
+        reason = "; ".join(
+            f"`{name}` names nothing: {text.message(self._state.vocabulary)}" for name, text in texts.items()
+        )
+        return Rejected(
+            implementation=implementation.name, stage="argument", reason=reason, source=implementation.source
+        )
 
     def _fit(
         self, implementation: Implementation, arguments: Mapping[str, Value], passed: frozenset[str]
@@ -167,7 +190,11 @@ class _Preflight:
         return None
 
     def _body(
-        self, implementation: Implementation, bindings: dict[str, Value], within: tuple[str, ...]
+        self,
+        implementation: Implementation,
+        bindings: dict[str, Value],
+        within: tuple[str, ...],
+        origins: dict[str, Origin],
     ) -> tuple[Refusal, ...]:
         name = f"{implementation.skill}[{implementation.name}]"
         if not isinstance(implementation.body, Compound) or name in within:
@@ -177,7 +204,8 @@ class _Preflight:
             let = self._compute({each.name: each.value}, bindings)
             refusals += self._never(implementation.skill, let, implementation.source, (*within, name))
             bindings |= let.values
-        return (*refusals, *self.node(implementation.body.node, _Scope(bindings, (*within, name))))
+            origins |= _written(each.name, each.value, (implementation.source, each.name), origins)
+        return (*refusals, *self.node(implementation.body.node, _Scope(bindings, (*within, name), origins)))
 
     def _compute(self, expressions: Mapping[str, Expression], bound: Mapping[str, Value]) -> Known:
         return known_values(expressions, bound, self._state, self._changing)
@@ -196,3 +224,16 @@ class _Preflight:
         ):
             return None
         return evaluate(condition, self._state, known)
+
+
+def _origins(call: tree.Call, implementation: Implementation, scope: _Scope) -> dict[str, Origin]:
+    """Return where the value of each parameter is written."""
+    origins: dict[str, Origin] = {each.name: (implementation.source, each.name) for each in implementation.parameters}
+    for name, argument in call.arguments.items():
+        origins |= _written(name, argument, (call.source, name), scope.origins)
+    return origins
+
+
+def _written(name: str, value: Expression, here: Origin, origins: Mapping[str, Origin]) -> dict[str, Origin]:
+    """Return where a value with a name is written: here, or where the variable that it is has its value from."""
+    return {name: origins.get(value.name, here) if isinstance(value, Variable) else here}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib
 import inspect
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 
 from skillc_compiler.library.skills import Parameter
@@ -36,11 +36,24 @@ def primitive_class(python: str) -> type[Primitive]:
         raise PrimitiveError(f"`{python}` is no subclass of skillc_runtime.primitives.primitive.Primitive")
     if found.tick is Primitive.tick:
         raise PrimitiveError(f"`{python}` has no method `tick`")
+    if not _are_text_names(found.text_names):
+        raise PrimitiveError(f"`text_names` of `{python}` is not {{parameter: (parameter, relation, .., property)}}")
     for name, values in CALLED_WITH.items():
         problem = _refused(getattr(found, name), None, *values)
         if problem is not None:
             raise PrimitiveError(f"the method `{name}` of `{python}` cannot be called: {problem}")
     return found
+
+
+def _are_text_names(names: object) -> bool:
+    """Whether this is of the form that `Primitive.text_names` has."""
+    return isinstance(names, Mapping) and all(
+        isinstance(parameter, str)
+        and isinstance(chain, tuple)
+        and len(chain) > 1
+        and all(isinstance(part, str) for part in chain)
+        for parameter, chain in names.items()
+    )
 
 
 def fitting_class(python: str, parameters: Sequence[Parameter]) -> type[Primitive]:

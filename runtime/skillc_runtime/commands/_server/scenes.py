@@ -15,6 +15,7 @@ from skillc_compiler.program import Program
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_ontology import catalogue
+from skillc_runtime.commands import _named_texts
 
 if TYPE_CHECKING:
     from skillc_runtime.commands import _scenes
@@ -60,13 +61,16 @@ class Scenes:
 
 
 def problems(populated: Populated, analysis: Analysis) -> tuple[Diagnostic, ...]:
-    """Return what is wrong with scenes that do not ship with skillc, and what keeps tasks from being done in theirs."""
-    if populated.scenes is None:
-        return ()
+    """Return what is wrong with scenes that do not ship, what keeps tasks from being done, what texts name nothing."""
+    found = () if populated.scenes is None else _around(populated.scenes, analysis)
+    unknown = _named_texts.warned(analysis.compiled, analysis.program, populated.scenes, found, str)
+    return tuple(each for each in (*found, *unknown) if not _is_shipped(each.span.path))
+
+
+def _around(scenes: _scenes.Populated, analysis: Analysis) -> tuple[Diagnostic, ...]:
     from skillc_runtime.commands import _foresight
 
-    foreseen = _foresight.foreseen(analysis.compiled, populated.scenes, str)
-    return tuple(each for each in (*populated.scenes.problems, *foreseen) if not _is_shipped(each.span.path))
+    return (*scenes.problems, *_foresight.foreseen(analysis.compiled, analysis.program, scenes, str))
 
 
 def texts(found: Iterable[Diagnostic], buffers: Mapping[Path, str]) -> dict[str, str]:
