@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 
-from skillc_compiler.manual import pages
+from skillc_compiler.manual import foresight, of_module, pages
 from skillc_compiler.resolve.near import correction
 from skillc_dsl import syntax as s
 from skillc_dsl.comments import Comment, comments
@@ -40,6 +41,12 @@ def heeded(problems: Sequence[Diagnostic], sources: Iterable[Source]) -> tuple[D
     errors = tuple(problem for problem in problems if problem not in warnings)
     used = {_place(problem) for problem in warnings}
     return (*left, *(flaw for each in found for flaw in _flaws(each, used, errors)))
+
+
+def without_allowed(problems: Iterable[Diagnostic], sources: Iterable[Source]) -> tuple[Diagnostic, ...]:
+    """Leave out the warnings that `sources` allow, of problems that are found when a library has been compiled."""
+    allowed = {(each.comment.path, each.line, each.name.text) for source in sources for each in allowances(source)}
+    return tuple(each for each in problems if each.severity != "warning" or _place(each) not in allowed)
 
 
 def allowances(source: Source) -> Iterator[Allowance]:
@@ -82,11 +89,17 @@ def _flaws(each: Allowance, used: set[tuple[str, int, str]], errors: Sequence[Di
         )
     elif any(_place(error) == (each.comment.path, each.line, name) for error in errors):
         yield _unused(each, f"`{name}` is an error here, which cannot be allowed", "cure it, and delete this comment")
-    elif not errors and (each.comment.path, each.line, name) not in used:
+    elif not errors and name not in _found_later() and (each.comment.path, each.line, name) not in used:
         yield _unused(each, f"there is no `{name}` to be allowed on line {each.line}", "delete this comment")
     elif not each.reason:
         help_ = f"write `# allow {name}: ` and why"
         yield Diagnostic("allow-without-reason", each.comment, "this says not why it is allowed", help_, "warning")
+
+
+@cache
+def _found_later() -> frozenset[str]:
+    """Return the names of the warnings that are not the compiler's, which cannot tell whether there is one."""
+    return frozenset(("unknown-value", *(page.name for page in of_module(foresight))))
 
 
 def _unused(each: Allowance, message: str, help_: str) -> Diagnostic:

@@ -157,6 +157,20 @@ def test_a_run_is_refused_before_anything_moves(tmp_path: Path) -> None:
     assert result.exit_code != 0 and SAID in " ".join(result.output.split())
 
 
+def test_the_warning_can_be_allowed_and_the_error_not(tmp_path: Path) -> None:
+    line = '        TakePosture(arm, posture: "zzz")\n'
+    allowed = (HEAD % ("home", "home", "zzz")).replace(line, f"        # allow unknown-value: our sheet has it\n{line}")
+    assert told(tmp_path, allowed) == []
+    assert checked_names(tmp_path) <= {"unused-prefix"}
+    (found,) = told(tmp_path, allowed + TASK % ("iiwa_table.ttl", "Fold(arm: lab:Iiwa-1)"))
+    assert found[0] == "error"
+
+
+def checked_names(folder: Path) -> set[str]:
+    """Return the names of all that is reported of a library."""
+    return {each.name for each in _checking.check(_files.find(folder), None)}
+
+
 @pytest.mark.parametrize("task", ["", TASK % ("iiwa_table.ttl", "Fold(arm: lab:Iiwa-1)")])
 def test_the_editor_reports_the_same(tmp_path: Path, task: str) -> None:
     file = tmp_path / "t.skill"
@@ -196,4 +210,6 @@ def test_names_of_another_form_are_refused_with_the_class(tmp_path: Path, monkey
     text = OWN_SKILL.replace("MODULE", "own_bad") + TASK % ("iiwa_table.ttl", "Own(arm: lab:Iiwa-1)")
     (tmp_path / "t.skill").write_text(text, "utf-8")
     (found,) = (d for d in _checking.check(_files.find(tmp_path), None) if d.severity == "error")
-    assert found.name == "no-implementation-fits" and "`text_names` of `own_bad:Own` is not {parameter:" in found.message
+    assert (
+        found.name == "no-implementation-fits" and "`text_names` of `own_bad:Own` is not {parameter:" in found.message
+    )

@@ -104,9 +104,9 @@ Good:
 
 Some texts have a few possible values, which the vocabulary lists. Others name something that a data sheet describes, as
 `TakePosture(arm, posture: "home")` names a posture of the arm: the class in Python that runs such a skill says so in
-`text_names`. Arguments, defaults and local values are compared with what there is. In a task with a scene it is an error
-when what the call is about has no such name; elsewhere a warning when neither a scene of the library nor a shipped data
-sheet has it, since another scene may.
+`text_names`. Arguments, defaults and local values are compared with what there is. In a task with a scene it is an
+error when what the call is about has no such name; elsewhere a warning when neither a scene of the library nor a
+shipped data sheet has it, since another scene may.
 
 Bad:
 

@@ -6,9 +6,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from skillc_compiler.allowances import without_allowed
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.program import Program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.source import Source
 from skillc_runtime.commands import _library, _named_texts, _telling
 from skillc_runtime.commands._files import LibraryFiles
 
@@ -24,7 +26,8 @@ def check(library: LibraryFiles, scene: Path | None) -> tuple[Diagnostic, ...]:
     assert program is not None, "a library that was compiled was understood"
     around = () if populated is None else _around(outcome, program, populated, library)
     texts = _named_texts.warned(outcome, program, populated, around, library.shown)
-    return _telling.in_order((*outcome.diagnostics, *around, *texts))
+    sources = [Source(library.shown(each.path), each.text) for each in library.sources]
+    return _telling.in_order((*outcome.diagnostics, *without_allowed((*around, *texts), sources)))
 
 
 def _around(

@@ -32,8 +32,8 @@ class Primitive:
     Individuals come as IRIs, quantities in SI units, unset optional parameters as None. Any method may raise
     SkillFailure; from `start` it means that another implementation may be tried.
 
-    `text_names` says which texts name something, so that a misspelt one is reported before anything runs: a parameter with
-    the parameter to start from, the relations to follow and the property whose values are the names, all as IRIs.
+    `text_names` says which texts name something, so that a misspelt one is reported before anything runs: a parameter
+    with the parameter to start from, the relations to follow and the property whose values are the names, as IRIs.
     """
 
     text_names: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType({})

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
+from skillc_compiler.allowances import without_allowed
 from skillc_compiler.assist.analysis import Analysis
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program import Program
@@ -64,7 +65,8 @@ def problems(populated: Populated, analysis: Analysis) -> tuple[Diagnostic, ...]
     """Return what is wrong with scenes that do not ship, what keeps tasks from being done, what texts name nothing."""
     found = () if populated.scenes is None else _around(populated.scenes, analysis)
     unknown = _named_texts.warned(analysis.compiled, analysis.program, populated.scenes, found, str)
-    return tuple(each for each in (*found, *unknown) if not _is_shipped(each.span.path))
+    left = without_allowed((*found, *unknown), analysis.library.sources.values())
+    return tuple(each for each in left if not _is_shipped(each.span.path))
 
 
 def _around(scenes: _scenes.Populated, analysis: Analysis) -> tuple[Diagnostic, ...]:
