@@ -103,3 +103,11 @@ def test_what_was_found_does_not_hold_once_a_model_has_changed(tmp_path: Path, m
     assert "no model robots/mine.xml" in missing.message
     assert digest_of(_files.find(library), library / "s.ttl") != before
     assert told(library, "lab:own-sheet", sheet) == []
+
+
+def test_a_misspelt_home_posture_is_told_at_its_name(tmp_path: Path) -> None:
+    (found,) = told(tmp_path, "lab:own-sheet", OWN.replace('"home"', '"hoem"'))
+    assert (found.name, found.help) == ("unfit-sheet", "did you mean `home`?")
+    assert "has no posture 'home'; it has hoem" in found.message
+    line = (tmp_path / "s.ttl").read_text("utf-8").splitlines()[found.span.line - 1]
+    assert line[found.span.column - 1 : found.span.end_column - 1] == '"hoem"'

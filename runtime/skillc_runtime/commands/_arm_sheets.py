@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from difflib import get_close_matches
 
-from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_runtime.commands._diagnostics import span_of
 from skillc_runtime.world.individuals import iri_of
 from skillc_runtime.world.scene import Scene
 from skillc_runtime.world.sheet import Sheet, SheetError
 from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import ARM_DEVICE, COMPLIANT_CONTROLLER, HAS_SHEET
+from skillc_runtime.world.terms import ARM_DEVICE, COMPLIANT_CONTROLLER, HAS_SHEET, POSTURE_NAME
+
+HOME = "home"
+"""The posture that every arm has."""
 
 
 def unfit_sheets(scene: Scene, path: str) -> Iterator[Diagnostic]:
@@ -18,10 +22,25 @@ def unfit_sheets(scene: Scene, path: str) -> Iterator[Diagnostic]:
     for each in scene.said:
         arm = iri_of(each.subject)
         if each.predicate == HAS_SHEET and each.lines.path == path and scene.state.is_a(arm, ARM_DEVICE):
-            lacking = _lacking(scene.state, arm, Sheet(scene.state, iri_of(each.object)))
+            sheet = Sheet(scene.state, iri_of(each.object))
+            lacking = _lacking(scene.state, arm, sheet)
             if lacking is not None:
                 message = f"{scene.state.vocabulary.short(arm)} cannot be run with this sheet: {lacking}"
-                yield Diagnostic("unfit-sheet", span_of(each.object_place), message, "name the sheet of this arm")
+                yield _misspelt_home(scene, path, sheet, message) or Diagnostic(
+                    "unfit-sheet", span_of(each.object_place), message, "name the sheet of this arm"
+                )
+
+
+def _misspelt_home(scene: Scene, path: str, sheet: Sheet, message: str) -> Diagnostic | None:
+    """Return what is reported at the name of a posture in this file that is close to the one that is missing."""
+    near = get_close_matches(HOME, sheet.posture_names, n=1) if HOME not in sheet.posture_names else []
+    for each in scene.said:
+        named = each.predicate == POSTURE_NAME and iri_of(each.subject) in sheet.postures and each.lines.path == path
+        if named and scene.state.value(iri_of(each.subject), POSTURE_NAME) in near:
+            span = span_of(each.object_place)
+            fix = Fix(span, f'"{HOME}"', f'write "{HOME}"', safe=False)
+            return Diagnostic("unfit-sheet", span, message, f"did you mean `{HOME}`?", fix=fix)
+    return None
 
 
 def _lacking(state: WorldState, arm: str, sheet: Sheet) -> str | None:
@@ -35,7 +54,7 @@ def _lacking(state: WorldState, arm: str, sheet: Sheet) -> str | None:
     try:
         if controller is not None:
             gains(str(controller), sheet.number)
-        joints, home = len(mujoco.MjSpec.from_file(str(sheet.model)).joints), sheet.posture("home").size
+        joints, home = len(mujoco.MjSpec.from_file(str(sheet.model)).joints), sheet.posture(HOME).size
     except UnknownController:
         return None
     except SheetError as error:

@@ -26,7 +26,7 @@ def primitive_class(python: str) -> type[Primitive]:
     module_name, _, class_name = python.partition(":")
     try:
         module = importlib.import_module(module_name)
-    except Exception as error:  # foreign code: whatever it raises, it cannot be used
+    except (Exception, SystemExit) as error:  # foreign code: whatever it raises, it cannot be used
         reason = error if isinstance(error, ImportError) else f"{type(error).__name__}: {error}"
         raise PrimitiveError(f"the Python module of `{python}` cannot be imported: {reason}") from error
     found = getattr(module, class_name, None)
