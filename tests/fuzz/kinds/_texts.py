@@ -12,7 +12,7 @@ from random import Random
 from fuzz.kinds._programs import write_program
 
 TESTS = Path(__file__).parents[2]
-MOST_LINES = 40
+MOST_LINES = (6, 12, 24, 48)
 """Longer texts are cut at a declaration, so that a case is quick."""
 
 _TOKEN = re.compile(r"\"[^\"\n]*\"|[\w.-]+:?[\w-]*|[^\w\s]|\s+")
@@ -70,13 +70,13 @@ def change(text: str, random: Random) -> str:
 
 
 def _part(text: str, random: Random) -> str:
-    lines = text.split("\n")
-    if len(lines) <= MOST_LINES:
+    lines, most = text.split("\n"), random.choice(MOST_LINES)
+    if len(lines) <= most:
         return text
     heads = [n for n, line in enumerate(lines) if line.startswith(("use ", "import ", "prefix "))]
     starts = [n for n, line in enumerate(lines) if re.match(r"(skill|impl|task|class|relation)\b", line)] or [0]
     first = random.choice(starts)
-    return "\n".join([*(lines[n] for n in heads if n < first), *lines[first : first + MOST_LINES]])
+    return "\n".join([*(lines[n] for n in heads if n < first), *lines[first : first + most]])
 
 
 def _tokens(text: str) -> list[str]:

@@ -12,6 +12,8 @@ from skillc_compiler.library.conditions import (
     And,
     Anything,
     Arithmetic,
+    Assert,
+    Assign,
     Compare,
     Condition,
     Effect,
@@ -28,6 +30,7 @@ from skillc_compiler.library.conditions import (
     Not,
     Or,
     PropertyOf,
+    Retract,
     Same,
     Term,
     Variable,
@@ -44,14 +47,34 @@ def has(item: Condition, *kinds: type[msgspec.Struct]) -> bool:
 
 
 def replaced(item: T, values: Mapping[str, Expression]) -> T:
-    """Return the condition, effect, expression or term with expressions in the place of these variables."""
+    """Return the condition, effect, expression or term with expressions in the place of these variables.
+
+    Where only an individual can stand, the place of a value that is none is taken by an unknown individual: the author
+    mixed them up, which is reported where it was written.
+    """
     if isinstance(item, Variable):
         return values.get(item.name, item)  # type: ignore[return-value]
     if isinstance(item, Exists | Forall):
         values = {name: value for name, value in values.items() if name != item.variable}
         item = _without_capture(item, values)
     changes = {name: _replaced(getattr(item, name), values) for name in item.__struct_fields__}
+    for name in _places_of_individuals(item):
+        if not isinstance(changes[name], Variable | Individual | Anything):
+            was = getattr(item, name)
+            changes[name] = Variable(f"{was.name}?" if isinstance(was, Variable) else "?")
     return msgspec.structs.replace(item, **changes)
+
+
+def _places_of_individuals(item: Condition | Effect | Expression | Term) -> tuple[str, ...]:
+    match item:
+        case Holds() | Assert() | Retract():
+            return ("subject", "object")
+        case Same():
+            return ("left", "right")
+        case HasProperty() | IsA() | Assign():
+            return ("subject",)
+        case _:
+            return ()
 
 
 def _without_capture(item: T, values: Mapping[str, Expression]) -> T:
