@@ -33,7 +33,8 @@ def main() -> int:
         found += len(result.findings)
         for finding in result.findings:
             last = finding.problem.strip().splitlines()[-SHOWN_LINES:]
-            print(f"{kind} seed {options.seed} case {finding.index}: {finding.folder}", *last, sep="\n    ")
+            again = f"python -m fuzz {kind} --seed {options.seed} --first {finding.index} --cases 1"
+            print(f"{finding.folder}, again: {again}", *last, sep="\n    ")
         print(
             f"{kind}: {result.cases} cases, {len(result.findings)} findings, {time.monotonic() - began:.0f} s",
             flush=True,
