@@ -85,7 +85,11 @@ class ArmDriver(ArmTask):
             self._joints = self._joint_guide(q, np.zeros_like(q))
 
     def secure(self) -> bool:
-        """Come to rest, push no more and hold stiff, whatever skills left; tell whether they left the arm yielding."""
+        """Come to rest, push no more and hold stiff, whatever skills left; tell whether they left the arm yielding.
+
+        Observers that skills left are called no more.
+        """
+        self._observers = ()
         self.stop()
         self._tool.let_go(self._now)
         yielding, left = self._tool.yielding, not self._tool.yielding.stiff

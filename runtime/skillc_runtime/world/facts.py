@@ -49,7 +49,7 @@ def fact_text(fact: Fact, state: WorldState) -> str:
             return f"{'' if holds else 'not '}{short(subject)} {local_name(relation)} {short(object_)}"
         case Valued(individual, property_):
             value = value_at(state, individual, property_)
-            if value is None or value == ():
+            if value is None or (isinstance(value, tuple) and not value):
                 return f"not {short(individual)} has {local_name(property_)}"
             return f"{short(individual)}.{local_name(property_)} == {show(value)}"
         case Typed(individual, cls, holds):
