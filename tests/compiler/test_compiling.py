@@ -175,3 +175,9 @@ def test_damaged_libraries_never_crash(data: st.DataObject) -> None:
     outcome = compile([Source("x.skill", left.replace(one, other))], vocabulary(), shelf(), "x")
     assert codec.loads(codec.dumps(outcome.value), "x") == outcome.value
     assert all(d.message and d.span.line >= 1 for d in outcome.diagnostics)
+
+
+def test_many_comments_before_a_mistake_are_read_once() -> None:
+    text = 60 * "# # a comment # with marks  #\n" + "skil"
+    outcome = compile([Source("own.skill", text)], vocabulary(), {}, "own")
+    assert [problem.name for problem in outcome.diagnostics] == ["syntax"]

@@ -20,7 +20,7 @@ from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 
 NAMES = ("empty-file",)
-_NOTHING = re.compile(r"(?:\s|#[^\n]*)*")
+_NOTHING = re.compile(r"(?:\s|#[^\n]*+)*+")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
