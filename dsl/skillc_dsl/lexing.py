@@ -53,7 +53,7 @@ def tokens_of(source: Source) -> Outcome[tuple[Token, ...]]:
 
 def after(last: Token | None, terminal: str) -> Token:
     """Return an empty token right after `last`, or at the start of the file."""
-    line, column, position = (last.end_line, last.end_column, last.end_pos) if last else (1, 1, 0)
+    line, column, position = (last.end_line, last.end_column, last.end_pos) if last is not None else (1, 1, 0)
     return Token(terminal, "", position, line, column, line, column, position)
 
 

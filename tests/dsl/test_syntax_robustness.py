@@ -128,3 +128,10 @@ def test_an_empty_file_is_a_file() -> None:
 def test_headers_are_read_without_declarations() -> None:
     header = VOCABULARY.split("class", 1)[0]
     assert len(parse(Source("", header)).value.header) == 3
+
+
+def test_two_braces_that_are_missing_at_one_place_end_there() -> None:
+    text = "task go {\n    do A(b: c do seq {do seq {  d, e: 2)\n}\n"
+    outcome = parse(Source("", text))
+    assert {problem.name for problem in outcome.diagnostics} >= {"repeated-member"}
+    assert all(problem.span.line == problem.span.end_line == 2 for problem in outcome.diagnostics)
