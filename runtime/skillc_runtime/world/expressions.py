@@ -9,12 +9,14 @@ from typing import TypeAlias, assert_never, cast
 import numpy as np
 
 from skillc_compiler.library.conditions import (
+    Anything,
     Arithmetic,
     Expression,
     Individual,
     Invoke,
     Literal,
     PropertyOf,
+    Term,
     Variable,
 )
 from skillc_compiler.library.vocabulary import local_name
@@ -90,6 +92,20 @@ def bound(name: str, bindings: Bindings) -> Value:
     if value is None:
         raise EvaluationError(f"`{name}` has no value: it was not passed (guard its use with `given {name}`)")
     return value
+
+
+def iri_of(term: Term, bindings: Bindings) -> str | None:
+    """Return the individual that a term stands for, None where it is not known."""
+    match term:
+        case Individual(iri):
+            return iri
+        case Variable(name):
+            value = bindings.get(name)
+            return value if isinstance(value, str) else None
+        case Anything():
+            return None
+        case _:
+            assert_never(term)
 
 
 def property_of(state: WorldState, individual: str, property_: str) -> Value | None:

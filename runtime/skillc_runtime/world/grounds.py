@@ -10,7 +10,6 @@ import msgspec
 
 from skillc_compiler.library.conditions import (
     And,
-    Anything,
     Compare,
     Condition,
     Exists,
@@ -24,12 +23,11 @@ from skillc_compiler.library.conditions import (
     Or,
     PropertyOf,
     Same,
-    Term,
     Variable,
 )
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.evidence import Established, pairs
-from skillc_runtime.world.expressions import Bindings, EvaluationError
+from skillc_runtime.world.expressions import Bindings, EvaluationError, iri_of
 from skillc_runtime.world.facts import Fact, Related, Typed, Valued
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.state import WorldState
@@ -64,11 +62,11 @@ class _Finder:
     def of(self, condition: Condition, bindings: Bindings) -> Grounds:
         match condition:
             case Holds(subject, relation, object_):
-                return self._related(_iri(subject, bindings), relation, _iri(object_, bindings))
+                return self._related(iri_of(subject, bindings), relation, iri_of(object_, bindings))
             case Compare() | HasProperty():
                 return self._known(_values(condition, bindings))
             case IsA(subject, cls):
-                iri = str(_iri(subject, bindings))
+                iri = str(iri_of(subject, bindings))
                 return self._known([Typed(iri, cls, self._state.is_a(iri, cls))])
             case Not(body):
                 return self.of(body, bindings)
@@ -131,7 +129,7 @@ def _values(item: msgspec.Struct, bindings: Bindings) -> Iterator[Valued]:
     """Yield the properties that a comparison reads."""
     match item:
         case PropertyOf(Variable() | Individual() as owner, property_) | HasProperty(owner, property_):
-            iri = _iri(owner, bindings)
+            iri = iri_of(owner, bindings)
             if iri is not None:
                 yield Valued(iri, property_)
         case _:
@@ -140,16 +138,3 @@ def _values(item: msgspec.Struct, bindings: Bindings) -> Iterator[Valued]:
                 for part in value if isinstance(value, tuple) else (value,):
                     if isinstance(part, msgspec.Struct):
                         yield from _values(part, bindings)
-
-
-def _iri(term: Term, bindings: Bindings) -> str | None:
-    match term:
-        case Individual(iri):
-            return iri
-        case Variable(name):
-            value = bindings.get(name)
-            return value if isinstance(value, str) else None
-        case Anything():
-            return None
-        case _:
-            assert_never(term)

@@ -11,7 +11,6 @@ from typing import TypeAlias
 import msgspec
 
 from skillc_compiler.library.conditions import (
-    Anything,
     Condition,
     Exists,
     Forall,
@@ -22,12 +21,11 @@ from skillc_compiler.library.conditions import (
     Or,
     PropertyOf,
     Same,
-    Term,
     Variable,
 )
 from skillc_compiler.library.vocabulary import local_name
 from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.expressions import EvaluationError, property_of
+from skillc_runtime.world.expressions import EvaluationError, iri_of, property_of
 from skillc_runtime.world.quantifiers import candidates
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value, show
@@ -52,16 +50,16 @@ def _facts(item: msgspec.Struct, state: WorldState, bindings: _Names) -> Iterato
     match item:
         case Holds(subject, relation, object_):
             with suppress(EvaluationError):
-                yield from _related(_known(subject, bindings), relation, _known(object_, bindings), state)
+                yield from _related(iri_of(subject, bindings), relation, iri_of(object_, bindings), state)
         case PropertyOf(Variable() | Individual() as owner, property_) | HasProperty(owner, property_):
-            iri = _known(owner, bindings)
+            iri = iri_of(owner, bindings)
             yield from _value(iri, property_, state) if iri is not None else ()
         case IsA(subject, cls):
-            iri = _known(subject, bindings)
+            iri = iri_of(subject, bindings)
             if iri is not None:
                 yield f"{'' if state.is_a(iri, cls) else 'not '}{short(iri)} is {short(cls)}"
         case Same(left, right):
-            one, other = _known(left, bindings), _known(right, bindings)
+            one, other = iri_of(left, bindings), iri_of(right, bindings)
             if one is not None and other is not None:
                 yield f"{short(one)} {'==' if one == other else '!='} {short(other)}"
         case Or(parts):
@@ -131,14 +129,3 @@ def _parts(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
         value = getattr(item, name)
         parts = value if isinstance(value, tuple) else (value,)
         yield from (part for part in parts if isinstance(part, msgspec.Struct))
-
-
-def _known(term: Term, bindings: _Names) -> str | None:
-    match term:
-        case Individual(iri):
-            return iri
-        case Variable(name):
-            value = bindings.get(name)
-            return value if isinstance(value, str) else None
-        case Anything():
-            return None
