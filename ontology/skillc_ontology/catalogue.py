@@ -57,10 +57,10 @@ def scenes() -> tuple[str, ...]:
 
 def scene(name: str) -> Path:
     """Return the path of a shipped scene, with or without `.ttl`; FileNotFoundError lists those there are."""
-    path = ROOT / "scenes" / (name if name.endswith(".ttl") else f"{name}.ttl")
-    if not path.is_file():
+    file = name if name.endswith(".ttl") else f"{name}.ttl"
+    if file not in scenes():
         raise FileNotFoundError(f"there is no scene {name}; there is {', '.join(scenes())}")
-    return path
+    return ROOT / "scenes" / file
 
 
 def model(path: str) -> Path:

@@ -90,7 +90,7 @@ def test_a_folder_without_a_recording_is_refused_with_what_to_do(tmp_path: Path,
         (tmp_path / "nowhere", "`skillc run TASK --out DIR` records a run"),
         (empty, "has no events.jsonl: `skillc run TASK --out DIR` writes it"),
         (tmp_path, f"there are recordings in {tmp_path / 'folder'}, {run}"),
-        (tmp_path / "folder", "cannot be read: Is a directory"),
+        (tmp_path / "folder", "events.jsonl is a folder"),
     ):
         result = why(folder)
         assert result.exit_code == 1 and not result.stdout

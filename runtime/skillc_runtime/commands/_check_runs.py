@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,7 +10,6 @@ from typing import TYPE_CHECKING
 import click
 
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.encoding import MOST_BYTES
 from skillc_dsl.source import Source
 from skillc_runtime.commands import _files, _telling
 from skillc_runtime.commands._files import LibraryFiles
@@ -137,4 +135,4 @@ def _remaining(cured: Iterable[Cured]) -> list[Diagnostic]:
 def _from_stdin(path: Path | None) -> LibraryFiles:
     if path is not None and path.suffix != ".skill":
         raise click.UsageError(f"{path} is not a .skill file")
-    return _files.of_file(path, sys.stdin.buffer.read(MOST_BYTES))
+    return _files.of_file(path, _files.piped())

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import platform
 import shlex
-import sys
 import tempfile
 import traceback
 from collections.abc import Sequence
@@ -33,11 +32,6 @@ def report(error: BaseException, command: str) -> str:
     about = f"skillc {version('skillc')}, Python {platform.python_version()}, {platform.platform()}"
     trace = "".join(traceback.format_exception(error))
     return f"{about}\n{command}\nin {_folder()}\n\n{trace}"
-
-
-def close_stdout() -> None:
-    """Send what is still to be printed nowhere, since the reader has gone."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _kept(error: BaseException, command: str) -> str:

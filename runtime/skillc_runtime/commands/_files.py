@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +14,7 @@ import skillc_skills
 from skillc_dsl.encoding import MOST_BYTES, decode, read_file
 from skillc_dsl.source import Source
 from skillc_runtime.commands import _ontologies
+from skillc_runtime.commands._paths import look
 
 SHIPPED = Path(skillc_skills.__path__[0])
 _STDIN = Path("stdin.skill")
@@ -44,23 +46,22 @@ def find(path: Path) -> LibraryFiles:
 
     UsageError for a path that is none of these, that cannot be read, or that holds no `.skill` file.
     """
-    if not path.exists() and (SHIPPED / path).is_dir():
-        path = SHIPPED / path
-    if path.is_dir():
+    found = look(path)
+    if found.kind == "missing" and look(SHIPPED / path).kind == "folder":
+        path, found = SHIPPED / path, look(SHIPPED / path)
+    if found.kind == "missing":
+        raise click.UsageError(f"there is no file or folder {path}")
+    if found.kind == "unusable":
+        raise click.UsageError(f"{path} {found.is_what}")
+    if found.kind == "folder":
         sources = {file.relative_to(path).as_posix(): file for file in sorted(_skill_files(path))}
         if not sources:
             raise click.UsageError(f"there is no .skill file in {path}")
         texts = tuple(_read(file, shown) for shown, file in sources.items())
         return _library(path.resolve().name, path, texts, sources, {}, _vocabularies(path))
-    if path.is_file():
-        if path.suffix != ".skill":
-            raise click.UsageError(f"{path} is not a .skill file")
-        return of_file(path, _bytes(path))
-    if path.exists():
-        raise click.UsageError(f"{path} is not a regular file")
-    if path.is_symlink():
-        raise click.UsageError(f"{path} is a link that leads nowhere")
-    raise click.UsageError(f"there is no file or folder {path}")
+    if path.suffix != ".skill":
+        raise click.UsageError(f"{path} is not a .skill file")
+    return of_file(path, _bytes(path))
 
 
 def of_file(path: Path | None, content: bytes) -> LibraryFiles:
@@ -83,12 +84,22 @@ def scene_path(scene: Path) -> Path:
     """Return a scene file: the path itself, or a shipped scene of that name."""
     from skillc_ontology import catalogue
 
+    found = look(scene)
+    if found.kind == "file":
+        return scene
     try:
-        return scene if scene.is_file() else catalogue.scene(str(scene))
+        return catalogue.scene(str(scene))
     except FileNotFoundError as error:
-        raise click.UsageError(f"there is no file {scene}, and {error}") from error
+        missing = f"there is no file {scene}, and {error}"
+        raise click.UsageError(missing if found.kind == "missing" else f"{scene} {found.is_what}") from error
+
+
+def piped() -> bytes:
+    """Return what comes from the standard input; UsageError where it cannot be read."""
+    try:
+        return sys.stdin.buffer.read(MOST_BYTES)
     except OSError as error:
-        raise click.UsageError(f"{scene} cannot be opened: {error.strerror}") from error
+        raise click.UsageError(f"the standard input cannot be read: {error.strerror}") from error
 
 
 def _library(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import sys
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,10 +10,11 @@ from pathlib import Path
 import click
 
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.encoding import MOST_BYTES, decode, lines_of
+from skillc_dsl.encoding import decode, lines_of
 from skillc_dsl.formatting import formatted, not_formatted
 from skillc_dsl.source import Source
 from skillc_runtime.commands import _files, _telling
+from skillc_runtime.commands._paths import look
 from skillc_runtime.commands._writing import WriteError, rewrite
 
 
@@ -37,7 +37,7 @@ def of_files(paths: Iterable[Path]) -> Iterator[Layout]:
     """Yield the layout of each skill file at the paths, once. UsageError for a path that has none."""
     seen: set[Path] = set()
     for path in paths:
-        if not path.exists():
+        if look(path).kind == "missing":
             raise click.UsageError(f"there is no file or folder {path}")
         library = _files.find(path)
         for source in library.sources:
@@ -49,7 +49,7 @@ def of_files(paths: Iterable[Path]) -> Iterator[Layout]:
 
 def of_stdin(name: Path) -> Layout:
     """Return the layout of the standard input."""
-    return _layout(decode(str(name), sys.stdin.buffer.read(MOST_BYTES)), None)
+    return _layout(decode(str(name), _files.piped()), None)
 
 
 def write(layouts: Sequence[Layout]) -> int:

@@ -52,7 +52,8 @@ def in_scene(reference: str) -> tuple[SkillLibrary, Task, Path]:
         raise click.UsageError(f"the task `{name}` has no scene; run it with --scene FILE and --goal or --skill")
     path = _scenes.scene_of(task, files)
     if path is None:
-        raise click.UsageError(f'the scene "{task.scene}" of `{name}` is neither beside its file nor shipped')
+        why = _scenes.why_absent(task.scene, files.places[task.source.path].parent)
+        raise click.UsageError(f'the scene "{task.scene}" of `{name}` {why}')
     if task.goal is None and task.body is None:
         raise click.UsageError(f"the task `{name}` has neither a goal nor a body")
     return library, task, path

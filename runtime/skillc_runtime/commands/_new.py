@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import click
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
@@ -51,11 +53,24 @@ def library(name: str) -> dict[str, str]:
 
 
 def write(texts: Mapping[str, str], folder: Path) -> tuple[Path, ...]:
-    """Write the files into a new folder and return their paths; OSError when that cannot be done."""
-    folder.mkdir(parents=True)
-    for path, text in texts.items():
-        (folder / path).parent.mkdir(parents=True, exist_ok=True)
-        (folder / path).write_text(text, encoding="utf-8")
+    """Write the files into a new folder and return their paths; OSError when that cannot be done, and nothing is left.
+
+    They are written beside it and moved there together.
+    """
+    above = [each for each in (folder.parent, *folder.parent.parents) if not each.exists()]
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        with TemporaryDirectory(prefix=".skillc-", dir=folder.parent) as beside:
+            made = Path(beside, folder.name)
+            for path, text in texts.items():
+                (made / path).parent.mkdir(parents=True, exist_ok=True)
+                (made / path).write_text(text, encoding="utf-8")
+            made.rename(folder)
+    except OSError:
+        for each in above:
+            with suppress(OSError):
+                each.rmdir()
+        raise
     return tuple(folder / path for path in texts)
 
 

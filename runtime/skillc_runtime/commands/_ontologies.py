@@ -13,6 +13,7 @@ from skillc_compiler.emit.headers import is_ours
 from skillc_dsl.encoding import decode, read_file
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
+from skillc_runtime.commands._paths import look
 
 COMMANDS = ("check", "compile", "doc", "graph", "plan", "run", "world")
 """The commands that read libraries or scenes, which all have the option."""
@@ -38,8 +39,11 @@ def with_option(command: click.Command) -> click.Command:
 def named() -> dict[str, Path]:
     """Return the files in the user's folders by the path that is shown; UsageError for a folder that there is not."""
     for folder in catalogue.folders():
-        if not folder.is_dir():
+        found = look(folder)
+        if found.kind == "missing":
             raise click.UsageError(f"{catalogue.VARIABLE} names {folder}, and there is no such folder")
+        if found.kind != "folder":
+            raise click.UsageError(f"{catalogue.VARIABLE} names {folder}, which {found.is_what}")
     return dict(catalogue.own_files())
 
 

@@ -8,6 +8,7 @@ from typing import NoReturn
 
 import click
 
+from skillc_runtime.commands._paths import look
 from skillc_runtime.trace.history import story_of
 from skillc_runtime.trace.reader import TraceError, TraceReader
 from skillc_runtime.trace.story import Story
@@ -17,9 +18,12 @@ NAME = "events.jsonl"
 
 def told(run: Path) -> Story:
     """Read what happened in a run, given by its folder or its file of events; exit when that is not possible."""
-    path = run / NAME if run.is_dir() else run
-    if not path.exists():
+    path = run / NAME if look(run).kind == "folder" else run
+    found = look(path)
+    if found.kind == "missing":
         _refuse(_missing(run))
+    if found.kind != "file":
+        _refuse(f"{path} {found.is_what}")
     reader = TraceReader(path)
     try:
         story = story_of(reader)
@@ -35,7 +39,7 @@ def told(run: Path) -> Story:
 
 
 def _missing(run: Path) -> str:
-    if not run.is_dir():
+    if look(run).kind != "folder":
         return f"there is no {run}; `skillc run TASK --out DIR` records a run in DIR, unless it is refused"
     others = sorted(str(each.parent) for each in run.glob(f"*/{NAME}"))
     if others:

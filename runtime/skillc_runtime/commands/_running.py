@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryFile
 from types import FrameType
 
 import click
@@ -52,10 +53,14 @@ class Options:
 
 @dataclass(frozen=True, slots=True)
 class Ran:
-    """What became of a mission, and what is drawn of its wipings; nothing where no report was asked for."""
+    """What became of a mission, and what is drawn of its wipings; nothing where no report was asked for.
+
+    `written` is False where a report was asked for and could not be written.
+    """
 
     result: TaskResult
     drawings: tuple[Drawing, ...] = ()
+    written: bool = True
 
 
 def run(mission: Mission, options: Options) -> Ran:
@@ -103,9 +108,12 @@ def _run(
             return Ran(result)
         live.say("writing the report")
         drawings = tuple(drawing(wiping, cell) for wiping in wipings)
-        with writing(options.out):
+        try:
             filmed = _filmed(film, options.out, moments(wipings, trees, choices, cell))
             write_report(options.out, result, execution, drawings, filmed)
+        except OSError as error:
+            click.echo(_refusal(options.out, error), err=True)
+            return Ran(result, drawings, written=False)
     return Ran(result, drawings)
 
 
@@ -146,7 +154,6 @@ def _trace(directory: Path | None) -> Iterator[TraceWriter | None]:
         yield None
         return
     with writing(directory):
-        directory.mkdir(parents=True, exist_ok=True)
         trace = TraceWriter(directory / "events.jsonl")
     with trace:
         yield trace
@@ -160,5 +167,18 @@ def writing(directory: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        click.echo(f"error: cannot write to {directory}: {error.strerror or error}", err=True)
+        click.echo(_refusal(directory, error), err=True)
         sys.exit(1)
+
+
+def _refusal(directory: Path, error: OSError) -> str:
+    return f"error: cannot write to {directory}: {error.strerror or error}"
+
+
+def make_folder(directory: Path | None) -> None:
+    """Make the folder of a report, if one is wanted; exit with code 1 where it cannot be made or written to."""
+    if directory is not None:
+        with writing(directory):
+            directory.mkdir(parents=True, exist_ok=True)
+            with TemporaryFile(dir=directory):
+                pass

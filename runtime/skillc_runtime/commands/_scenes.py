@@ -15,6 +15,7 @@ from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _diagnostics
 from skillc_runtime.commands._files import LibraryFiles
+from skillc_runtime.commands._paths import look
 from skillc_runtime.world.documents import Document, SceneError
 from skillc_runtime.world.scene import Scene, scene_in
 from skillc_runtime.world.state import WorldState
@@ -69,7 +70,7 @@ def populated(program: Program, desk: Desk, others: Collection[Path] = (), read_
     scenes = {path: read_by(path, program.vocabulary) for path in sorted({*of_tasks.values(), *others})}
     sound = {path: scene.value for path, scene in scenes.items() if scene.ok and scene.value}
     people = {path: classes_of(scene.state, program.vocabulary) for path, scene in sound.items()}
-    missing = (_unknown(text, desk) for task, text in written if task not in of_tasks)
+    missing = (_absent(text, desk) for task, text in written if task not in of_tasks)
     wrong = (problem for scene in scenes.values() for problem in scene.diagnostics)
     individuals = {task: people[path] for task, path in of_tasks.items() if path in people}
     return Populated(of_tasks, sound, individuals, tuple(dict.fromkeys((*missing, *wrong))))
@@ -83,7 +84,7 @@ def scene_of(task: Task, files: LibraryFiles) -> Path | None:
 
 def path_of(scene: str, beside: Path) -> Path | None:
     """Return the file of a scene, beside the task's file or shipped; None where there is no such file."""
-    if (beside / scene).is_file():
+    if look(beside / scene).kind == "file":
         return beside / scene
     try:
         return catalogue.scene(scene)
@@ -109,7 +110,17 @@ def _written(program: Program) -> Iterator[tuple[str, s.Text]]:
                 yield declaration.name.text, declaration.scene
 
 
-def _unknown(scene: s.Text, desk: Desk) -> Diagnostic:
-    message = f'the scene "{scene.value}" is neither beside this file nor shipped'
+def why_absent(scene: str, beside: Path) -> str:
+    """Return why there is no such file as that of a scene, after its name."""
+    found = look(beside / scene)
+    return "is neither beside this file nor shipped" if found.kind == "missing" else found.is_what
+
+
+def _absent(scene: s.Text, desk: Desk) -> Diagnostic:
+    """Return the problem of a scene that is not there, or that is there and no file."""
+    beside = desk.place(scene.span.path).parent
+    message = f'the scene "{scene.value}" {why_absent(scene.value, beside)}'
     span = replace(scene.span, path=desk.shown(scene.span.path))
+    if look(beside / scene.value).kind != "missing":
+        return Diagnostic("unreadable-scene", span, message)
     return Diagnostic("unknown-scene", span, message, did_you_mean(scene.value, catalogue.scenes()))

@@ -12,7 +12,7 @@ from typing import TextIO
 import click
 
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.encoding import decode
+from skillc_dsl.encoding import decode, read_file
 from skillc_dsl.source import Source
 
 FORMS = ("full", "concise", "json", "sarif", "github")
@@ -121,6 +121,6 @@ def _sarif(diagnostics: Sequence[Diagnostic], texts: Mapping[str, Source]) -> st
 
 def _text(path: str) -> Source | None:
     try:
-        return decode(path, Path(path).read_bytes())
+        return decode(path, read_file(Path(path)))
     except (OSError, ValueError):
         return None

@@ -35,21 +35,27 @@ def command(robot: str, out: Path | None, seed: int, looks: str, as_json: bool) 
     from skillc_runtime.commands import _mission, _results, _running
 
     _looks.check(looks, out)
+    _running.make_folder(out)
     results: list[TaskResult] = []
+    written = True
     drawings: list[Drawing] = []
     for task in TASKS.values() if robot == "all" else [TASKS[robot]]:
         directory = out / task if out is not None else None
+        _running.make_folder(directory)
         options = _running.Options(out=directory, seed=seed, quiet=as_json, looks=looks)
         ran = _running.run(_mission.of_task(task), options)
         results.append(ran.result)
         drawings += ran.drawings
         if not as_json:
-            _results.show([ran.result], directory)
-    if out is not None:
-        _side_by_side(out, drawings, as_json)
+            _results.show([ran.result], directory if ran.written else None)
+        written = written and ran.written
     if as_json:
         click.echo(_results.list_as_json(results))
-    sys.exit(0 if all(result.status == "success" for result in results) else 3)
+    if out is not None:
+        _side_by_side(out, drawings, as_json)
+    if any(result.status != "success" for result in results):
+        sys.exit(3)
+    sys.exit(0 if written else 1)
 
 
 def _side_by_side(out: Path, drawings: Sequence[Drawing], quiet: bool) -> None:

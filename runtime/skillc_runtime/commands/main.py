@@ -12,7 +12,7 @@ from typing import Any
 
 import click
 
-from skillc_runtime.commands import _crashes, _ontologies
+from skillc_runtime.commands import _crashes, _ontologies, _streams
 
 HERE = Path(__file__).parent
 
@@ -20,17 +20,25 @@ HERE = Path(__file__).parent
 class Commands(click.Group):
     """A group whose commands are the modules beside this one; each has a click command named `command`."""
 
+    def main(self, *args: Any, **kwargs: Any) -> Any:
+        """Run the command line; a standard output that takes nothing more ends it."""
+        try:
+            with _streams.guarded():
+                return super().main(*args, **kwargs)
+        except _streams.OutputError as error:
+            if isinstance(error.reason, BrokenPipeError):
+                sys.exit(_crashes.NOBODY_READS)
+            click.echo(f"error: {error}", err=True)
+            sys.exit(1)
+
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; what goes wrong with skillc itself becomes one message and a report."""
         try:
             return super().invoke(ctx)
-        except (click.ClickException, click.exceptions.Exit, click.Abort):
+        except (click.ClickException, click.exceptions.Exit, click.Abort, _streams.OutputError):
             raise
         except KeyboardInterrupt:
             sys.exit(_crashes.INTERRUPTED)
-        except BrokenPipeError:
-            _crashes.close_stdout()
-            sys.exit(_crashes.NOBODY_READS)
         except Exception as error:  # noqa: BLE001 - the boundary of the process
             click.echo(_crashes.message(error, sys.argv[1:]), err=True)
             sys.exit(_crashes.INTERNAL)

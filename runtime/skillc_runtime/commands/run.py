@@ -61,11 +61,14 @@ def command(
         raise click.UsageError("say either a TASK or --scene FILE (or --store) with --goal TEXT or --skill CALL")
     _looks.check(looks, out)
     keeping = _keeping.keeping(store, reset)
+    _running.make_folder(out)
     mission = _mission.of_task(task, keeping) if task else _mission.of_scene(scene, goal, skill, library, keeping)
     options = _running.Options(out, seed, real_time, as_json, _planners.planners(plan_cache), looks)
-    result = _running.run(_planners.aimed(mission, minimise), options).result
+    ran = _running.run(_planners.aimed(mission, minimise), options)
     if as_json:
-        click.echo(_results.as_json(result))
+        click.echo(_results.as_json(ran.result))
     else:
-        _results.show([result], out)
-    sys.exit(0 if result.status == "success" and (result.verified or not strict) else 3)
+        _results.show([ran.result], out if ran.written else None)
+    if ran.result.status != "success" or (strict and not ran.result.verified):
+        sys.exit(3)
+    sys.exit(0 if ran.written else 1)

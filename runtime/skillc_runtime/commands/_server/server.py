@@ -6,14 +6,17 @@ import sys
 from collections.abc import Callable
 from functools import partial
 from importlib.metadata import version
-from typing import Any, TypeAlias
+from typing import Any, BinaryIO, TypeAlias, cast
 
+import click
 from lsprotocol import types
 from pygls.lsp.server import LanguageServer
 
 from skillc_runtime.commands._server import documents, reading, writing
 from skillc_runtime.commands._server.files import is_turtle
+from skillc_runtime.commands._server.messages import Answers, Malformed, Messages, Protocol
 from skillc_runtime.commands._server.session import Session
+from skillc_runtime.commands._streams import OutputError
 
 Answer: TypeAlias = Callable[[Session, Any], object]
 
@@ -61,7 +64,7 @@ def make_session() -> Session:
     Editors send whole texts: pygls applies parts of texts by lines that end also at form feeds and U+2028, where
     neither the protocol nor the language ends a line.
     """
-    server = LanguageServer("skillc", version("skillc"), types.TextDocumentSyncKind.Full)
+    server = LanguageServer("skillc", version("skillc"), types.TextDocumentSyncKind.Full, protocol_cls=Protocol)
     session = Session(server)
     for method, answer, options in ANSWERS:
         asked = answer if method in OF_TURTLE else partial(_of_skills, answer)
@@ -78,7 +81,14 @@ def _of_skills(answer: Answer, session: Session, params: Any) -> object:
 
 
 def run() -> int:
-    """Serve on stdin and stdout until the editor leaves; 1 if it left without saying goodbye."""
+    """Serve on stdin and stdout until the editor leaves; 1 if it left without saying goodbye, or sent no messages."""
     session = make_session()
-    session.server.start_io(sys.stdin.buffer, sys.stdout.buffer)
+    answers = Answers(sys.stdout.buffer)
+    try:
+        session.server.start_io(cast(BinaryIO, Messages(sys.stdin.buffer, answers)), cast(BinaryIO, answers))
+    except Malformed as error:
+        click.echo(f"error: {error}", err=True)
+        return 1
+    if answers.refused is not None:
+        raise OutputError(answers.refused)
     return 0 if session.over else 1
