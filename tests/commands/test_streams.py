@@ -12,12 +12,13 @@ import pytest
 MAIN = "from skillc_runtime.commands.main import main; main()"
 FULL = "error: cannot write to the standard output: No space left on device\n"
 CLOSED = "error: cannot write to the standard output: Bad file descriptor\n"
+GOOD = 'skill Rest { noplan }\nimpl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }\n'
 NO_MESSAGE = b"Content-Length: 3\r\n\r\n[5]"
 
 
 @pytest.fixture
 def place(tmp_path: Path) -> Path:
-    (tmp_path / "good.skill").write_text("class A < skillc:Surface\n")
+    (tmp_path / "good.skill").write_text(GOOD)
     (tmp_path / "bad.skill").write_text("skill X { in a: Nope }\n")
     return tmp_path
 
@@ -45,7 +46,6 @@ def test_a_full_output_without_a_buffer_is_said(place: Path) -> None:
 
 def test_a_closed_output_is_said_where_there_is_something_to_print(place: Path) -> None:
     assert ended(place, "skillc check bad.skill >&-") == (1, CLOSED)
-    (place / "good.skill").write_text("use skillc\n")
     assert ended(place, "skillc check good.skill >&-") == (0, "no problems\n")
 
 

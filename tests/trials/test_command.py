@@ -95,6 +95,14 @@ def test_a_file_where_a_folder_is_wanted_is_one_clear_error(tmp_path: Path) -> N
     assert result.stderr.startswith("error: cannot write to ")
 
 
+def test_a_page_that_cannot_be_written_hides_no_outcome(tmp_path: Path) -> None:
+    (tmp_path / _trialling.PAGE).mkdir()
+    result = run("clean_table", "-n", 1, "--out", tmp_path)
+    assert result.exit_code == 1
+    assert "1 of 1 as they should be" in result.stdout
+    assert "error: cannot write to " in result.stderr
+
+
 def test_interrupted_it_keeps_what_is_done_and_says_so(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     def interrupted(_prepare: Prepare, seeds: Sequence[int], jobs: int) -> Iterator[Trial]:
         yield good(seeds[0])

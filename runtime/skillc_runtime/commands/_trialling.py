@@ -50,11 +50,13 @@ def tried(wanted: Wanted) -> Series:
     _mission.loaded(scene, library)
     experiment = Experiment(codec.dumps(library), task.name, scene, wanted.disturbance)
     trials = _all(wanted, experiment, _heading(experiment, library))
-    result = series(task.name, wanted.disturbance, len(wanted.seeds), trials)
-    if wanted.out is not None:
-        with _writing(wanted.out):
-            (wanted.out / PAGE).write_text(page.render(result), encoding="utf-8")
-    return result
+    return series(task.name, wanted.disturbance, len(wanted.seeds), trials)
+
+
+def write_page(result: Series, out: Path) -> None:
+    """Write the page of a series into its folder; exit with code 1 where that cannot be done."""
+    with _writing(out):
+        (out / PAGE).write_text(page.render(result), encoding="utf-8")
 
 
 def as_json(result: Series) -> str:

@@ -48,4 +48,6 @@ def command(
         click.echo(_trialling.as_json(result))
     else:
         console().print(render(result))
+    if out is not None:
+        _trialling.write_page(result, out)
     sys.exit(0 if result.good else 3)
