@@ -11,7 +11,6 @@ from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.tree import Node
 from skillc_runtime.planning.choose import Planners, at_hand
 from skillc_runtime.planning.plan import PlanResult, Solved, Step
-from skillc_runtime.planning.problem import GoalError
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.plans.body import plan_body
@@ -92,12 +91,9 @@ def prepare(
 def _planned(
     assignment: Assignment, aim: Reach, library: SkillLibrary, without: Sequence[Step], planners: Planners
 ) -> Prepared | Refused:
-    try:
-        answer = _answered(assignment, aim, library, without, planners)
-    except GoalError as error:
-        return Refused(str(error))
+    answer = _answered(assignment, aim, library, without, planners)
     if not isinstance(answer, Solved):
-        return Refused(answer.why)
+        return Refused(answer.message)
     arrangement = arranged(answer.plan, library, assignment.state)
     steps = tuple(answer.plan.steps[number] for number in numbers(arrangement))
     return Prepared(assignment, plan_body(answer.plan, arrangement, library), Planned(answer, steps))

@@ -134,6 +134,6 @@ def _end(last: Attempt, answer: Refused | None) -> tuple[Status, Failure | None]
     """Return how the task ended: as its last attempt did, unless another plan was wanted and there is none."""
     if answer is None:
         return last.status, last.failure
-    message = f"{last.why}; there is no other way: {answer.why}"
+    message = f"{last.why}; no other way was found: {answer.why}"
     source = last.failure.source if last.failure else None
     return Status.FAILURE, Failure(kind="plan", message=message, source=source)

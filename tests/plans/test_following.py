@@ -83,7 +83,7 @@ def test_a_step_that_can_only_fail_again_is_not_repeated() -> None:
     assert depot.log == ["carl c a", "carl crate a"]
     assert execution.failure is not None and execution.failure.kind == "plan"
     assert execution.failure.message.replace(LAB, "lab:") == (
-        "carl crate a failed; there is no other way: what is left has failed, and nothing that it depends on has "
+        "carl crate a failed; no other way was found: what is left has failed, and nothing that it depends on has "
         "changed: Load[forks](robot: lab:carl, crate: lab:crate, from: lab:a): carl crate a failed"
     )
 

@@ -93,5 +93,5 @@ def test_a_planner_that_is_gone_when_a_new_plan_is_wanted_ends_the_task(monkeypa
     execution = execute(prepared, faults.LIBRARY, there, (told.append,))
     assert execution.status is Status.FAILURE
     assert "broke at tick" in faults.reasons(told)
-    assert "there is no other way: the planner does not start" in faults.reasons(told)
+    assert "no other way was found: the planner does not start" in faults.reasons(told)
     is_safe(there, scene)

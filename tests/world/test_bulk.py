@@ -28,6 +28,13 @@ SEEDS = int(os.environ.get("SCENE_SEEDS", "5"))
 SHEETS = tuple(Document(name, text) for name, text in catalogue.vocabulary_files())
 SCENES = catalogue.scenes()
 
+PREFIXES = {
+    "lab": "http://example.org/lab#",
+    "owl": "http://www.w3.org/2002/07/owl#",
+    "rdfs": "http://www.w3.org/2000/01/rdf-schema#",
+    "skiros": "http://rvmi.aau.dk/ontologies/skiros.owl#",
+}
+
 
 @settings(max_examples=int(os.environ.get("BULK_EXAMPLES", "25")), deadline=None)
 @given(vocabularies(), st.lists(additions, max_size=12), st.randoms(use_true_random=False))
@@ -103,6 +110,26 @@ def random_scene(chance: Random) -> str:
         "t:Mug a <http://www.w3.org/2002/07/owl#Class> ; <http://www.w3.org/2000/01/rdf-schema#subClassOf> t:Product ."
     )
     return "\n".join([lines[0], *rest, *([own] if chance.random() < 0.3 else [])])
+
+
+@pytest.mark.parametrize(
+    ("more", "problems"),
+    [
+        ("lab:A a owl:NamedIndividual .", []),
+        ("lab:Alone a owl:NamedIndividual .", ["unknown-individual"]),
+        ("lab:Alone a owl:NamedIndividual ; rdfs:label 'alone' .", ["unknown-individual"]),
+        ("skiros:contain a owl:Class .", ["no-effect"]),
+        ("skiros:Product a owl:Class .", []),
+        ("lab:Cup a owl:Class . lab:B a lab:Cup .", []),
+        ("lab:A skiros:Weight 1e400 .", ["wrong-data-type"]),
+    ],
+)
+def test_the_quick_reader_passes_over_nothing(more: str, problems: list[str], shipped: Vocabulary) -> None:
+    prefixes = "".join(f"@prefix {name}: <{iri}> .\n" for name, iri in PREFIXES.items())
+    documents = [Document("s.ttl", f"{prefixes}lab:A a skiros:Product .\n{more}")]
+    found = scene_of(documents, shipped).problems
+    assert [each.name for each in found] == problems
+    assert not problems or quick_world(documents, shipped) is None
 
 
 def test_random_scenes_are_read_alike() -> None:

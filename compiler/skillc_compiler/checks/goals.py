@@ -28,7 +28,7 @@ Good:
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 
 from skillc_compiler.library.conditions import Assert, Assign, Compare, Holds, PropertyOf, Retract
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
@@ -49,7 +49,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
         told: set[str] = set()
         for clause in clauses_in(task.goal) if task.goal else ():
             term = _term(clause)
-            if term is not None and term not in changed | told:
+            if term is not None and term not in told and not _may_change(term, changed, program.vocabulary):
                 told.add(term)
                 yield Diagnostic(
                     "unachievable-goal",
@@ -67,6 +67,14 @@ def _term(clause: Clause) -> str | None:
         case Compare(left=PropertyOf(property=name)) | Compare(right=PropertyOf(property=name)):
             return name
     return None
+
+
+def _may_change(term: str, changed: Set[str], vocabulary: Vocabulary) -> bool:
+    """Whether skills change a relation or property, or what it is computed from; nobody may know what that is."""
+    relation, property_ = vocabulary.relations.get(term), vocabulary.properties.get(term)
+    if relation is not None and relation.computed_by is not None:
+        return not relation.computed_from or not changed.isdisjoint(relation.computed_from)
+    return term in changed or (property_ is not None and property_.computed_by is not None)
 
 
 def _changed(program: Program) -> set[str]:

@@ -2,7 +2,8 @@
 
 ## unreachable-goal: no plan can reach a task's goal in its scene
 
-The message follows the skills that could make the goal true back to what the scene lacks.
+The message follows the skills that could make the goal true back to what the scene lacks. Where no planner can take
+the goal, it says what of the goal that is. A goal that the scene fulfils needs no plan and is never told.
 
 Bad:
 

@@ -6,6 +6,9 @@ Classes, relations and properties of individuals are facts; labels and other ann
 lists, reification, languages of texts and imports are neither: they belong into an ontology, or have no meaning here.
 Each kind of statement is told once, at its first place. The rest of the scene is used.
 
+A class that the scene declares (`lab:Cup a owl:Class`, mostly with `rdfs:subClassOf`) is understood: the world has it,
+and individuals may be of it. Relations and properties come from .skill files and ontologies alone.
+
 Bad:
 
     @prefix lab: <http://example.org/lab#> .

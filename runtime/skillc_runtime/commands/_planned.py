@@ -13,12 +13,11 @@ from skillc_runtime.assignment import Reach
 from skillc_runtime.commands import _mission
 from skillc_runtime.planning.claims import quality
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable
-from skillc_runtime.planning.problem import GoalError
 from skillc_runtime.planning.solve import solve
 
 
 class NoPlan(Exception):
-    """There is none; the message says why."""
+    """There is none, or none was found; the message says which, and why."""
 
 
 def planned(path: Path, task: str) -> Box:
@@ -30,17 +29,14 @@ def planned(path: Path, task: str) -> Box:
     aim, state = mission.assignment.aim, mission.assignment.state
     if not isinstance(aim, Reach):
         raise click.UsageError(f"the task `{task}` says itself what to do; draw it without --plan")
-    try:
-        answer = solve(mission.library, state, aim.goal)
-    except GoalError as error:
-        raise NoPlan(str(error)) from error
+    answer = solve(mission.library, state, aim.goal)
     match answer:
         case Solved(plan=plan):
             good = quality(answer.optimal, answer.left_out, answer.at_least_s)
             steps = (_step(step.skill, step.arguments, state.vocabulary.short) for step in plan.steps)
             return Box("flow", "→", "plan", (f"{plan.duration_s:g} s expected, {good}",), tuple(steps))
-        case Unsolvable(why=why) | GaveUp(why=why):
-            raise NoPlan(why)
+        case Unsolvable() | GaveUp():
+            raise NoPlan(answer.message)
         case _:
             assert_never(answer)
 

@@ -11,7 +11,6 @@ from skillc_runtime.commands._mission import Mission
 from skillc_runtime.planning.choose import Planners
 from skillc_runtime.planning.claims import quality
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Step, Unsolvable
-from skillc_runtime.planning.problem import GoalError
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.plans.quickest import quickest
@@ -26,12 +25,9 @@ NAMED = 3
 def answer(mission: Mission, goal: Condition, measure: Measure, planners: Planners, deadline_s: float) -> Answer:
     """Plan for a goal: with little work, also proven to be the least of the whole scene, or to be over early."""
     library, state = mission.library, mission.assignment.state
-    try:
-        if measure == "makespan":
-            return quickest(library, state, goal, planners, deadline_s)
-        return solve(library, state, goal, planners.for_work, deadline_s, prove=measure == "proven work")
-    except GoalError as error:
-        return Unsolvable(str(error))
+    if measure == "makespan":
+        return quickest(library, state, goal, planners, deadline_s)
+    return solve(library, state, goal, planners.for_work, deadline_s, prove=measure == "proven work")
 
 
 def as_text(answer: Answer, mission: Mission) -> str:
@@ -43,10 +39,8 @@ def as_text(answer: Answer, mission: Mission) -> str:
             return "\n".join([*lines, total, *_assumed(answer), *_left_out(answer, mission)])
         case Scheduled():
             return _schedule_text(answer, mission)
-        case Unsolvable(why=why):
-            return f"there is no plan: {why}"
-        case GaveUp(why=why):
-            return f"no plan was found: {why}"
+        case Unsolvable() | GaveUp():
+            return answer.message
         case _:
             assert_never(answer)
 
@@ -102,7 +96,7 @@ def _document(answer: Answer, mission: Mission) -> dict[str, object]:
         case Unsolvable(why=why):
             return {"status": "unsolvable", "failure": why}
         case GaveUp(why=why):
-            return {"status": "gave-up", "failure": why}
+            return {"status": "gave-up", "failure": why, "searched": answer.searched}
         case _:
             assert_never(answer)
 

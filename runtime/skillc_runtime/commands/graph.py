@@ -46,7 +46,7 @@ def command(path: Path, name: str, with_plan: bool, form: str | None, output: Pa
         try:
             box = replace(box, children=(*box.children, planned(path, name)))
         except NoPlan as reason:
-            click.echo(f"there is no plan: {reason}", err=True)
+            click.echo(str(reason), err=True)
             sys.exit(3)
     wanted = form or ("mermaid" if output and output.suffix in {".mmd", ".mermaid"} else "svg")
     _put(mermaid.draw(box) if wanted == "mermaid" else svg.document(box), output)

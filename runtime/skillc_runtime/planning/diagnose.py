@@ -35,6 +35,9 @@ class _Diagnosis:
     def __init__(self, posed: Posed, state: WorldState) -> None:
         self._domain, self._objects = posed.problem.domain, posed.problem.objects
         self._state, self._names = state, posed.problem.names
+        skipped = any(each.kind == "skills" for each in posed.restricted)
+        self._none = "no skill that is planned with" if skipped else "no skill"
+        self._nothing = "no skill that is planned with" if skipped else "nothing"
         self._words = Words(posed.problem, posed.library)
         self._grounding = Grounding(posed.problem, time.monotonic() + LONGEST_S)
         self._grounding.explore()
@@ -43,7 +46,7 @@ class _Diagnosis:
         """Yield what is wrong with each part of the goal that cannot be reached."""
         goal = self._grounding.goal()
         if goal == FALSE:
-            yield f"no skill can change this: {explain(condition, self._state, {}, self._state.vocabulary)}"
+            yield f"{self._none} can change this: {explain(condition, self._state, {}, self._state.vocabulary)}"
             return
         lost = [part for part in conjuncts(goal) if not self._grounding.possible(part)]
         yield from (self._unreachable(part, DEPTH) for part in lost)
@@ -62,7 +65,7 @@ class _Diagnosis:
         actions = self._domain.actions if isinstance(part, Atom) and depth else ()
         reasons = [reason for action in actions for reason in self._failures(action, part, depth)]
         if not reasons:
-            return f"nothing makes `{shown}` true"
+            return f"{self._nothing} makes `{shown}` true"
         return f"`{shown}` cannot be reached: " + "; ".join(dict.fromkeys(reasons))
 
     def _failures(self, action: Action, wanted: Formula, depth: int) -> Iterator[str]:

@@ -55,12 +55,26 @@ class Unsolvable:
 
     why: str
 
+    @property
+    def message(self) -> str:
+        """The answer as a sentence."""
+        return f"there is no plan: {self.why}"
+
 
 @dataclass(frozen=True, slots=True)
 class GaveUp:
-    """No answer: out of time or memory, or the planner failed; with the reason."""
+    """No answer, with the reason: out of time or memory, or the planner failed.
+
+    Nothing was `searched` where the goal cannot be given to a planner. That says nothing about the world.
+    """
 
     why: str
+    searched: bool = True
+
+    @property
+    def message(self) -> str:
+        """The answer as a sentence."""
+        return f"no plan was {'found' if self.searched else 'looked for'}: {self.why}"
 
 
 PlanResult: TypeAlias = Solved | Unsolvable | GaveUp

@@ -78,6 +78,15 @@ class Posed:
         return len(self.problem.objects) + sum(map(len, self.others.values()))
 
 
+def already_holds(goal: Condition, state: WorldState) -> bool:
+    """Whether a goal holds in a version of the world; GoalError when it cannot be decided or names an unknown."""
+    _refuse_unknown(goal, state)
+    try:
+        return evaluate(goal, state, {})
+    except EvaluationError as reason:
+        raise GoalError(f"the goal cannot be decided: {reason}") from reason
+
+
 def pose_problem(
     library: SkillLibrary,
     state: WorldState,
@@ -180,10 +189,7 @@ def _in_the_words_of(vocabulary: Vocabulary, library: SkillLibrary) -> SkillLibr
 
 def _named(goal: Condition, state: WorldState, kinds: Kinds) -> frozenset[str]:
     """Return the individuals that a goal speaks of, by name, by class or as those that stand in a relation."""
-    named = frozenset(each.iri for each in walk(goal) if isinstance(each, Individual))
-    unknown = sorted(named - state.individuals)
-    if unknown:
-        raise GoalError(f"the goal speaks of {state.vocabulary.short(unknown[0])}, which is not in the world model")
+    named = _refuse_unknown(goal, state)
     for each in walk(goal):
         match each:
             case Exists(_, cls, _) | Forall(_, cls, _):
@@ -191,6 +197,15 @@ def _named(goal: Condition, state: WorldState, kinds: Kinds) -> frozenset[str]:
             case Holds(subject, relation, object_) if Anything() in (subject, object_):
                 named |= {individual for pair in state.pairs(relation) for individual in pair}
                 named |= set(_samples(relation, state, kinds))
+    return named
+
+
+def _refuse_unknown(goal: Condition, state: WorldState) -> frozenset[str]:
+    """Return the individuals that a goal names; GoalError when the world does not have one of them."""
+    named = frozenset(each.iri for each in walk(goal) if isinstance(each, Individual))
+    unknown = sorted(named - state.individuals)
+    if unknown:
+        raise GoalError(f"the goal speaks of {state.vocabulary.short(unknown[0])}, which is not in the world model")
     return named
 
 

@@ -14,13 +14,13 @@ from skillc_runtime.planning.diagnose import LONGEST_S, why_unsolvable
 from skillc_runtime.planning.grounding import Grounding, TimeIsUp
 from skillc_runtime.planning.initial import TooManyValues
 from skillc_runtime.planning.narrowing import AT_ONCE
-from skillc_runtime.planning.problem import GoalError, pose_problem
+from skillc_runtime.planning.problem import GoalError, already_holds, pose_problem
 from skillc_runtime.world.state import WorldState
 
 
 @dataclass(frozen=True, slots=True)
 class Unreachable:
-    """Why no plan reaches a goal; `proved` unless a skill that cannot be planned with might."""
+    """Why no plan reaches a goal; `proved` unless a skill or the goal itself cannot be planned with."""
 
     why: str
     proved: bool = True
@@ -32,9 +32,11 @@ def why_unreachable(library: SkillLibrary, state: WorldState, goal: Condition) -
     Of a large scene the part near the goal is looked at, the rest stood in for. None also where that cannot be told.
     """
     try:
+        if already_holds(goal, state):
+            return None
         posed = pose_problem(library, state, goal, (), AT_ONCE)
     except GoalError as error:
-        return Unreachable(str(error))
+        return Unreachable(str(error), proved=False)
     except TooManyValues:
         return None
     problem = relaxed_scene(posed, state) if posed.narrowed else posed.problem

@@ -22,11 +22,9 @@ from skillc_runtime.planning.plan import (
     Step,
     Unsolvable,
 )
-from skillc_runtime.planning.problem import GoalError, Posed, pose_problem
+from skillc_runtime.planning.problem import GoalError, Posed, already_holds, pose_problem
 from skillc_runtime.planning.validate import PlanError, validate, work_of_s
 from skillc_runtime.planning.widening import Means, in_stages
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.expressions import EvaluationError
 from skillc_runtime.world.state import WorldState
 
 DEADLINE_S = 30.0
@@ -47,7 +45,8 @@ def solve(
 
     `without` are steps that the plan may not have. Of a large scene the part near the goal is planned with first, as
     wide as `breadth` says; with `prove` more of it is taken until the plan is proven to be the shortest.
-    Where a planner gives up, the next one gets the time that is left. GoalError when the goal cannot be planned for.
+    Where a planner gives up, the next one gets the time that is left. A goal that holds takes no steps, whatever
+    planners can express; where one does not hold and cannot be planned for, nothing is searched.
     """
     end = time.monotonic() + deadline_s
     chosen = tuple(available() if planners is None else planners)
@@ -64,15 +63,18 @@ def solve(
     def explain(posed: Posed) -> str:
         return why_unsolvable(posed, goal, state)
 
-    return in_stages(Means(pose, answer, search, explain), state, end, breadth, prove=prove)
+    try:
+        if already_holds(goal, state):
+            return Solved(Plan((), 0.0), "proven", "the world as it is")
+        return in_stages(Means(pose, answer, search, explain), state, end, breadth, prove=prove)
+    except GoalError as reason:
+        return GaveUp(str(reason), searched=False)
 
 
 def _answered(
     planners: Sequence[Planner], posed: Posed, state: WorldState, goal: Condition, deadline_s: float
 ) -> PlanResult:
     end = time.monotonic() + deadline_s
-    if _holds(goal, state):
-        return Solved(Plan((), 0.0), "proven", "the world as it is")
     failures: list[str] = []
     for planner in planners:
         result = _checked(planner.plan(posed.problem, max(end - time.monotonic(), 0.0)), posed, state, goal)
@@ -82,13 +84,6 @@ def _answered(
             case GaveUp(why):
                 failures.append(why)
     return GaveUp("; ".join(failures))
-
-
-def _holds(goal: Condition, state: WorldState) -> bool:
-    try:
-        return evaluate(goal, state, {})
-    except EvaluationError as reason:
-        raise GoalError(f"the goal cannot be decided: {reason}") from reason
 
 
 def _checked(result: PlanResult, posed: Posed, state: WorldState, goal: Condition) -> PlanResult:

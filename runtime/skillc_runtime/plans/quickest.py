@@ -58,12 +58,14 @@ def quickest(
     """Return a plan with times from a version of the world to the goal; each was played in the world model first.
 
     The plan with the least work is scheduled; where that cannot be proven to be over first, the scheduler looks for a
-    better one. Without it, or if it fails, the answer says so. GoalError when the goal cannot be planned for.
+    better one. Without it, or if it fails, the answer says so.
     """
     question = Question(library, state, goal, tuple(without), time.monotonic() + deadline_s)
     least = solve(library, state, goal, planners.for_work, SHARE * deadline_s, without)
-    if isinstance(least, Unsolvable):
+    if isinstance(least, Unsolvable) or (isinstance(least, GaveUp) and not least.searched):
         return least
+    if isinstance(least, Solved) and not least.plan.steps:
+        return _over_at_once(least, question)
     try:
         posed = pose_problem(library, state, goal, without, AT_ONCE)
     except TooManyValues as why:
@@ -86,6 +88,12 @@ def _by_links(solved: Solved, question: Question) -> Scheduled | GaveUp:
     except PlanError as error:
         return GaveUp(f"{solved.planner} returned a plan that does not work: {error}")
     return Scheduled(schedule, solved.plan, "best found", solved.planner, BY_LINKS)
+
+
+def _over_at_once(solved: Solved, question: Question) -> Scheduled:
+    """Return the schedule of a plan without steps."""
+    schedule = scheduled(solved.plan, question.library, question.state)
+    return Scheduled(schedule, solved.plan, "proven", solved.planner, BY_LINKS)
 
 
 def _better(

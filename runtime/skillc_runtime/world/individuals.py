@@ -41,7 +41,7 @@ def with_own_prefixes(vocabulary: Vocabulary, parsed: Sequence[Parsed]) -> Vocab
 
 
 def with_own_classes(vocabulary: Vocabulary, said: Sequence[Statement]) -> Vocabulary:
-    """Return the vocabulary with the classes that the documents declare beside it."""
+    """Return the vocabulary with the classes that the documents declare beside it; a relation is no class."""
     declared = {s for kind in CLASS_DECLARATIONS for s in _typed(said, kind)}
     parents = ((iri_of(each.subject), iri_of(each.object)) for each in said if each.predicate == SUBCLASS)
     return with_classes(vocabulary, declared, parents)
@@ -49,7 +49,7 @@ def with_own_classes(vocabulary: Vocabulary, said: Sequence[Statement]) -> Vocab
 
 def with_classes(vocabulary: Vocabulary, declared: Set[str], subclass: Iterable[tuple[str, str]]) -> Vocabulary:
     """Return the vocabulary with classes that it lacks; pairs say which class is below which."""
-    missing = sorted(declared - vocabulary.classes.keys() - vocabulary.aliases.keys())
+    missing = sorted(declared - terms_of(vocabulary))
     if not missing:
         return vocabulary
     parents: dict[str, list[str]] = defaultdict(list)

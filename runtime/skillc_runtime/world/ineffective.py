@@ -35,7 +35,10 @@ DECLARATIONS = frozenset({*CLASS_DECLARATIONS, ANNOTATION, TEMPLATE, f"{OWL}Onto
 TYPES_ELSEWHERE = DECLARATIONS | {NOTHING, NAMED_INDIVIDUAL, THING}
 ELSEWHERE = frozenset({HAS_TEMPLATE, TEMPLATE, f"{OWL}sameAs", f"{OWL}differentFrom"})
 """What other rules tell of."""
+_BY_CLASS_ALONE = "a scene declares classes alone; declare this in a .skill file or in an ontology"
 _HELP = {
+    f"{OWL}ObjectProperty": _BY_CLASS_ALONE,
+    f"{OWL}DatatypeProperty": _BY_CLASS_ALONE,
     f"{OWL}imports": "nothing is fetched: a folder of ontologies is named with --ontology",
     SUBCLASS: "a class that the vocabulary has is changed in its ontology",
     f"{RDF}first": "a list has no meaning here; name its members one after another, with a `,` between them",
@@ -97,20 +100,22 @@ class _Kinds:
         if self.is_ontology and subject in self._terms:
             return True
         if _is_type(each):
-            return object_ in TYPES_ELSEWHERE or self._is_declared(subject, object_)
+            return self._is_declared(subject, object_)
         if each.predicate == SUBCLASS and object_:
             return subject in self._own or object_ in self._vocabulary.ancestors.get(subject, ())
         return False
 
     def _is_declared(self, iri: str, kind: str) -> bool:
-        """Whether the vocabulary has a term of this kind already."""
+        """Whether a type is told elsewhere, or the vocabulary has a term of this kind, which the scene may declare."""
+        if kind in CLASS_DECLARATIONS:
+            return iri in self._vocabulary.classes
         match kind.removeprefix(OWL):
             case "ObjectProperty":
                 return iri in self._vocabulary.relations
             case "DatatypeProperty":
                 return iri in self._vocabulary.properties
             case _:
-                return False
+                return kind in TYPES_ELSEWHERE
 
 
 def language_tags(facts: Iterable[Statement], vocabulary: Vocabulary) -> Iterator[Problem]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from decimal import Decimal
 from difflib import get_close_matches
 
 import numpy as np
@@ -14,7 +15,7 @@ from skillc_compiler.library.words import SI_UNITS
 from skillc_compiler.turtle.terms import XSD
 from skillc_runtime.world.terms import SKILLC
 from skillc_runtime.world.values import Value
-from skillc_runtime.world.vectors import is_direction, vector_of
+from skillc_runtime.world.vectors import is_direction, is_too_large, vector_of
 
 INTEGERS = frozenset(
     XSD + name
@@ -26,6 +27,9 @@ INTEGERS = frozenset(
 NUMBERS = INTEGERS | {XSD + "decimal", XSD + "double", XSD + "float"}
 TEXTS = frozenset({XSD + "string", "http://www.w3.org/1999/02/22-rdf-syntax-ns#langString", XSD + "anyURI"})
 VECTORS = frozenset({XSD + "string", SKILLC + "Vector", SKILLC + "Direction"})
+TOO_LARGE, SMALLER = "this number is too large", "write a smaller number"
+MOST = 2**63
+"""Integers are smaller than this, and so are their opposites."""
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
 
 
@@ -44,7 +48,7 @@ def read(literal: ox.Literal, term: PropertyTerm) -> Value:
         case NumberType() if kind in NUMBERS:
             return _number(text)
         case PlainType("Int") if kind in NUMBERS and _number(text).is_integer():
-            return int(_number(text))
+            return _integer(text)
         case PlainType("Bool") if text in ("true", "false", "1", "0") and kind == XSD + "boolean":
             return text in ("true", "1")
         case PlainType("Text") if kind in TEXTS:
@@ -61,13 +65,25 @@ def _number(text: str) -> float:
         number = float(text)
     except ValueError as error:
         raise LiteralError(f"`{text}` is no number") from error
+    if math.isinf(number) and "inf" not in text.lower():
+        raise LiteralError(TOO_LARGE, SMALLER)
     if not math.isfinite(number):
         raise LiteralError("NaN and infinity are no values")
     return number
 
 
+def _integer(text: str) -> int:
+    """Return the exact value of a text that is an integer."""
+    number = Decimal(text.strip())
+    if abs(number) >= MOST:
+        raise LiteralError(TOO_LARGE, SMALLER)
+    return int(number)
+
+
 def _vector(text: str, type_: VectorType | DirectionType) -> Value:
     vector = vector_of(text)
+    if vector is None and is_too_large(text):
+        raise LiteralError("a number of this vector is too large", SMALLER)
     if vector is None:
         raise LiteralError(f'"{text}" is not three numbers', 'write three numbers with spaces between them: "0 0 1"')
     if isinstance(type_, VectorType) or is_direction(vector):

@@ -186,6 +186,8 @@ def _classes(said: _Said, terms: set[str], vocabulary: Vocabulary) -> dict[str, 
             found[name] = (*found[name], cls) if name in found else (cls,)
     if not any(name in found for name, _ in said.named[RDF_TYPE][: said.types_first]):
         raise _OutOfOrder
+    if any(name not in terms and name not in found for name, _ in said.named[RDF_TYPE]):
+        raise _OutOfOrder  # it is of no class
     return found
 
 

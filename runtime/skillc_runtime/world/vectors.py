@@ -18,15 +18,23 @@ _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 
 def vector_of(text: str) -> Array | None:
     """Return the vector (3,) that a text states as three numbers with spaces between them, None if it states none."""
-    parts = text.split()
-    if len(parts) != 3 or not all(_NUMBER.fullmatch(part) for part in parts):
-        return None
-    numbers = [float(part) for part in parts]
-    if not all(map(isfinite, numbers)):
+    numbers = _three_numbers(text)
+    if not numbers or not all(map(isfinite, numbers)):
         return None
     vector = np.array(numbers)
     vector.setflags(write=False)
     return vector
+
+
+def is_too_large(text: str) -> bool:
+    """Whether a text states three numbers of which one is too large for a vector."""
+    return not all(map(isfinite, _three_numbers(text)))
+
+
+def _three_numbers(text: str) -> list[float]:
+    parts = text.split()
+    stated = len(parts) == 3 and all(_NUMBER.fullmatch(part) for part in parts)
+    return [float(part) for part in parts] if stated else []
 
 
 def text_of_vector(vector: Array) -> str:

@@ -14,6 +14,7 @@ from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
 from skillc_runtime.world.documents import BASE, Document, SceneError, parse
+from skillc_runtime.world.identity import PROPERTY, SOURCE, TARGETS
 from skillc_runtime.world.individuals import SUBCLASS, iri_of, is_annotation, is_term_kind
 from skillc_runtime.world.literals import read
 from skillc_runtime.world.quick import quick_world
@@ -114,7 +115,8 @@ def _is_known(state: WorldState, subject: str, predicate: str, object_: str, nod
         term = state.vocabulary.properties[predicate]
         return isinstance(node, ox.Literal) and has(state.value(subject, predicate), read(node, term))
     said_of_no_world = predicate.rpartition("#")[2] in ("differentFrom", "sameAs", "hasTemplate")
-    return is_annotation(predicate) or said_of_no_world or predicate in _annotations(state)
+    denied = predicate in (SOURCE, PROPERTY, *TARGETS)  # a denial that holds; others are told
+    return is_annotation(predicate) or said_of_no_world or denied or predicate in _annotations(state)
 
 
 def _annotations(state: WorldState) -> frozenset[str]:
