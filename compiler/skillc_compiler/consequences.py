@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence, Set
 from typing import TypeAlias
 
+from skillc_compiler.enclosing import Disjoint, Places
 from skillc_compiler.program import ReadFile
 from skillc_compiler.renamed import told_once
 from skillc_dsl import syntax as s
@@ -72,18 +74,15 @@ def _of_second_skills(problems: Iterable[Diagnostic], files: Sequence[ReadFile])
     """A second skill of a name explains what calls and implementations say wrong of the first, or leave out."""
     second = [problem for problem in problems if problem.name == "duplicate-declaration"]
     first = {label.span for problem in second for label in problem.labels}
-    skills = [d.span for unit in files for d in unit.file.declarations if _is_skill(d) and d.name.span in first]
-    for skill in skills:
-        yield (
-            lambda d, skill=skill: (
-                d.name in WHOLE
-                or (  # type: ignore[misc]
-                    d.name != "duplicate-declaration"
-                    and not _inside(d.span, skill)
-                    and any(_inside(label.span, skill) for label in d.labels)
-                )
-            )
+    spans = [d.span for unit in files for d in unit.file.declarations if _is_skill(d) and d.name.span in first]
+    skills = Disjoint(spans)
+    yield lambda d: bool(spans) and d.name in WHOLE
+    yield (
+        lambda d: (
+            d.name != "duplicate-declaration"
+            and any(skills.around(label.span) not in (None, skills.around(d.span)) for label in d.labels)
         )
+    )
     yield lambda d: bool(second) and d.name in UNUSED
 
 
@@ -98,16 +97,17 @@ def _of_terms(problems: Sequence[Diagnostic], files: Sequence[ReadFile]) -> Iter
     called = any(problem.name == "unknown-skill" for problem in problems)
     yield lambda d: called and d.name == "unreachable-skill"
     wrong = [problem.span for problem in problems if problem.name in TERMS]
-    posts = [
+    posts = Disjoint(
         member.span
         for unit in files
         for declaration in unit.file.declarations
         if isinstance(declaration, s.SkillDeclaration)
         for member in declaration.members
         if isinstance(member, s.Requirement) and member.kind == "post"
-    ]
-    in_posts = any(_inside(place, post) for place in wrong for post in posts)
-    yield lambda d: d.name == "unachievable-goal" and (in_posts or any(_inside(place, d.span) for place in wrong))
+    )
+    in_posts = any(posts.around(place) for place in wrong)
+    places = Places(wrong)
+    yield lambda d: d.name == "unachievable-goal" and (in_posts or places.any_inside(d.span))
 
 
 def _of_implemented(problems: Iterable[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Explains]:
@@ -118,50 +118,56 @@ def _of_implemented(problems: Iterable[Diagnostic], files: Sequence[ReadFile]) -
         for declaration in unit.file.declarations
         if isinstance(declaration, s.ImplementationDeclaration)
     }
-    helps = [problem.help for problem in problems if problem.name == "unknown-skill" and problem.span in of]
+    helps = "\n".join(problem.help for problem in problems if problem.name == "unknown-skill" and problem.span in of)
     names = {d.name.span: f"`{d.name.text}`" for unit in files for d in unit.file.declarations if _is_skill(d)}
-    yield lambda d: d.name == "no-implementation" and any(names[d.span] in help_ for help_ in helps)
+    yield lambda d: d.name == "no-implementation" and names[d.span] in helps
 
 
 def _of_conditions(problems: Iterable[Diagnostic]) -> Iterator[Explains]:
     """What is wrong in a condition explains that it seems to be always so, or to go ill with another."""
     wrong = _errors(problems, LOGIC | REASONED)
-    yield (
-        lambda d: (
-            d.name in LOGIC
-            and any(_inside(place, whole) for place in wrong for whole in (d.span, *(label.span for label in d.labels)))
-        )
-    )
+    yield lambda d: d.name in LOGIC and any(wrong.any_inside(whole) for whole in _spans(d))
 
 
 def _of_bodies(problems: Iterable[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Explains]:
     """A declaration with another mistake, and what implements or calls such a skill, are not reasoned about."""
     wrong = _errors(problems, REASONED)
     declarations = [d for unit in files for d in unit.file.declarations]
-    broken = [d for d in declarations if any(_inside(place, d.span) for place in wrong)]
+    broken = [d for d in declarations if wrong.any_inside(d.span)]
     skills = {d.name.text for d in broken if isinstance(d, s.SkillDeclaration)}
-    implementations = [d for d in declarations if isinstance(d, s.ImplementationDeclaration)]
-    done = [d for d in implementations if d.skill.text in skills]
-    while more := [d for d in implementations if d not in done and _calls(d, skills)]:
-        done += more
-        skills |= {d.skill.text for d in more}
-    spans = [d.span for d in (*broken, *done)]
-    yield (
-        lambda d: (
-            d.name in REASONED
-            and any(_inside(place, whole) for whole in spans for place in (d.span, *(label.span for label in d.labels)))
-        )
-    )
+    followers = _that_depend(skills, [d for d in declarations if isinstance(d, s.ImplementationDeclaration)])
+    wholes = Disjoint(d.span for d in (*broken, *followers))
+    yield lambda d: d.name in REASONED and any(wholes.around(place) for place in _spans(d))
 
 
-def _calls(declaration: s.ImplementationDeclaration, skills: Set[str]) -> bool:
-    """Whether a body calls one of these skills."""
+def _that_depend(
+    skills: Set[str], implementations: Iterable[s.ImplementationDeclaration]
+) -> Iterator[s.ImplementationDeclaration]:
+    """Yield the implementations of these skills, and those whose bodies call one of them or the skill of another."""
+    if not skills:
+        return
+    of, callers = defaultdict(list), defaultdict(list)
+    for implementation in implementations:
+        of[implementation.skill.text].append(implementation)
+        for called in _called(implementation):
+            callers[called].append(implementation)
+    yield from (each for skill in skills for each in of[skill])
+    todo, seen = [*skills], {*skills}
+    while todo:
+        for each in callers[todo.pop()]:
+            yield each
+            if each.skill.text not in seen:
+                seen.add(each.skill.text)
+                todo.append(each.skill.text)
+
+
+def _called(declaration: s.ImplementationDeclaration) -> Iterator[str]:
+    """Yield the names of the skills that a body calls."""
     todo: list[s.Node] = [member.node for member in declaration.members if isinstance(member, s.Body)]
     while todo:
         match todo.pop():
             case s.CallSkill(skill=skill):
-                if skill.text in skills:
-                    return True
+                yield skill.text
             case s.With(call=call, children=children):
                 todo += [call, *children]
             case s.If(then=then, orelse=orelse):
@@ -170,28 +176,27 @@ def _calls(declaration: s.ImplementationDeclaration, skills: Set[str]) -> bool:
                 todo += node.children
             case s.Wait() | s.WaitUntil() | s.CheckNode() | s.ApplyPosts():
                 pass
-    return False
 
 
 def _of_arguments(problems: Iterable[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Explains]:
     """What is passed as an unknown argument, or to an unknown skill or function, is used after all."""
-    wrong = [problem.span for problem in problems if problem.name in PASSED]
+    wrong = Places(problem.span for problem in problems if problem.name in PASSED)
     done = [d for unit in files for d in unit.file.declarations if isinstance(d, s.ImplementationDeclaration)]
-    broken = [d for d in done if any(_inside(place, d.span) for place in wrong)]
+    broken = [d for d in done if wrong.any_inside(d.span)]
     skills = {d.skill.text for d in broken}
     described = [d for unit in files for d in unit.file.declarations if _is_skill(d) and d.name.text in skills]
-    yield lambda d: d.name in UNUSED and any(_inside(d.span, whole.span) for whole in (*broken, *described))
+    wholes = Disjoint(d.span for d in (*broken, *described))
+    yield lambda d: d.name in UNUSED and wholes.around(d.span) is not None
 
 
-def _errors(problems: Iterable[Diagnostic], other_than: Set[str]) -> list[Span]:
-    return [problem.span for problem in problems if problem.severity == "error" and problem.name not in other_than]
+def _errors(problems: Iterable[Diagnostic], other_than: Set[str]) -> Places:
+    found = (problem for problem in problems if problem.severity == "error" and problem.name not in other_than)
+    return Places(problem.span for problem in found)
+
+
+def _spans(problem: Diagnostic) -> tuple[Span, ...]:
+    return problem.span, *(label.span for label in problem.labels)
 
 
 def _is_skill(declaration: s.Declaration) -> bool:
     return isinstance(declaration, s.SkillDeclaration)
-
-
-def _inside(place: Span, whole: Span) -> bool:
-    begins, ends = (place.line, place.column), (place.end_line, place.end_column)
-    within = (whole.line, whole.column) <= begins and ends <= (whole.end_line, whole.end_column)
-    return place.path == whole.path and within

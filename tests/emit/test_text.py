@@ -70,6 +70,39 @@ def test_a_domain_that_is_not_pddl_is_our_mistake_and_told() -> None:
         read_back(text, {"drive", "pick", "wipe", "fly"})
 
 
+@pytest.mark.parametrize(
+    ("types", "told"),
+    [
+        ("a - b\n    b - a", "below an undeclared one: `b`"),
+        ("a - a", "below an undeclared one: `a`"),
+        ("b - nowhere", "below an undeclared one: `nowhere`"),
+        ("b -", "below an undeclared one: ``"),
+        ("b - object\n    b - object", "declares a type twice: b$"),
+        ("b b - object", "declares a type twice: b, b"),
+        ("object - object", "declares a type twice: object"),
+        ("b", "without a parent: b"),
+    ],
+)
+def test_types_that_are_no_hierarchy_are_our_mistake_and_told(types: str, told: str) -> None:
+    text = domain_text(planning_domain(wiping()))
+    before, end, after = text.partition("\n  )\n")
+    assert before.rpartition("(:")[2].startswith("types")
+    with pytest.raises(DomainRefused, match=told):
+        read_back(f"{before}\n    {types}{end}{after}", {"drive", "pick", "wipe"})
+
+
+def test_a_type_that_is_not_declared_is_found_with_any_hierarchy() -> None:
+    text = domain_text(planning_domain(wiping()))
+    with pytest.raises(DomainRefused, match="not PDDL"):
+        read_back(text.replace("- place)", "- places)", 1), {"drive", "pick", "wipe"})
+
+
+def test_a_deep_hierarchy_of_types_is_read_back() -> None:
+    deep = "".join(f"    t{number + 1} - t{number}\n" for number in range(2000))
+    text = domain_text(planning_domain(wiping()))
+    read_back(text.replace("thing - object\n", f"thing - object\n    t0 - thing\n{deep}"), {"drive", "pick", "wipe"})
+
+
 def test_reading_back_leaves_tracebacks_long() -> None:
     with pytest.raises(DomainRefused) as refused:
         read_back("(define", set())

@@ -61,6 +61,8 @@ from skillc_dsl.source import Span
 NAMES = ("bad-count", "bad-time", "bad-number")
 MOST = 1e100
 """No quantity of a robot is larger; numbers like that only overflow."""
+LARGEST_INTEGER = 2**53 - 1
+"""Numbers are read as doubles; a larger integer may not be the one that was written."""
 YEAR_S = 366 * 24 * 3600.0
 
 
@@ -132,7 +134,9 @@ def _bad_time(span: Span, message: str, help_: str) -> Diagnostic:
 
 def _number(value: Valued) -> Iterator[Diagnostic]:
     match value.meaning:
-        case Literal(value=int() | float() as found) if abs(found) > MOST:
+        case Literal(value=int() as found) if not -LARGEST_INTEGER <= found <= LARGEST_INTEGER:
+            yield Diagnostic("bad-number", value.span, "this number is too large", "write a smaller number")
+        case Literal(value=float() as found) if abs(found) > MOST:
             yield Diagnostic("bad-number", value.span, "this number is too large", "write a smaller number")
         case Arithmetic(operator="/", right=right) if number(right) == 0:
             yield Diagnostic("bad-number", value.span, "this divides by zero", "divide by something else")

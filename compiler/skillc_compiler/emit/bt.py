@@ -9,7 +9,7 @@ ID alone: version 4.7 takes no `<Condition ID=..>` in a ReactiveSequence.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 from xml.etree.ElementTree import Element, indent, tostring
 
 from skillc_compiler.emit.bt_calls import is_tree, reached
@@ -27,14 +27,14 @@ from skillc_compiler.library.tree import Call, Node
 
 def emit(library: SkillLibrary) -> dict[str, str]:
     """Return a file for each skill with a compound implementation, and for each task that is written by hand."""
-    names = _names(library)
+    names, chosen = _names(library), _chosen(library)
     files = {}
     for _, skill in sorted(library.skills.items()):
         if any(isinstance(each.body, Compound) for each in library.implementations_of(skill.name)):
-            files[f"trees/{legal(skill.name)}.xml"] = _skill_file(skill, library, names)
+            files[f"trees/{legal(skill.name)}.xml"] = _skill_file(skill, library, names, chosen)
     for _, task in sorted(library.tasks.items()):
         if task.body is not None:
-            files[f"trees/{names.of('', 'task', task.name)}.xml"] = _task_file(task, task.body, library, names)
+            files[f"trees/{names.of('', 'task', task.name)}.xml"] = _task_file(task, task.body, library, names, chosen)
     return files
 
 
@@ -48,14 +48,16 @@ def _names(library: SkillLibrary) -> Names:
     return names
 
 
-def _skill_file(skill: Skill, library: SkillLibrary, names: Names) -> str:
+def _skill_file(skill: Skill, library: SkillLibrary, names: Names, chosen: Set[tuple[str, str]]) -> str:
     model = Model()
     skills = [skill, *(library.skills[name] for name in sorted(reached([skill.name], library) - {skill.name}))]
     main = main_tree(library, names, model, skill)
-    return _document([main, *(tree for each in skills for tree in _trees(each, library, names, model))], names, model)
+    return _document(
+        [main, *(tree for each in skills for tree in _trees(each, library, names, model, chosen))], names, model
+    )
 
 
-def _task_file(task: Task, node: Node, library: SkillLibrary, names: Names) -> str:
+def _task_file(task: Task, node: Node, library: SkillLibrary, names: Names, chosen: Set[tuple[str, str]]) -> str:
     model = Model()
     path = ("", "task", task.name)
     identity = names.of(*path)
@@ -64,28 +66,29 @@ def _task_file(task: Task, node: Node, library: SkillLibrary, names: Names) -> s
     tree = Element("BehaviorTree", ID=identity, _description=str(task.source))
     tree.append(started(body, [body.node(node)]))
     called = reached([each.skill for each in walk(node) if isinstance(each, Call)], library)
-    others = [each for name in sorted(called) for each in _trees(library.skills[name], library, names, model)]
+    others = [each for name in sorted(called) for each in _trees(library.skills[name], library, names, model, chosen)]
     return _document([tree, *others], names, model)
 
 
-def _trees(skill: Skill, library: SkillLibrary, names: Names, model: Model) -> Iterator[Element]:
+def _trees(
+    skill: Skill, library: SkillLibrary, names: Names, model: Model, chosen: Set[tuple[str, str]]
+) -> Iterator[Element]:
     if not is_tree(library, skill):
         return
     yield skill_tree(library, names, model, skill)
-    fixed = _fixed(skill.name, library)
     for each in library.implementations_of(skill.name):
-        if each.name in fixed:
+        if (skill.name, each.name) in chosen:
             yield fixed_tree(library, names, model, skill, each)
         if isinstance(each.body, Compound):
             yield implementation_tree(library, names, model, each)
 
 
-def _fixed(skill: str, library: SkillLibrary) -> set[str]:
-    """Return the implementations of a skill that some call of the library chooses itself."""
+def _chosen(library: SkillLibrary) -> set[tuple[str, str]]:
+    """Return the implementations that some call of the library chooses itself, each with its skill."""
     bodies = [each.body.node for each in library.implementations.values() if isinstance(each.body, Compound)]
     bodies += [each.body for each in library.tasks.values() if each.body is not None]
     calls = [each for body in bodies for each in walk(body) if isinstance(each, Call)]
-    return {each.implementation for each in calls if each.skill == skill and each.implementation is not None}
+    return {(each.skill, each.implementation) for each in calls if each.implementation is not None}
 
 
 def _document(trees: list[Element], names: Names, model: Model) -> str:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 import sys
 
 from skillc_compiler.library.pddl.planning import planning_domain
 from skillc_compiler.library.pddl.pruning import pruned
 from skillc_compiler.library.pddl.text import domain_text, temporal_text
 from skillc_compiler.library.skills import SkillLibrary
+
+_TYPES = re.compile(r"^\s*\(:types\b([^()]*)\)", re.MULTILINE)
 
 
 class DomainRefused(Exception):
@@ -26,13 +29,14 @@ def read_back(text: str, actions: set[str]) -> None:
     """Read the domain with the `pddl` package; DomainRefused unless it is whole and has these actions.
 
     That package wants :numeric-fluents beside static cost functions, Fast Downward refuses them: only it is shown them.
+    Its search for cycles is cubic in the depth of the types: their hierarchy is checked here, it reads a flat one.
     It shortens the tracebacks of the whole process and, where it fails, leaves them short.
     """
     from lark.exceptions import LarkError
     from pddl.exceptions import PDDLParsingError, PDDLValidationError
     from pddl.parser.domain import DomainParser
 
-    shown = text.replace(":action-costs)", ":action-costs :numeric-fluents)", 1)
+    shown = _flattened(text).replace(":action-costs)", ":action-costs :numeric-fluents)", 1)
     limit = getattr(sys, "tracebacklimit", None)
     try:
         read = DomainParser()(shown)
@@ -42,3 +46,28 @@ def read_back(text: str, actions: set[str]) -> None:
         sys.tracebacklimit = limit
     if {action.name for action in read.actions} != actions:
         raise DomainRefused("the domain printed for this library lost an action")
+
+
+def _flattened(text: str) -> str:
+    """Return the domain with all types right below `object`; DomainRefused unless each type is declared exactly once,
+    below one that is declared before it, which rules out cycles."""
+    found = _TYPES.search(text)
+    if not found:
+        return text
+    declared, names = {"object"}, list[str]()
+    tokens = iter(found[1].split())
+    for token in tokens:
+        if token != "-":
+            names.append(token)
+            continue
+        parent = next(tokens, "")
+        if parent not in declared:
+            raise DomainRefused(f"the domain printed for this library has types below an undeclared one: `{parent}`")
+        if len(declared | {*names}) < len(declared) + len(names):
+            raise DomainRefused(f"the domain printed for this library declares a type twice: {', '.join(names)}")
+        declared.update(names)
+        names.clear()
+    if names:
+        raise DomainRefused(f"the domain printed for this library has types without a parent: {', '.join(names)}")
+    flat = " ".join(sorted(declared - {"object"}))
+    return f"{text[: found.start(1)]} {flat} - object {text[found.end(1) :]}"

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import msgspec
 
+from skillc_compiler.enclosing import Places
 from skillc_compiler.library import skills as library
 from skillc_compiler.library.pddl.names import pddl_names
 from skillc_compiler.library.skills import SkillLibrary
@@ -15,14 +16,13 @@ from skillc_compiler.lower import flattening
 from skillc_compiler.lower.ranking import ranked
 from skillc_compiler.program import Call, Implementation, Program, ReadFile, Step
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.source import Span
 
 
 def lower(program: Program, problems: Sequence[Diagnostic]) -> SkillLibrary:
     """Return the library of everything in which no error was found, and which calls only such skills."""
-    errors = [problem.span for problem in problems if problem.severity == "error"]
-    skills = {name: s for name, s in sorted(program.skills.items()) if not _touched(s.span, errors)}
-    sound = [i for i in program.implementations if i.body is not None and not _touched(i.span, errors)]
+    errors = Places(problem.span for problem in problems if problem.severity == "error")
+    skills = {name: s for name, s in sorted(program.skills.items()) if not errors.any_on_lines_of(s.span)}
+    sound = [i for i in program.implementations if i.body is not None and not errors.any_on_lines_of(i.span)]
     kept = [i for i in sound if i.skill.name in skills and _calls_known(i.body, skills)]
     by_skill: dict[str, list[Implementation]] = defaultdict(list)
     for one in kept:
@@ -37,7 +37,7 @@ def lower(program: Program, problems: Sequence[Diagnostic]) -> SkillLibrary:
         tasks={
             task.name: flattening.task(task)
             for task in sorted(program.tasks, key=lambda task: task.name)
-            if not _touched(task.span, errors) and _calls_known(task.body, skills)
+            if not errors.any_on_lines_of(task.span) and _calls_known(task.body, skills)
         },
     )
     return msgspec.structs.replace(unnamed, names=pddl_names(unnamed))
@@ -54,10 +54,6 @@ def calls(step: Step) -> Iterator[Call]:
 def _implementation(understood: Implementation) -> library.Implementation:
     assert understood.body is not None
     return flattening.implementation(understood, understood.body)
-
-
-def _touched(span: Span, errors: Iterable[Span]) -> bool:
-    return any(e.path == span.path and span.line <= e.line <= span.end_line for e in errors)
 
 
 def _calls_known(body: object, skills: Iterable[str]) -> bool:

@@ -42,14 +42,15 @@ def called(run: Run, call: Call, ways: Ways, around: Around) -> Ends:
 def _aged(run: Run, call: Call, state: State) -> State:
     """Return the state with other names for those that an earlier round of the same call found by itself."""
     assert call.skill is not None, "only calls of known skills find anything"
+    known = things(state)
     for parameter in call.skill.parameters:
         name = made_up(call, parameter)
-        known = {thing.name for thing in things(state) if isinstance(thing, Variable)}
-        if name.name in known:
+        if name in known:
             former = Variable(f"{name.name}'")
             run.sorts.classes[former.name] = class_of(parameter)
             state = merged(state.without(former.name), name, former)
             state = state.replaced(same={key: thing for key, thing in state.same.items() if key != name.name})
+            known = things(state)
     return state
 
 

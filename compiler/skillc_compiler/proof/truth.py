@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Iterable
+from functools import lru_cache
 from typing import Literal as OneOf
 from typing import TypeAlias, assert_never
 
@@ -183,7 +184,12 @@ def _exists(sorts: Sorts, state: State, condition: Exists) -> bool | None:
 
 def things(state: State) -> tuple[Thing, ...]:
     """Return the individuals of which something is known, in the order in which it became known."""
-    terms = (part for fact in state.facts for part in walk(fact) if isinstance(part, Variable | Individual))
+    return tuple(dict.fromkeys(thing for fact in state.facts for thing in _things_in(fact)))
+
+
+@lru_cache(maxsize=4096)
+def _things_in(fact: Condition) -> tuple[Thing, ...]:
+    terms = (part for part in walk(fact) if isinstance(part, Variable | Individual))
     return tuple(dict.fromkeys(term for term in terms if not is_bound(term)))
 
 

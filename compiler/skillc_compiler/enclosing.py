@@ -1,0 +1,71 @@
+"""Which of many spans is around another one, or within it, found by bisection instead of by trying each."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections import defaultdict
+from collections.abc import Iterable
+from itertools import accumulate
+from typing import TypeAlias
+
+from skillc_dsl.source import Span
+
+Point: TypeAlias = tuple[int, int]
+
+
+class Disjoint:
+    """Spans of which no two overlap, such as those of declarations."""
+
+    def __init__(self, spans: Iterable[Span]) -> None:
+        self._spans = _by_path(spans)
+        self._starts = {path: [_start(each) for each in spans] for path, spans in self._spans.items()}
+
+    def around(self, place: Span) -> Span | None:
+        """Return the span that has the place inside it."""
+        index = bisect_right(self._starts.get(place.path, ()), _start(place)) - 1
+        if index < 0:
+            return None
+        candidate = self._spans[place.path][index]
+        return candidate if _end(place) <= _end(candidate) else None
+
+
+class Places:
+    """Spans that may overlap."""
+
+    def __init__(self, spans: Iterable[Span]) -> None:
+        by_path = _by_path(spans)
+        self._starts = {path: [_start(each) for each in spans] for path, spans in by_path.items()}
+        self._least_ends = {path: _least_ends(spans) for path, spans in by_path.items()}
+        self._lines = {path: [each.line for each in spans] for path, spans in by_path.items()}
+
+    def any_inside(self, whole: Span) -> bool:
+        """Whether one of them is inside the span."""
+        index = bisect_left(self._starts.get(whole.path, ()), _start(whole))
+        ends = self._least_ends.get(whole.path, [])
+        return index < len(ends) and ends[index] <= _end(whole)
+
+    def any_on_lines_of(self, whole: Span) -> bool:
+        """Whether one of them begins on a line of the span."""
+        lines = self._lines.get(whole.path, [])
+        index = bisect_left(lines, whole.line)
+        return index < len(lines) and lines[index] <= whole.end_line
+
+
+def _by_path(spans: Iterable[Span]) -> dict[str, list[Span]]:
+    found: dict[str, list[Span]] = defaultdict(list)
+    for span in sorted(spans):
+        found[span.path].append(span)
+    return dict(found)
+
+
+def _least_ends(spans: list[Span]) -> list[Point]:
+    """Return for each of the spans, in order, the first end among it and those after it."""
+    return list(accumulate(map(_end, reversed(spans)), min))[::-1]
+
+
+def _start(span: Span) -> Point:
+    return span.line, span.column
+
+
+def _end(span: Span) -> Point:
+    return span.end_line, span.end_column
