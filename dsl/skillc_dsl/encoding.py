@@ -20,8 +20,12 @@ _NUL = "\0"
 
 def decode(path: str, data: bytes) -> Source:
     """Return the text of a file; bytes that are not UTF-8 become U+FFFD, which `parse` reports as `encoding`."""
-    text = data.decode("utf-8-sig", errors="replace")
-    return Source(path, unix_lines(text))
+    return Source(path, plain_text(data.decode("utf-8", errors="replace")))
+
+
+def plain_text(text: str) -> str:
+    """Return a text as it is read: without a byte order mark, and with LF at the end of each line."""
+    return unix_lines(text.removeprefix("\ufeff"))
 
 
 def unix_lines(text: str) -> str:

@@ -178,6 +178,13 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
         parents = {iri: term.parents for iri, term in self.relations.items()}
         return {iri: _reach(iri, parents) for iri in self.relations}
 
+    @cached_property
+    def namespaces(self) -> dict[str, str]:
+        """The prefixes of vocabularies, which have terms; other prefixes are shorthand for anything."""
+        iris = (*self.classes, *self.relations, *self.properties)
+        bases = {iri.removesuffix(local_name(iri)) for iri in iris}
+        return {prefix: base for prefix, base in self.prefixes.items() if base in bases}
+
     def is_a(self, cls: str, ancestor: str) -> bool:
         """Whether every individual of `cls` is one of `ancestor`; an unknown class is only itself and a Thing."""
         return ancestor in self.ancestors.get(cls, (cls, THING))

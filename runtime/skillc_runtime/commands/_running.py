@@ -154,6 +154,7 @@ def _trace(directory: Path | None) -> Iterator[TraceWriter | None]:
         yield None
         return
     with writing(directory):
+        directory.mkdir(parents=True, exist_ok=True)
         trace = TraceWriter(directory / "events.jsonl")
     with trace:
         yield trace
@@ -175,10 +176,14 @@ def _refusal(directory: Path, error: OSError) -> str:
     return f"error: cannot write to {directory}: {error.strerror or error}"
 
 
-def make_folder(directory: Path | None) -> None:
-    """Make the folder of a report, if one is wanted; exit with code 1 where it cannot be made or written to."""
-    if directory is not None:
-        with writing(directory):
-            directory.mkdir(parents=True, exist_ok=True)
-            with TemporaryFile(dir=directory):
-                pass
+def check_writable(directory: Path | None) -> None:
+    """Exit with code 1 where the folder of a report, if one is wanted, cannot be made or written to."""
+    if directory is None:
+        return
+    with writing(directory):
+        made = [each for each in (directory, *directory.parents) if not each.exists()]
+        directory.mkdir(parents=True, exist_ok=True)
+        with TemporaryFile(dir=directory):
+            pass
+        for each in made:
+            each.rmdir()

@@ -35,13 +35,13 @@ def command(robot: str, out: Path | None, seed: int, looks: str, as_json: bool) 
     from skillc_runtime.commands import _mission, _results, _running
 
     _looks.check(looks, out)
-    _running.make_folder(out)
+    _running.check_writable(out)
     results: list[TaskResult] = []
     written = True
     drawings: list[Drawing] = []
     for task in TASKS.values() if robot == "all" else [TASKS[robot]]:
         directory = out / task if out is not None else None
-        _running.make_folder(directory)
+        _running.check_writable(directory)
         options = _running.Options(out=directory, seed=seed, quiet=as_json, looks=looks)
         ran = _running.run(_mission.of_task(task), options)
         results.append(ran.result)

@@ -61,7 +61,7 @@ def command(
         raise click.UsageError("say either a TASK or --scene FILE (or --store) with --goal TEXT or --skill CALL")
     _looks.check(looks, out)
     keeping = _keeping.keeping(store, reset)
-    _running.make_folder(out)
+    _running.check_writable(out)
     mission = _mission.of_task(task, keeping) if task else _mission.of_scene(scene, goal, skill, library, keeping)
     options = _running.Options(out, seed, real_time, as_json, _planners.planners(plan_cache), looks)
     ran = _running.run(_planners.aimed(mission, minimise), options)

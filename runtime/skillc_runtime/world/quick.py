@@ -94,7 +94,7 @@ def _said(documents: Iterable[Document], vocabulary: Vocabulary) -> _Said:
             _refuse_unusual(said, vocabulary)
             said.types_first = len(said.named[RDF_TYPE])
         for prefix, base in parser.prefixes.items():
-            if vocabulary.prefixes.get(prefix, base) != base and base not in vocabulary.prefixes.values():
+            if vocabulary.namespaces.get(prefix, base) != base and base not in vocabulary.namespaces.values():
                 raise _OutOfOrder  # it may be misspelt
             if prefix:
                 said.prefixes.setdefault(prefix, base)

@@ -93,7 +93,7 @@ def scene_of(documents: Iterable[Document], vocabulary: Vocabulary) -> Scene:
     Any numeric literal is a number. Prefixes and classes that a document declares join the vocabulary of the world;
     templates and annotations are passed over.
     """
-    parsed = [parse(document, vocabulary.prefixes) for document in documents]
+    parsed = [parse(document, vocabulary.namespaces) for document in documents]
     said = [resolved(each, vocabulary.aliases) for document in parsed for each in document.statements]
     written = said[: len(parsed[0].statements)] if parsed else []
     vocabulary = with_own_prefixes(vocabulary, parsed)

@@ -68,7 +68,7 @@ def load_templates(path: Path, vocabulary: Vocabulary) -> Templates:
 
 def templates_of(documents: Iterable[Document], vocabulary: Vocabulary) -> Templates:
     """Return the templates of Turtle documents; SceneError with what is wrong with them or the documents."""
-    parsed = [parse(document, vocabulary.prefixes) for document in documents]
+    parsed = [parse(document, vocabulary.namespaces) for document in documents]
     said = [resolved(each, vocabulary.aliases) for document in parsed for each in document.statements]
     vocabulary = with_own_classes(with_own_prefixes(vocabulary, parsed), said)
     templates = {

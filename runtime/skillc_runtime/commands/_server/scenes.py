@@ -91,9 +91,9 @@ def _is_shipped(path: str) -> bool:
 
 
 def _own_terms(vocabulary: Vocabulary, base: Vocabulary) -> bytes:
-    """Return what the library adds to the vocabulary, whatever the lines it stands in."""
+    """Return what the library adds to the vocabulary, prefixes too, whatever the lines it stands in."""
     pairs = ((vocabulary.classes, base.classes), (vocabulary.relations, base.relations))
     tables: tuple[tuple[Mapping[str, msgspec.Struct], Mapping[str, msgspec.Struct]], ...] = pairs
     own = [term for mine, theirs in tables for iri, term in mine.items() if theirs.get(iri) != term]
     own += [term for iri, term in vocabulary.properties.items() if base.properties.get(iri) != term]
-    return msgspec.json.encode([msgspec.structs.replace(term, source=None) for term in own])
+    return msgspec.json.encode([vocabulary.prefixes, *(msgspec.structs.replace(term, source=None) for term in own)])
