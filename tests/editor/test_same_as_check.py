@@ -79,3 +79,31 @@ def test_columns_in_scenes_are_those_of_check(tmp_path: Path) -> None:
     view = libraries.view(file.as_uri())
     (told,) = by_uri(libraries, view.root, view.analysis, "utf-16")[scene.as_uri()]
     assert told.range == types.Range(types.Position(1, 15), types.Position(1, 30))
+
+
+def test_a_prefix_of_the_authors_own_is_that_of_no_scene(tmp_path: Path) -> None:
+    file = tmp_path / "tasks.skill"
+    text = (
+        'use wiping\nprefix lab: <http://example.org/lab#>\nimport "wiping/wipe.skill"\n'
+        'task go {\n    scene "iiwa_table.ttl"\n    goal  lab:Table-1.isClean == true\n}\n'
+    )
+    libraries = Libraries((tmp_path,))
+    for written, expected in ((text, {"unreachable-goal"}), (text.replace("lab#", "lab"), {"unknown-individual"})):
+        file.write_text(written)
+        libraries.write(file.as_uri(), written)
+        root = libraries.view(file.as_uri()).root
+        shown = {each.name for each in (*libraries.analysis(root).problems, *libraries.problems_of_scenes(root))}
+        checked = {each.name for each in _checking.check(_files.find(tmp_path), None)}
+        assert shown == checked == expected
+
+
+def test_a_byte_order_mark_is_no_part_of_the_text(tmp_path: Path) -> None:
+    file = tmp_path / "one.skill"
+    text = "\ufeffskill Rest { noplan }\n"
+    file.write_text(text, "utf-8")
+    checked = _checking.check(_files.find(tmp_path), None)
+    libraries = Libraries((tmp_path,))
+    libraries.write(file.as_uri(), text)
+    shown = libraries.view(file.as_uri()).analysis.problems
+    assert shown
+    assert [(each.name, each.span.line) for each in shown] == [(each.name, each.span.line) for each in checked]
