@@ -1,14 +1,12 @@
-"""What is said and kept when skillc itself fails, so that no user sees a traceback and none is lost."""
+"""What is said and kept when skillc itself fails, so that no user sees a traceback and none is lost.
+
+Every command imports this file: what only a failure needs is imported then.
+"""
 
 from __future__ import annotations
 
 import os
-import platform
-import shlex
-import tempfile
-import traceback
 from collections.abc import Sequence
-from importlib.metadata import version
 from pathlib import Path
 
 INTERNAL = 70
@@ -20,6 +18,8 @@ NOBODY_READS = 141
 
 def message(error: BaseException, arguments: Sequence[str]) -> str:
     """Write a report of `error` to a file; return what the user reads, which names that file."""
+    import shlex
+
     command = shlex.join(["skillc", *arguments])
     return (
         f"internal error: `{command}` failed with {type(error).__name__}: {_first_line(error)}\n"
@@ -29,12 +29,18 @@ def message(error: BaseException, arguments: Sequence[str]) -> str:
 
 def report(error: BaseException, command: str) -> str:
     """Return everything that is needed to find the cause."""
+    import platform
+    import traceback
+    from importlib.metadata import version
+
     about = f"skillc {version('skillc')}, Python {platform.python_version()}, {platform.platform()}"
     trace = "".join(traceback.format_exception(error))
     return f"{about}\n{command}\nin {_folder()}\n\n{trace}"
 
 
 def _kept(error: BaseException, command: str) -> str:
+    import tempfile
+
     try:
         descriptor, name = tempfile.mkstemp(prefix="skillc-crash-", suffix=".txt")
         with os.fdopen(descriptor, "w", encoding="utf-8", errors="backslashreplace") as file:
