@@ -74,7 +74,9 @@ Good:
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache
+from typing import TypeAlias
 
 from skillc_compiler.program import Implementation, Program
 from skillc_compiler.python.found import (
@@ -96,22 +98,24 @@ NAMES = ("bad-python-target", "missing-python", "wrong-python-parameters", "not-
 PRIMITIVE = "skillc_runtime.primitives.primitive:Primitive"
 CALLED_WITH = {"start": 0, "tick": 0, "halt": 1, "pause": 0, "resume": 0, "release": 0}
 """The methods of a primitive that are called, with how many values."""
+_Reader: TypeAlias = Callable[[str, str], Found]
 _TARGET = re.compile(r"([A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*):([A-Za-z_]\w*)")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each target that does not name fitting Python."""
+    """Yield a problem for each target that does not name fitting Python; each target is read once."""
+    reader = cache(read)
     for implementation in program.implementations:
         if isinstance(implementation.body, s.RunPython):
-            yield from _primitive(implementation, implementation.body.target)
+            yield from _primitive(implementation, implementation.body.target, reader)
     for unit in program.files:
         for declaration in unit.file.declarations:
             if isinstance(declaration, s.FunctionDeclaration):
-                yield from _function(declaration)
+                yield from _function(declaration, reader)
 
 
-def _primitive(implementation: Implementation, written: s.Text) -> Iterator[Diagnostic]:
-    match _found(written):
+def _primitive(implementation: Implementation, written: s.Text, reader: _Reader) -> Iterator[Diagnostic]:
+    match _found(written, reader):
         case ClassFound() as found:
             yield from _class(implementation, written, found)
         case FunctionFound() | Other():
@@ -172,9 +176,9 @@ def _head(name: str, count: int) -> str:
     return f"def {name}(self{', reason' * count})"
 
 
-def _function(declared: s.FunctionDeclaration) -> Iterator[Diagnostic]:
+def _function(declared: s.FunctionDeclaration, reader: _Reader) -> Iterator[Diagnostic]:
     given = [parameter.name.text for parameter in declared.parameters]
-    match _found(declared.python):
+    match _found(declared.python, reader):
         case FunctionFound(asynchronous=True):
             wrong: str | None = "is `async`, which is never waited for"
         case FunctionFound(signature=taken) | ClassFound(constructor=taken):
@@ -206,14 +210,14 @@ def _in_order(taken: Signature, given: Sequence[str]) -> str | None:
     return None
 
 
-def _found(written: s.Text) -> ClassFound | FunctionFound | Other | Unclear | Diagnostic:
+def _found(written: s.Text, reader: _Reader) -> ClassFound | FunctionFound | Other | Unclear | Diagnostic:
     """Return what the target is, or what is wrong with it."""
     target = _TARGET.fullmatch(written.value)
     if target is None:
         message = f'"{written.value}" does not name something in a Python module'
         return Diagnostic("bad-python-target", written.span, message, 'write "package.module:Name"')
     module, name = target.groups()
-    found: Found = read(module, name)
+    found = reader(module, name)
     match found:
         case NoModule(installed=True):
             return _missing(written, f"there is no Python module `{module}`", "make the file, or correct the name")
