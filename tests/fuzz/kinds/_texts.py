@@ -12,7 +12,7 @@ from random import Random
 from fuzz.kinds._programs import write_program
 
 TESTS = Path(__file__).parents[2]
-MOST_LINES = (3, 6, 12, 30)
+MOST_LINES = (2, 3, 6, 24)
 """Longer texts are cut at a declaration, so that a case is quick."""
 
 _TOKEN = re.compile(r"\"[^\"\n]*\"|[\w.-]+:?[\w-]*|[^\w\s]|\s+")
