@@ -24,7 +24,7 @@ from skillc_compiler.lower.library import lower
 from skillc_compiler.pipeline import compile
 from skillc_compiler.resolve.files import read
 from skillc_compiler.resolve.program import resolve
-from skillc_dsl.grammar import machine
+from skillc_dsl.parsing.grammar import load_parser
 from skillc_dsl.source import Source
 from skillc_runtime.commands._library import SHIPPED, vocabulary
 
@@ -124,7 +124,7 @@ def _stages(sources: Sequence[Source]) -> Iterator[tuple[str, float]]:
 
 def _parse(sources: Sequence[Source]) -> None:
     for source in sources:
-        machine().parse(source.text)
+        load_parser().parse(source.text)
 
 
 def _seconds(work: Callable[[], Result]) -> tuple[float, Result]:

@@ -20,7 +20,7 @@ from compile import generated
 from skillc_compiler.assist import highlighting
 from skillc_compiler.assist.completion import complete
 from skillc_compiler.assist.hover import hover
-from skillc_dsl.grammar import machine
+from skillc_dsl.parsing.grammar import load_parser
 from skillc_runtime.commands._server import problems
 from skillc_runtime.commands._server.libraries import Libraries
 
@@ -65,7 +65,7 @@ def measure(text: str, file: Path) -> None:
         highlighting.highlighted(view.analysis, view.path)
 
     middle = text[: text.index("target: above")].count("\n") + 1
-    bare = median(_seconds(lambda: machine().parse(text)) for _ in range(EDITS))
+    bare = median(_seconds(lambda: load_parser().parse(text)) for _ in range(EDITS))
     answers: list[tuple[str, Callable[[], object]]] = [
         ("problems after an edit", told),
         ("colours, then", coloured),

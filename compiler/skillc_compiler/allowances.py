@@ -10,7 +10,7 @@ from functools import cache
 from skillc_compiler.manual import foresight, of_module, pages
 from skillc_compiler.resolve.near import correction
 from skillc_dsl import syntax as s
-from skillc_dsl.comments import Comment, comments
+from skillc_dsl.comments import Comment, find_comments
 from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean
 from skillc_dsl.source import Source, Span
 
@@ -53,7 +53,7 @@ def allowances(source: Source) -> Iterator[Allowance]:
     """Yield the allowances in a text; each is for the first line below that is no comment."""
     if "allow" not in source.text:
         return
-    every = comments(source)
+    every = find_comments(source)
     alone = {comment.span.line for comment in every if comment.alone}
     for comment in every:
         match = _ALLOWANCE.fullmatch(comment.written)

@@ -26,7 +26,7 @@ from skillc_compiler.resolve.scope import Setting
 from skillc_compiler.resolve.tasks import task
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
-from skillc_dsl.parser import parse
+from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source, Span
 
 T = TypeVar("T")

@@ -19,7 +19,7 @@ from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve
 from skillc_compiler.unplannable import unplannable
 from skillc_dsl.diagnostics import Diagnostic, Outcome
-from skillc_dsl.parser import parse
+from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 
 NO_SCENES: Mapping[str, Individuals] = MappingProxyType({})

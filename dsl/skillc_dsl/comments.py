@@ -15,7 +15,7 @@ _COMMENT_OR_LIKE = re.compile(rf'"[^"\n]*"?|{PATTERNS["address"]}|(?P<comment>{P
 class Comment:
     """A comment as written, from its `#` to the end of its line without the white space there.
 
-    `alone` tells one with a line of its own from one after something else.
+    `alone` distinguishes one with a line of its own from one after something else.
     """
 
     written: str
@@ -33,7 +33,7 @@ class Comment:
         return self.written.lstrip("#").strip()
 
 
-def comments(source: Source) -> tuple[Comment, ...]:
+def find_comments(source: Source) -> tuple[Comment, ...]:
     """Return the comments of `source` in their order; a `#` in a text or in an address begins none."""
     found: list[Comment] = []
     for number, line in enumerate(source.text.split("\n"), 1):

@@ -1,4 +1,4 @@
-"""What the compiler tells an author: problems as data, with places, causes and cures."""
+"""What the compiler reports to an author: problems as data, with places, causes and fixes."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Label:
 
 @dataclass(frozen=True, slots=True)
 class Fix:
-    """An edit that cures the problem: put `text` where `span` is; `message` says what it does, `write `..``.
+    """An edit that fixes the problem: put `text` where `span` is; `message` says what it does, `write `..``.
 
     `safe` if nobody who sees the problem could mean something else, so that `check --fix` may apply it unasked; a guess
     at a name or a deletion of what was written is not.
@@ -37,7 +37,7 @@ class Fix:
 
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
-    """One problem, named in kebab case and told in the author's words.
+    """One problem, named in kebab case and described in the author's words.
 
     `message` says what is wrong, `help` what to type instead; `fix` is the machine-applicable form of the help.
     """

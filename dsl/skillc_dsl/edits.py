@@ -9,8 +9,8 @@ from skillc_dsl.diagnostics import Fix
 from skillc_dsl.source import Span
 
 
-def applied(text: str, fixes: Iterable[Fix]) -> str:
-    """Return `text` after fixes that are `apart`. ValueError for a place that is not in the text."""
+def apply_fixes(text: str, fixes: Iterable[Fix]) -> str:
+    """Return `text` after fixes that are `drop_overlapping` keeps. ValueError for a place that is not in the text."""
     starts = [0, *accumulate(len(line) + 1 for line in text.split("\n"))]
     ordered = sorted(((*_offsets(starts, fix.span), fix.text) for fix in fixes), reverse=True)
     for start, end, replacement in ordered:
@@ -18,8 +18,8 @@ def applied(text: str, fixes: Iterable[Fix]) -> str:
     return text
 
 
-def apart(fixes: Iterable[Fix]) -> tuple[Fix, ...]:
-    """Return fixes of one file in order of place, without those that touch an earlier one and those told twice."""
+def drop_overlapping(fixes: Iterable[Fix]) -> tuple[Fix, ...]:
+    """Return fixes of one file in order of place, without duplicates and those that touch an earlier one."""
     kept: list[Fix] = []
     for fix in sorted(set(fixes), key=lambda each: (each.span, each.text)):
         if not kept or _end(kept[-1].span) < (fix.span.line, fix.span.column):

@@ -1,4 +1,4 @@
-"""From the bytes of a file to its text; files that are not UTF-8 text are told once each."""
+"""From the bytes of a file to its text; each file that is not UTF-8 text is reported once."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ _NUL = "\0"
 
 def decode(path: str, data: bytes) -> Source:
     """Return the text of a file; bytes that are not UTF-8 become U+FFFD, which `parse` reports as `encoding`."""
-    return Source(path, plain_text(data.decode("utf-8", errors="replace")))
+    return Source(path, normalise_text(data.decode("utf-8", errors="replace")))
 
 
-def plain_text(text: str) -> str:
+def normalise_text(text: str) -> str:
     """Return a text as it is read: without a byte order mark, and with LF at the end of each line."""
-    return unix_lines(text.removeprefix("\ufeff"))
+    return normalise_newlines(text.removeprefix("\ufeff"))
 
 
-def unix_lines(text: str) -> str:
+def normalise_newlines(text: str) -> str:
     """Return a text whose lines end as editors see it, at CR LF, CR and LF, with LF at the end of each.
 
     Form feeds, U+0085 and U+2028 end no line: neither here nor in editors and the Language Server Protocol.
@@ -36,7 +36,7 @@ def unix_lines(text: str) -> str:
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
-def lines_of(text: str) -> list[str]:
+def split_lines(text: str) -> list[str]:
     """Return the lines of a text, each with its end."""
     lines = text.split("\n")
     return [*(f"{line}\n" for line in lines[:-1]), *([lines[-1]] if lines[-1] else [])]
@@ -51,7 +51,7 @@ def read_file(path: Path, most: int = -1) -> bytes:
         return file.read(most)
 
 
-def not_text(source: Source) -> Diagnostic | None:
+def report_not_text(source: Source) -> Diagnostic | None:
     """Return the problem of a file that is in another encoding from end to end, or no text at all."""
     if _NUL not in source.text:
         return None
@@ -60,7 +60,7 @@ def not_text(source: Source) -> Diagnostic | None:
     return _problem(source, source.text.index(_NUL), "the file is no text: it has NUL bytes")
 
 
-def too_large(source: Source) -> Diagnostic | None:
+def report_too_large(source: Source) -> Diagnostic | None:
     """Return the problem of a file that is too long to be read."""
     if len(source.text) <= MOST_CHARACTERS:
         return None
@@ -72,7 +72,7 @@ def too_large(source: Source) -> Diagnostic | None:
     )
 
 
-def wrong_bytes(source: Source) -> Diagnostic | None:
+def report_wrong_bytes(source: Source) -> Diagnostic | None:
     """Return the problem of a file with some bytes that are not UTF-8, at the first of them."""
     position = source.text.find(REPLACEMENT)
     if position < 0:

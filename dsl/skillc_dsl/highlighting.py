@@ -17,7 +17,7 @@ from pygments.token import (  # type: ignore[import-untyped]
     _TokenType,
 )
 
-from skillc_dsl.tokens import TYPES, TokenKind, group_of, tokens
+from skillc_dsl.tokens import TYPES, TokenKind, keyword_group, scan_tokens
 
 _COLOURS: dict[TokenKind, _TokenType] = {
     "documentation": String.Doc,
@@ -44,7 +44,7 @@ class SkillLexer(Lexer):  # type: ignore[misc]
     def get_tokens_unprocessed(self, text: str) -> Iterator[tuple[int, _TokenType, str]]:
         """Yield each piece of `text` with its position and its kind."""
         end, before = 0, ""
-        for kind, start, token in tokens(text):
+        for kind, start, token in scan_tokens(text):
             if start > end:
                 yield end, Text, text[end:start]
             yield start, _colour(kind, token, before), token
@@ -57,7 +57,7 @@ def _colour(kind: TokenKind, token: str, before: str) -> _TokenType:
     """Return the kind of a token, given the one before it."""
     if kind != "name" or before == ".":
         return _COLOURS[kind]
-    match group_of(token):
+    match keyword_group(token):
         case None:
             return Keyword.Type if token in TYPES else Name
         case "declaration":

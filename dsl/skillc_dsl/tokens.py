@@ -93,12 +93,12 @@ PATTERNS: MappingProxyType[TokenKind, str] = MappingProxyType(
 """Each kind of token with its regular expression; where several match, the first one wins. Keywords are names here."""
 
 
-def group_of(word: str) -> Group | None:
+def keyword_group(word: str) -> Group | None:
     """Return what a keyword is for, None for a word that is none."""
     return next((group for group, words in KEYWORDS.items() if word in words), None)
 
 
-def tokens(text: str) -> Iterator[tuple[TokenKind, int, str]]:
+def scan_tokens(text: str) -> Iterator[tuple[TokenKind, int, str]]:
     """Yield the kind, position and text of each token, read from the left; what is none is left out."""
     for match in _table().finditer(text):
         yield _KINDS[match.lastgroup or ""], match.start(), match.group()

@@ -135,7 +135,7 @@ def dimension_of(unit: str) -> Dimension:
     return UNITS[unit].dimension
 
 
-def near_units(wrong: str) -> tuple[str, ...]:
+def suggest_units(wrong: str) -> tuple[str, ...]:
     """Return the units an author may have meant by `wrong`, the likeliest first; none when nothing is like it."""
     meant = _SPELLINGS.get(wrong.lower())
     alike = difflib.get_close_matches(wrong, list(UNITS), n=3, cutoff=0.5)

@@ -13,7 +13,7 @@ from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.pipeline import compile
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.edits import applied
+from skillc_dsl.edits import apply_fixes
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
 
@@ -68,7 +68,7 @@ def test_a_fix_cures_its_problem(path: Path) -> None:
     for diagnostic in told:
         if diagnostic.fix is None:
             continue
-        cured = applied(text, [diagnostic.fix])
+        cured = apply_fixes(text, [diagnostic.fix])
         same = [
             d for d in diagnostics_of(path, cured) if (d.name, d.span.line) == (diagnostic.name, diagnostic.span.line)
         ]

@@ -16,8 +16,8 @@ from skillc_compiler.manual import Page, foresight, of_module, pages, vocabulari
 from skillc_compiler.pipeline import compile
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.encoding import decode
-from skillc_dsl.formatting import not_formatted
-from skillc_dsl.parser import parse
+from skillc_dsl.formatting.formatter import check_layout
+from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
 from skillc_runtime.commands import _checking, _files
@@ -54,7 +54,7 @@ def problems(page: Page, text: str) -> list[str]:
     if page.name in OF_VOCABULARIES or page.good.startswith("@prefix"):
         return in_turtle(page.name, text)
     if page.name == "not-formatted":
-        warning = not_formatted(Source("example.skill", text))
+        warning = check_layout(Source("example.skill", text))
         return [warning.name] if warning else []
     if page.name == "file-too-large":
         return [d.name for d in parse(Source("example.skill", text * 1000)).diagnostics]

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from skillc_compiler import pipeline
-from skillc_dsl.formatting import not_formatted
+from skillc_dsl.formatting.formatter import check_layout
 from skillc_dsl.rendering.concise import render
 from skillc_dsl.source import Source
 from skillc_runtime.commands import _library
@@ -29,7 +29,7 @@ def test_there_are_examples() -> None:
 
 @pytest.mark.parametrize("text", EXAMPLES)
 def test_example_is_laid_out_as_the_formatter_does(text: str) -> None:
-    assert not_formatted(Source("example.skill", text)) is None
+    assert check_layout(Source("example.skill", text)) is None
 
 
 @pytest.mark.parametrize("text", EXAMPLES)

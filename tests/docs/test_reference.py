@@ -11,8 +11,8 @@ from docs.manual import MANUAL, manual
 from docs.pages import ROOT, blocks
 from skillc_compiler.library.words import SI_UNITS
 from skillc_compiler.manual import pages
-from skillc_dsl.grammar import words
-from skillc_dsl.lexing import tokens_of
+from skillc_dsl.parsing.grammar import fixed_texts
+from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.source import Source
 
 REFERENCE = ROOT / "docs/language.md"
@@ -22,11 +22,11 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 def tokens() -> set[tuple[str, str]]:
     """Return the kinds and texts of all tokens in the examples of the language reference."""
     texts = [block.text for block in blocks(REFERENCE) if block.language == "skill"]
-    return {(token.type, str(token)) for text in texts for token in tokens_of(Source("example", text)).value}
+    return {(token.type, str(token)) for text in texts for token in tokenize(Source("example", text)).value}
 
 
 def test_every_word_and_sign_of_the_language_is_in_an_example() -> None:
-    expected = set(words().items())
+    expected = set(fixed_texts().items())
     assert len(expected) > 80
     assert expected - tokens() == set()
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from lark.exceptions import LarkError
 
-from skillc_dsl.grammar import END, machine
-from skillc_dsl.lexing import tokens_of
+from skillc_dsl.parsing.grammar import END, load_parser
+from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.source import Source
 
 
@@ -24,7 +24,7 @@ class Mutation:
 def mutation(text: str, seed: int) -> Mutation:
     """One slip in `text`, which has two tokens at least; the same for the same seed."""
     chance = random.Random(seed)
-    tokens = [token for token in tokens_of(Source("", text)).value if token.type != END]
+    tokens = [token for token in tokenize(Source("", text)).value if token.type != END]
     index = chance.randrange(len(tokens) - 1)
     token, following = tokens[index : index + 2]
     start, end, after, last = (
@@ -59,7 +59,7 @@ def misspelt(word: str, chance: random.Random) -> str:
 def is_grammatical(text: str) -> bool:
     """Whether the strict grammar takes the text, without any recovery."""
     try:
-        machine().parse(text)
+        load_parser().parse(text)
     except LarkError:
         return False
     return True

@@ -8,7 +8,7 @@ from functools import cache
 from hypothesis import strategies as st
 from lark.grammar import NonTerminal, Rule
 
-from skillc_dsl.grammar import machine, words
+from skillc_dsl.parsing.grammar import fixed_texts, load_parser
 
 WRITTEN: dict[str, list[str]] = {
     "NAME": ["arm", "surface", "Pick", "größe", "an_even_longer_name_of_something"],
@@ -27,7 +27,7 @@ COMMENTS = st.sampled_from(["# why", "## what it is", "#", "# {", "#> no `{` end
 def rules() -> dict[str, list[Rule]]:
     """The productions of each symbol."""
     found: dict[str, list[Rule]] = {}
-    for rule in machine().rules:
+    for rule in load_parser().rules:
         found.setdefault(rule.origin.name, []).append(rule)
     return found
 
@@ -70,7 +70,7 @@ def programs(draw: st.DrawFn) -> str:
     derive(draw, "start", [draw(st.integers(20, 300))], tokens)
     text = draw(gaps)
     for terminal in tokens:
-        written = draw(st.sampled_from(WRITTEN[terminal])) if terminal in WRITTEN else words()[terminal]
+        written = draw(st.sampled_from(WRITTEN[terminal])) if terminal in WRITTEN else fixed_texts()[terminal]
         text += written + draw(gaps)
     return text
 

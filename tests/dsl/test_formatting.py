@@ -10,11 +10,11 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from programs import programs
 
-from skillc_dsl.comments import comments
-from skillc_dsl.formatting import formatted
-from skillc_dsl.formatting.sameness import say_the_same
-from skillc_dsl.lexing import tokens_of
-from skillc_dsl.parser import parse
+from skillc_dsl.comments import find_comments
+from skillc_dsl.formatting.equality import equal_modulo_layout
+from skillc_dsl.formatting.formatter import format_source
+from skillc_dsl.parsing.lexer import tokenize
+from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 
 ROOT = Path(__file__).parents[2]
@@ -29,7 +29,7 @@ MANY = settings(
 
 
 def layout(text: str) -> str:
-    outcome = formatted(Source("a.skill", text))
+    outcome = format_source(Source("a.skill", text))
     assert outcome.diagnostics == ()
     return outcome.value
 
@@ -40,7 +40,7 @@ def test_a_program_keeps_its_meaning_and_its_comments_and_is_formatted_once(text
     source = Source("a.skill", text)
     assume(parse(source).ok)
     once = layout(text)
-    assert say_the_same(source, Source("a.skill", once))
+    assert equal_modulo_layout(source, Source("a.skill", once))
     assert layout(once) == once
     assert not re.search(r"[ \t]\n|\n\n\n|^\n|\n\n$", once)
 
@@ -49,7 +49,7 @@ def test_a_program_keeps_its_meaning_and_its_comments_and_is_formatted_once(text
 @given(st.data())
 def test_the_lines_do_not_depend_on_the_blanks(data: st.DataObject) -> None:
     """However the tokens of a text stand, they come out alike, but for blank lines and for blocks of one line."""
-    tokens = [str(token) for token in tokens_of(Source("", EVERYTHING)).value]
+    tokens = [str(token) for token in tokenize(Source("", EVERYTHING)).value]
     blanks = data.draw(st.lists(st.sampled_from([" ", "\n", "\t \n"]), min_size=len(tokens), max_size=len(tokens)))
     assert layout("".join(map("".join, zip(tokens, blanks, strict=True)))).split() == layout("\n".join(tokens)).split()
 
@@ -59,12 +59,12 @@ def test_the_lines_do_not_depend_on_the_blanks(data: st.DataObject) -> None:
     st.lists(st.tuples(st.integers(0, 1000), st.sampled_from(["\n# own\n", "\n\n## doc\n", " # after\n"])), max_size=9)
 )
 def test_a_comment_may_stand_anywhere(places: list[tuple[int, str]]) -> None:
-    starts = [token.start_pos or 0 for token in tokens_of(Source("", EVERYTHING)).value]
+    starts = [token.start_pos or 0 for token in tokenize(Source("", EVERYTHING)).value]
     text = EVERYTHING
     for start, comment in sorted(((starts[n % len(starts)], comment) for n, comment in places), reverse=True):
         text = text[:start] + comment + text[start:]
     once = layout(text)
-    assert [c.written for c in comments(Source("", once))] == [c.written for c in comments(Source("", text))]
+    assert [c.written for c in find_comments(Source("", once))] == [c.written for c in find_comments(Source("", text))]
     assert layout(once) == once
 
 
@@ -102,12 +102,12 @@ def test_next_to_nothing(text: str) -> None:
 
 def test_a_file_with_errors_stays_as_it_is() -> None:
     text = "skill  A {\n  in arm ArmDevice\n}\n"
-    outcome = formatted(Source("a.skill", text))
+    outcome = format_source(Source("a.skill", text))
     assert (outcome.value, outcome.ok) == (text, False)
     assert [d.name for d in outcome.diagnostics] == ["syntax"]
 
 
 def test_what_nests_too_deeply_stays_as_it_is() -> None:
     text = f"impl x of Y {{\npre {'(' * 5000}a{')' * 5000}\n}}\n"
-    outcome = formatted(Source("a.skill", text))
+    outcome = format_source(Source("a.skill", text))
     assert (outcome.value, [d.name for d in outcome.diagnostics]) == (text, ["nesting-too-deep"])

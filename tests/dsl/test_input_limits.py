@@ -4,9 +4,9 @@ import pytest
 
 from skillc_dsl import syntax as s
 from skillc_dsl.encoding import MOST_CHARACTERS
-from skillc_dsl.formatting import formatted
-from skillc_dsl.nesting import DEEPEST
-from skillc_dsl.parser import MOST_PROBLEMS, parse
+from skillc_dsl.formatting.formatter import format_source
+from skillc_dsl.parsing.nesting import DEEPEST
+from skillc_dsl.parsing.parser import MOST_PROBLEMS, parse
 from skillc_dsl.source import Source
 
 DEEP = {
@@ -34,14 +34,14 @@ def test_what_is_too_deep_is_one_error_and_the_rest_is_understood(kind: str, lev
     assert {problem.name for problem in outcome.diagnostics} == {"nesting-too-deep"}
     assert [problem.span.line for problem in outcome.diagnostics] == [2]
     assert outcome.value.declarations[-1].name.text == "two"
-    assert formatted(source).value == source.text
+    assert format_source(source).value == source.text
 
 
 @pytest.mark.parametrize("kind", DEEP)
 def test_what_is_as_deep_as_may_be_is_understood_and_formatted(kind: str) -> None:
     source = Source("", f"impl one of A {{\n{DEEP[kind](DEEPEST)}\n}}\n")
     assert parse(source).diagnostics == ()
-    outcome = formatted(source)
+    outcome = format_source(source)
     assert outcome.ok
     assert parse(Source("", outcome.value)).diagnostics == ()
 

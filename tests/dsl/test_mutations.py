@@ -8,7 +8,7 @@ from pathlib import Path
 
 from mutations import is_grammatical, mutation
 
-from skillc_dsl.parser import parse
+from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 
 ROOT = Path(__file__).parents[2]

@@ -24,7 +24,7 @@ PROBLEMS = [
     Diagnostic("unused-let", Span("a.skill", 4, 5, 6, 2), "never read", severity="warning"),
     Diagnostic("unused-let", Span("a.skill", 9, 5, 9, 5), "never\x1b read", severity="warning"),
 ]
-RULES = {"unused-let": sarif.Rule("unused-let", "A let that nothing reads", "Delete it.")}
+RULES = {"unused-let": sarif.SarifRule("unused-let", "A let that nothing reads", "Delete it.")}
 
 
 def closed(required: list[str], **properties: object) -> dict[str, object]:

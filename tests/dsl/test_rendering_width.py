@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.rendering import full
-from skillc_dsl.rendering.columns import CUT, cells, lay_out, window
+from skillc_dsl.rendering.columns import CUT, clip_line, count_cells, lay_out
 from skillc_dsl.source import Source, Span
 
 LONG = "many words of explanation that do not fit on one line of a narrow terminal, so that they are wrapped"
@@ -26,7 +26,7 @@ CHARACTERS = st.sampled_from("abc \té你好🙂\u0301\x1b")
 def test_nothing_is_wider_than_the_page(width: int) -> None:
     rows = full.render([PROBLEM], {"a.skill": SOURCE}, width=width).splitlines()
     assert len(rows) > 10
-    assert max(cells(row) for row in rows) <= width
+    assert max(count_cells(row) for row in rows) <= width
 
 
 @pytest.mark.parametrize("width", [40, 60, 120, None])
@@ -41,7 +41,7 @@ def test_wide_characters_count_twice_and_tabs_go_to_the_next_stop() -> None:
     problem = Diagnostic("unknown-class", Span("a.skill", 1, 11, 1, 17), "no")
     *_, line, carets = full.render([problem], {"a.skill": source}).splitlines()
     assert line == '1 |     in "你é🙂" Prodct'
-    assert cells(line[: line.index("Prodct")]) == carets.index("^")
+    assert count_cells(line[: line.index("Prodct")]) == carets.index("^")
     assert carets.endswith(" ^^^^^^")
 
 
@@ -68,8 +68,8 @@ def test_a_fix_that_is_a_guess_is_not_promised() -> None:
 def test_a_window_shows_the_place_in_the_width_given(text: str, start: int, length: int, width: int) -> None:
     line = lay_out(text)
     start = min(start, line.edges[-1])
-    shown = window(line, start, start + length, width)
-    assert cells(shown.text) <= width
+    shown = clip_line(line, start, start + length, width)
+    assert count_cells(shown.text) <= width
     assert shown.shift <= start <= shown.shift + width
     assert shown.text.startswith(CUT) == (shown.shift > 0)
     if line.edges[-1] <= width:
@@ -80,5 +80,5 @@ def test_a_window_shows_the_place_in_the_width_given(text: str, start: int, leng
 def test_edges_are_where_the_terminal_puts_characters(text: str) -> None:
     line = lay_out(text)
     assert [line.edge(column) for column in range(1, len(text) + 1)] == [
-        cells("".join(line.pieces[:index])) for index in range(len(text))
+        count_cells("".join(line.pieces[:index])) for index in range(len(text))
     ]

@@ -7,8 +7,8 @@ import pytest
 
 from skillc_dsl.diagnostics import Fix
 from skillc_dsl.encoding import decode
-from skillc_dsl.grammar import machine
-from skillc_dsl.parser import parse
+from skillc_dsl.parsing.grammar import load_parser
+from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 
 CASES = sorted((Path(__file__).parent.parent / "cases" / "syntax").glob("*.skill"))
@@ -36,7 +36,7 @@ def test_case(path: Path) -> None:
 
 @pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
 def test_no_message_shows_the_name_of_a_terminal(path: Path) -> None:
-    terminals = {terminal.name for terminal in machine().terminals}
+    terminals = {terminal.name for terminal in load_parser().terminals}
     diagnostics = parse(decode(path.name, path.read_bytes())).diagnostics
     assert diagnostics
     for diagnostic in diagnostics:

@@ -6,7 +6,7 @@ import pytest
 from examples import ALL, EVERYTHING, PICK, TASKS, VOCABULARY, WHOLE, WIPE
 
 from skillc_dsl import syntax as s
-from skillc_dsl.parser import parse
+from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 
 

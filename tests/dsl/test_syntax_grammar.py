@@ -7,9 +7,9 @@ from lark import Lark
 from lark.exceptions import GrammarError
 from lark.parsers.lalr_analysis import LALR_Analyzer
 
-from skillc_dsl.expectations import described
-from skillc_dsl.grammar import END, grammar_text, machine, words
-from skillc_dsl.lexing import tokens_of
+from skillc_dsl.parsing.expectations import describe_terminals
+from skillc_dsl.parsing.grammar import END, fixed_texts, grammar_text, load_parser
+from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.source import Source
 from skillc_dsl.units import UNITS
 
@@ -34,16 +34,16 @@ def test_a_conflict_would_show() -> None:
 @pytest.mark.parametrize("unit", UNITS)
 def test_every_unit_makes_one_token(unit: str) -> None:
     for text in (f"8 {unit}", f"0.5{unit}", f"1e-3\t{unit}"):
-        first, end = tokens_of(Source("", text)).value
+        first, end = tokenize(Source("", text)).value
         assert (first.type, str(first), end.type) == ("QUANTITY", text, END)
 
 
 def test_no_terminal_is_shown_by_its_name() -> None:
     shown = [
-        described([terminal.name])
-        for terminal in machine().terminals
+        describe_terminals([terminal.name])
+        for terminal in load_parser().terminals
         if terminal.name not in ("BLANK", "COMMENT", "UNIT")
     ]
     assert len(shown) > 100
-    marks = {f"`{text}`" for text in words().values()}
+    marks = {f"`{text}`" for text in fixed_texts().values()}
     assert all(text in marks or not re.search(r"[A-Z]{2}", text.replace("IRI", "I")) for text in shown)

@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.encoding import decode
-from skillc_dsl.lexing import tokens_of
-from skillc_dsl.parser import parse
+from skillc_dsl.parsing.lexer import tokenize
+from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 
-WORDS = [(t.start_pos or 0, t.end_pos or 0) for t in tokens_of(Source("", WHOLE)).value]
+WORDS = [(t.start_pos or 0, t.end_pos or 0) for t in tokenize(Source("", WHOLE)).value]
 EDITS: dict[str, Callable[[str, str], str]] = {
     "delete": lambda word, other: "",
     "double": lambda word, other: f"{word} {word}",

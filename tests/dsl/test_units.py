@@ -4,7 +4,18 @@ import math
 
 import pytest
 
-from skillc_dsl.units import DIMENSIONS, LENGTH, MASS, NUMBER, TIME, UNITS, Dimension, dimension_of, near_units, to_si
+from skillc_dsl.units import (
+    DIMENSIONS,
+    LENGTH,
+    MASS,
+    NUMBER,
+    TIME,
+    UNITS,
+    Dimension,
+    dimension_of,
+    suggest_units,
+    to_si,
+)
 
 
 @pytest.mark.parametrize(
@@ -47,6 +58,6 @@ def test_products_and_quotients() -> None:
 def test_a_foreign_unit() -> None:
     with pytest.raises(KeyError):
         to_si(1, "furlong")
-    assert near_units("newton")[0] == "N"
-    assert near_units("N/mm")[0] == "N/m"
-    assert near_units("furlong") == ()
+    assert suggest_units("newton")[0] == "N"
+    assert suggest_units("N/mm")[0] == "N/m"
+    assert suggest_units("furlong") == ()

@@ -17,7 +17,7 @@ from skillc_compiler.assist.completion import complete
 from skillc_compiler.assist.hover import hover
 from skillc_compiler.assist.places import definition, references
 from skillc_compiler.assist.rename import rename
-from skillc_dsl.parser import parse
+from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 from skillc_runtime.commands._library import SHIPPED, vocabulary
 from skillc_runtime.commands._server.files import shelf

@@ -12,7 +12,7 @@ from lsprotocol import types
 from skillc_compiler.assist.analysis import Analysis, Library, analyse
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_dsl.diagnostics import Outcome
-from skillc_dsl.parser import parse
+from skillc_dsl.parsing.parser import parse
 from skillc_runtime.commands._server import libraries
 from skillc_runtime.commands._server.session import Session
 

@@ -4,7 +4,7 @@ import pytest
 
 from skillc_compiler.emit.artifacts import artifacts
 from skillc_compiler.pipeline import compile
-from skillc_dsl.nesting import DEEPEST
+from skillc_dsl.parsing.nesting import DEEPEST
 from skillc_dsl.source import Source
 from skillc_runtime.commands._library import vocabulary
 

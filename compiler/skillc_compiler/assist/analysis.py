@@ -18,7 +18,7 @@ from skillc_compiler.resolve.program import resolve
 from skillc_compiler.types import Type
 from skillc_compiler.walk import values
 from skillc_dsl.diagnostics import Diagnostic, Outcome
-from skillc_dsl.parser import parse
+from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source, Span
 
 

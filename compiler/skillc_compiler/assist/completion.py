@@ -18,7 +18,7 @@ from skillc_compiler.assist.surroundings import Surroundings, surroundings
 from skillc_compiler.assist.term_pages import type_text
 from skillc_compiler.resolve.values import Wanted
 from skillc_compiler.types import Measure, Thing
-from skillc_dsl.grammar import END, fitting, shifted, words
+from skillc_dsl.parsing.grammar import END, fixed_texts, list_fitting_terminals, shift
 from skillc_dsl.source import Span
 from skillc_dsl.tokens import KEYWORDS
 from skillc_dsl.units import UNITS
@@ -79,16 +79,16 @@ def _in_code(analysis: Analysis, around: Surroundings, cursor: InCode) -> Iterat
 
 def keywords(cursor: InCode) -> Iterator[Offer]:
     """Offer the keywords that fit, without those that could only be names here; members begin on lines of their own."""
-    as_name = shifted(cursor.states, "NAME")
-    after_name = fitting(as_name) if as_name else frozenset()
-    here = fitting(cursor.states)
+    as_name = shift(cursor.states, "NAME")
+    after_name = list_fitting_terminals(as_name) if as_name else frozenset()
+    here = list_fitting_terminals(cursor.states)
     beginning = _BEGINNING if here & {"RBRACE", END} and not cursor.begins_line else frozenset()
     for terminal in sorted(here):
         if terminal == "OF" and here != {"OF"} and cursor.before[-1].value != "Vector":
             continue
-        text = words().get(terminal, "")
-        after = shifted(cursor.states, terminal) if text.isalpha() and text not in beginning | _VALUES else None
-        if after is not None and (as_name is None or fitting(after) != after_name):
+        text = fixed_texts().get(terminal, "")
+        after = shift(cursor.states, terminal) if text.isalpha() and text not in beginning | _VALUES else None
+        if after is not None and (as_name is None or list_fitting_terminals(after) != after_name):
             yield Offer(text, "keyword", rank=5)
 
 

@@ -9,8 +9,8 @@ from typing import TypeAlias
 
 from lark import Token
 
-from skillc_dsl.grammar import END, fits, machine, shifted
-from skillc_dsl.lexing import tokens_of
+from skillc_dsl.parsing.grammar import END, can_continue, load_parser, shift
+from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.source import Source, Span
 
 _HEAD = re.compile(r"\s*(class|relation|property|function|skill|impl|task)\b|(use|prefix|import)\b")
@@ -56,7 +56,7 @@ class InCode:
 
     def fits(self, *terminals: str) -> bool:
         """Whether these terminals could follow, one after the other."""
-        return fits(self.states, *terminals)
+        return can_continue(self.states, *terminals)
 
 
 Cursor: TypeAlias = InComment | InText | InCode
@@ -85,9 +85,9 @@ def cursor_at(text: str, path: str, line: int, column: int) -> Cursor:
 
 def states_after(tokens: Sequence[Token]) -> tuple[int, ...]:
     """Return the parser's states after tokens; what does not fit is passed over, or ends what it stands in."""
-    states: list[int] = list(machine().parse_interactive("").parser_state.state_stack)
+    states: list[int] = list(load_parser().parse_interactive("").parser_state.state_stack)
     for token in tokens:
-        after = shifted(states, token.type)
+        after = shift(states, token.type)
         if after is not None:
             states = after
         elif token.type not in ("NAME", "QNAME"):
@@ -98,7 +98,7 @@ def states_after(tokens: Sequence[Token]) -> tuple[int, ...]:
 def _resumed(states: list[int], terminal: str) -> list[int]:
     """Return the states after dropping the least that lets `terminal` follow, unchanged where nothing does."""
     for kept in range(len(states) - 1, 0, -1):
-        after = shifted(states[:kept], terminal)
+        after = shift(states[:kept], terminal)
         if after is not None:
             return after
     return states
@@ -121,7 +121,7 @@ def _first_line(lines: Sequence[str], line: int) -> int:
 
 
 def _tokens(lines: Sequence[str], path: str) -> tuple[Token, ...]:
-    found = tokens_of(Source(path, "\n".join(lines))).value
+    found = tokenize(Source(path, "\n".join(lines))).value
     return tuple(token for token in found if token.type != END)
 
 

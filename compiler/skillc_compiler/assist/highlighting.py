@@ -28,7 +28,7 @@ from skillc_compiler.assist.symbols import (
     TypeSymbol,
 )
 from skillc_dsl.source import Span
-from skillc_dsl.tokens import PATTERNS, group_of
+from skillc_dsl.tokens import PATTERNS, keyword_group
 
 WordKind: TypeAlias = Literal[
     "namespace", "class", "type", "method", "property", "function", "interface", "parameter", "variable",
@@ -76,7 +76,7 @@ def _words(names: dict[tuple[int, int], Occurrence], path: str, number: int, lin
             yield Word(Span(path, number, start, number, width), _kind(occurrence.symbol), occurrence.declares)
         elif group in _PLAIN:
             yield Word(Span(path, number, start, number, end), _PLAIN[group])
-        elif group == "name" and group_of(match.group()):
+        elif group == "name" and keyword_group(match.group()):
             yield Word(Span(path, number, start, number, end), "keyword")
 
 

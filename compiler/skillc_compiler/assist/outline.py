@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias, assert_never
 
 from skillc_dsl import syntax as s
-from skillc_dsl.comments import comments
-from skillc_dsl.lexing import tokens_of
+from skillc_dsl.comments import find_comments
+from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.source import Source, Span
 
 EntryKind: TypeAlias = Literal[
@@ -92,7 +92,7 @@ def _below(parents: tuple[s.Name, ...]) -> str:
 
 def _braces(source: Source) -> Iterator[Fold]:
     opened: list[int] = []
-    for token in tokens_of(source).value:
+    for token in tokenize(source).value:
         if token.type == "LBRACE":
             opened.append(token.line or 1)
         elif token.type == "RBRACE" and opened:
@@ -103,7 +103,7 @@ def _braces(source: Source) -> Iterator[Fold]:
 
 
 def _comments(source: Source) -> Iterator[Fold]:
-    lines = [comment.span.line for comment in comments(source) if comment.alone]
+    lines = [comment.span.line for comment in find_comments(source) if comment.alone]
     first = 0
     for index, line in enumerate(lines):
         if index + 1 == len(lines) or lines[index + 1] != line + 1:

@@ -23,8 +23,8 @@ from skillc_compiler.assist.symbols import (
 )
 from skillc_compiler.resolve.files import Parse
 from skillc_dsl.diagnostics import Diagnostic, Fix
-from skillc_dsl.edits import applied
-from skillc_dsl.parser import parse
+from skillc_dsl.edits import apply_fixes
+from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source, Span
 from skillc_dsl.tokens import KEYWORDS, NAME, NAMES_ELSEWHERE
 
@@ -148,4 +148,4 @@ def _broken(analysis: Analysis, edits: Iterable[Fix], parsed_by: Parse) -> Diagn
 def _edited(sources: Mapping[str, Source], edits: Iterable[Fix]) -> dict[str, Source]:
     ordered = sorted(edits, key=lambda edit: edit.span.path)
     grouped = groupby(ordered, key=lambda edit: edit.span.path)
-    return {path: Source(path, applied(sources[path].text, group)) for path, group in grouped}
+    return {path: Source(path, apply_fixes(sources[path].text, group)) for path, group in grouped}

@@ -8,7 +8,7 @@ from typing import assert_never
 from skillc_compiler.picture.boxes import Box
 from skillc_compiler.picture.nodes import Nodes
 from skillc_dsl import syntax as s
-from skillc_dsl.building.places import Places
+from skillc_dsl.parsing.building.places import TreeBuilder
 from skillc_dsl.source import Source
 
 
@@ -16,7 +16,7 @@ def skill_box(
     skill: s.SkillDeclaration, source: Source, implementations: Sequence[tuple[s.ImplementationDeclaration, Source]]
 ) -> Box:
     """Return a skill's conditions over a tree for each implementation; each comes with the text it was written in."""
-    places = Places(source)
+    places = TreeBuilder(source)
     conditions = tuple(places.written(each.span) for each in skill.members if isinstance(each, s.Requirement))
     ways = tuple(implementation_box(written, own) for written, own in implementations)
     nothing = (Box("guard", "∅", "no implementation here"),)
@@ -25,7 +25,7 @@ def skill_box(
 
 def implementation_box(written: s.ImplementationDeclaration, source: Source) -> Box:
     """Return the tree of an implementation under what it demands and the values it names."""
-    places = Places(source)
+    places = TreeBuilder(source)
     lines: list[str] = []
     bodies: list[Box] = []
     for member in written.members:
@@ -47,6 +47,6 @@ def task_box(written: s.TaskDeclaration, source: Source) -> Box:
     if written.goal is not None:
         parts.append(Box("guard", "⚑", "goal", (written.goal_text,)))
     if written.body is not None:
-        parts.append(Nodes(Places(source)).box(written.body.node))
+        parts.append(Nodes(TreeBuilder(source)).box(written.body.node))
     scene = (f'scene "{written.scene.value}"',) if written.scene else ()
     return Box("heading", "◆", f"task {written.name.text}", scene, tuple(parts))

@@ -7,7 +7,7 @@ from typing import assert_never
 
 from skillc_compiler.picture.boxes import Box
 from skillc_dsl import syntax as s
-from skillc_dsl.building.places import Places
+from skillc_dsl.parsing.building.places import TreeBuilder
 
 SYMBOLS = {"seq": "→", "sel": "?", "par": "⇉", "try": "~", "invert": "!", "once": "1"}
 
@@ -16,7 +16,7 @@ SYMBOLS = {"seq": "→", "sel": "?", "par": "⇉", "try": "~", "invert": "!", "o
 class Nodes:
     """Draws the nodes of one file; `places` has its text."""
 
-    places: Places
+    places: TreeBuilder
 
     def box(self, node: s.Node) -> Box:
         """Return the box of a node with those of its children."""

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from markupsafe import Markup
 
-from skillc_dsl.lexing import tokens_of
+from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.rendering.printable import printable
 from skillc_dsl.source import Source
 
@@ -27,7 +27,7 @@ def excerpt(source: Source, first: int, last: int) -> Markup:
 def _stretches(source: Source) -> Iterator[tuple[int, int, str]]:
     """Yield start, end and kind of what is set apart, in order."""
     end = 0
-    for token in tokens_of(source).value:
+    for token in tokenize(source).value:
         start = token.start_pos or 0
         yield from _comments(source.text, end, start if token else len(source.text))
         end = token.end_pos or 0

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from skillc_compiler.program import ReadFile
 from skillc_dsl import syntax as s
-from skillc_dsl.building.places import Places
+from skillc_dsl.parsing.building.places import TreeBuilder
 from skillc_dsl.source import Source, Span
 
 
@@ -26,7 +26,7 @@ class Written:
 
     def words(self, span: Span) -> str:
         """Return what stands there, on one line."""
-        return Places(self.source(span)).written(span)
+        return TreeBuilder(self.source(span)).written(span)
 
 
 def written(files: Sequence[ReadFile]) -> Written:

@@ -11,7 +11,7 @@ from skillc_compiler.program import ReadFile
 from skillc_compiler.resolve.near import correction
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
-from skillc_dsl.parser import parse
+from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 
 SHELF = "std"

@@ -11,7 +11,7 @@ import pyoxigraph as ox
 
 from skillc_compiler.vocabulary.formats import Refused, format_of
 from skillc_dsl.diagnostics import Diagnostic, Outcome
-from skillc_dsl.encoding import not_text, wrong_bytes
+from skillc_dsl.encoding import report_not_text, report_wrong_bytes
 from skillc_dsl.source import Source, Span
 
 
@@ -35,7 +35,7 @@ def read(sources: Iterable[Source]) -> Outcome[tuple[Ontology, ...]]:
 
 
 def _read(source: Source) -> Outcome[tuple[ox.Quad, ...]]:
-    problem = not_text(source) or wrong_bytes(source)
+    problem = report_not_text(source) or report_wrong_bytes(source)
     if problem is not None:
         return Outcome((), (problem,))
     form = format_of(source)

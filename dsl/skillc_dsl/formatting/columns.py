@@ -12,7 +12,7 @@ KEYWORD = "keyword"
 
 
 @dataclass(frozen=True, slots=True)
-class Cell:
+class ColumnCell:
     """A piece of a line in the column of that name, `gap` columns from what follows.
 
     One that is `loose` widens no column.
@@ -25,15 +25,15 @@ class Cell:
 
 
 @dataclass(frozen=True, slots=True)
-class Member:
+class MemberLine:
     """A line, or several: comments above it, cells, and the rest, which has no column."""
 
     above: d.Document
-    cells: tuple[Cell, ...]
+    cells: tuple[ColumnCell, ...]
     rest: d.Document
 
 
-def aligned(members: Sequence[Member], least: int = 0) -> Iterator[d.Document]:
+def align_columns(members: Sequence[MemberLine], least: int = 0) -> Iterator[d.Document]:
     """Yield each member with its cells padded; the keywords' column is `least` wide at least.
 
     A member with a comment among its cells stays out of the columns.
@@ -46,15 +46,15 @@ def aligned(members: Sequence[Member], least: int = 0) -> Iterator[d.Document]:
                 widths[cell.column] = max(widths.get(cell.column, 0), len(text))
     for member, row in zip(members, texts, strict=True):
         if len(row) < len(member.cells):
-            loose = (part for cell in member.cells for part in (cell.content, d.Space()))
-            yield d.joined(member.above, *loose, member.rest)
+            loose = (part for cell in member.cells for part in (cell.content, d.Gap()))
+            yield d.concatenate(member.above, *loose, member.rest)
         else:
             cells = zip(member.cells, row, strict=True)
             padded = "".join(f"{text:<{widths.get(cell.column, 0)}}{' ' * cell.gap}" for cell, text in cells)
-            yield d.joined(member.above, *([d.Text(padded)] if padded else []), member.rest)
+            yield d.concatenate(member.above, *([d.Fragment(padded)] if padded else []), member.rest)
 
 
-def _texts(member: Member) -> tuple[str, ...]:
+def _texts(member: MemberLine) -> tuple[str, ...]:
     """Return the texts of all cells, none where one of them has a comment."""
     texts = [one_line(cell.content) for cell in member.cells]
     return () if None in texts else tuple(text or "" for text in texts)

@@ -8,50 +8,50 @@ from typing import TypeAlias
 
 
 @dataclass(frozen=True, slots=True)
-class Text:
+class Fragment:
     """Characters that stay together."""
 
     text: str
 
 
 @dataclass(frozen=True, slots=True)
-class Space:
+class Gap:
     """A space between two texts of one line."""
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class SoftBreak:
     """A place where a group breaks that does not fit its line; otherwise `flat`."""
 
     flat: str = " "
 
 
 @dataclass(frozen=True, slots=True)
-class NewLine:
+class HardBreak:
     """A place where the line ends."""
 
 
 @dataclass(frozen=True, slots=True)
-class Blank:
+class BlankLine:
     """A wish for one blank line before what follows."""
 
 
 @dataclass(frozen=True, slots=True)
-class Remark:
+class TrailingComment:
     """A comment at the end of its line."""
 
     text: str
 
 
 @dataclass(frozen=True, slots=True)
-class Note:
+class CommentLine:
     """A comment on a line of its own."""
 
     text: str
 
 
 @dataclass(frozen=True, slots=True)
-class Mark:
+class Punctuation:
     """A comma or an opening brace: it stays on the line of what it follows, before any comment there."""
 
     text: str
@@ -65,42 +65,44 @@ class WhenBroken:
 
 
 @dataclass(frozen=True, slots=True)
-class Nest:
+class Indent:
     """What is indented by one step, from its next line on."""
 
     body: Document
 
 
 @dataclass(frozen=True, slots=True)
-class Group:
-    """What stands on one line if it fits; otherwise every `Line` of it breaks, those of inner groups aside."""
+class DocumentGroup:
+    """What stands on one line if it fits; otherwise every `SoftBreak` of it breaks, those of inner groups aside."""
 
     body: Document
 
 
 @dataclass(frozen=True, slots=True)
-class Joined:
+class Concatenation:
     """Parts one after the other."""
 
     parts: tuple[Document, ...]
 
 
-Leaf: TypeAlias = Text | Space | Line | NewLine | Blank | Remark | Note | Mark | WhenBroken
-Document: TypeAlias = Leaf | Nest | Group | Joined
-NOTHING = Joined(())
+Leaf: TypeAlias = (
+    Fragment | Gap | SoftBreak | HardBreak | BlankLine | TrailingComment | CommentLine | Punctuation | WhenBroken
+)
+Document: TypeAlias = Leaf | Indent | DocumentGroup | Concatenation
+NOTHING = Concatenation(())
 
 
-def joined(*parts: Document) -> Joined:
+def concatenate(*parts: Document) -> Concatenation:
     """Put parts one after the other."""
-    return Joined(parts)
+    return Concatenation(parts)
 
 
 def leaves(document: Document) -> Iterator[Leaf]:
     """Yield what a document is made of, in order."""
     match document:
-        case Nest(body=body) | Group(body=body):
+        case Indent(body=body) | DocumentGroup(body=body):
             yield from leaves(body)
-        case Joined(parts=parts):
+        case Concatenation(parts=parts):
             for part in parts:
                 yield from leaves(part)
         case _:
@@ -111,7 +113,7 @@ def has_comment(document: Document) -> bool:
     """Whether a comment among the texts of a document makes its lines break; one after all of them does not."""
     remarked = False
     for leaf in leaves(document):
-        if isinstance(leaf, Note) or (remarked and isinstance(leaf, Text)):
+        if isinstance(leaf, CommentLine) or (remarked and isinstance(leaf, Fragment)):
             return True
-        remarked = remarked or isinstance(leaf, Remark)
+        remarked = remarked or isinstance(leaf, TrailingComment)
     return False

@@ -28,7 +28,7 @@ def index_of(children: Sequence[Branch], kind: str) -> int:
     return next((index for index, child in enumerate(children) if is_token(child, kind)), -1)
 
 
-class Inline:
+class InlineFormatter:
     """Makes documents of everything without braces."""
 
     def __init__(self, notes: Notes) -> None:
@@ -37,7 +37,7 @@ class Inline:
     def of(self, branch: Branch) -> d.Document:
         """Return the document of a token or a tree."""
         if isinstance(branch, Token):
-            return d.joined(self.notes.above(branch), self.bare(branch))
+            return d.concatenate(self.notes.above(branch), self.bare(branch))
         children = branch.children
         if branch.data in _CHAINS:
             return self._chain(branch)
@@ -48,35 +48,35 @@ class Inline:
         if branch.data == "parentheses":
             return self.bracketed(children)
         if branch.data == "quantified":
-            return d.joined(self.spaced(children[:3]), d.Space(), self.bracketed(children[3:]))
+            return d.concatenate(self.spaced(children[:3]), d.Gap(), self.bracketed(children[3:]))
         return self.spaced(children)
 
     def bare(self, token: Token) -> d.Document:
         """Return a token without the comments above it; a quantity has one space before its unit."""
         number = re.match(NUMBER, token) if token.type == "QUANTITY" else None
         text = f"{number.group()} {token[number.end() :].strip()}" if number else token.value
-        return d.joined(d.Text(text), self.notes.behind(token))
+        return d.concatenate(d.Fragment(text), self.notes.behind(token))
 
     def tight(self, children: Sequence[Branch]) -> d.Document:
         """Put nothing between the parts."""
-        return d.Joined(tuple(self.of(child) for child in children))
+        return d.Concatenation(tuple(self.of(child) for child in children))
 
     def spaced(self, children: Sequence[Branch]) -> d.Document:
         """Put spaces between the parts; a list that is too long for its line breaks after every comma."""
         first, *others = children
-        gap: d.Document = d.Space()
+        gap: d.Document = d.Gap()
         parts: list[d.Document] = [self.bare(first) if isinstance(first, Token) else self.of(first)]
         for child in others:
             if isinstance(child, Token) and child.type == "COMMA":
                 parts.append(self._comma(child))
-                gap = d.Line()
+                gap = d.SoftBreak()
             else:
                 parts += [gap, self.of(child)]
-                gap = d.Space()
+                gap = d.Gap()
         above = self.notes.above(first) if isinstance(first, Token) else d.NOTHING
         listed = index_of(children, "COMMA") >= 0
-        line = d.Joined(tuple(parts))
-        return d.joined(above, d.Group(d.Nest(line)) if listed else line)
+        line = d.Concatenation(tuple(parts))
+        return d.concatenate(above, d.DocumentGroup(d.Indent(line)) if listed else line)
 
     def bracketed(self, children: Sequence[Branch], end: str = "") -> d.Document:
         """Return brackets and what stands between, which has lines of its own where it is too long for one.
@@ -84,36 +84,36 @@ class Inline:
         `end` is a mark that the last part has where it breaks.
         """
         opening, *inner, closing = children
-        parts: list[d.Document] = [d.Line("")]
+        parts: list[d.Document] = [d.SoftBreak("")]
         for index, child in enumerate(inner):
             if isinstance(child, Token) and child.type == "COMMA":
                 last = index == len(inner) - 1
-                parts.append(self._comma(child, d.WhenBroken(end) if last else d.Mark(",")))
-                parts += [] if last else [d.Line()]
+                parts.append(self._comma(child, d.WhenBroken(end) if last else d.Punctuation(",")))
+                parts += [] if last else [d.SoftBreak()]
             else:
                 parts.append(self.of(child))
         if inner and end and not is_token(inner[-1], "COMMA"):
             parts.append(d.WhenBroken(end))
         if not isinstance(closing, Token):
             raise TypeError(f"a bracket was expected, not {closing!r}")
-        body = d.Nest(d.joined(*parts, self.above_closing(closing)))
-        return d.Group(d.joined(self.of(opening), body, d.Line(""), self.bare(closing)))
+        body = d.Indent(d.concatenate(*parts, self.above_closing(closing)))
+        return d.DocumentGroup(d.concatenate(self.of(opening), body, d.SoftBreak(""), self.bare(closing)))
 
     def above_closing(self, token: Token) -> d.Document:
         """Return the comments above a closing bracket or brace, each on its line."""
         notes = self.notes.above(token)
-        return notes if notes == d.NOTHING else d.joined(d.NewLine(), notes)
+        return notes if notes == d.NOTHING else d.concatenate(d.HardBreak(), notes)
 
     def _comma(self, token: Token, mark: d.Document | None = None) -> d.Document:
-        return d.joined(mark or d.Mark(","), self.notes.behind(token))
+        return d.concatenate(mark or d.Punctuation(","), self.notes.behind(token))
 
     def _chain(self, tree: Tree[Token]) -> d.Document:
         """Return operands and operators; every operator begins a line where they are too long for one."""
         first, *rest = self._links(tree)
         parts: list[d.Document] = []
         for operator, operand in zip(rest[::2], rest[1::2], strict=True):
-            parts += [d.Line(), self.of(operator), d.Space(), self.of(operand)]
-        return d.Group(d.joined(self.of(first), d.Nest(d.Joined(tuple(parts)))))
+            parts += [d.SoftBreak(), self.of(operator), d.Gap(), self.of(operand)]
+        return d.DocumentGroup(d.concatenate(self.of(first), d.Indent(d.Concatenation(tuple(parts)))))
 
     def _links(self, tree: Tree[Token]) -> list[Branch]:
         """Return operands and operators in their order; a chain on the left is part of this one."""
@@ -128,5 +128,5 @@ class Inline:
         is_step = isinstance(children[0], Tree) and children[0].data == "callee"
         head = self.tight(children[:start])
         brackets = self.bracketed(children[start : end + 1], "," if is_step else "")
-        tail = [part for child in children[end + 1 :] for part in (d.Space(), self.of(child))]
-        return d.joined(head, brackets, *tail)
+        tail = [part for child in children[end + 1 :] for part in (d.Gap(), self.of(child))]
+        return d.concatenate(head, brackets, *tail)

@@ -10,6 +10,7 @@ from skillc_dsl.formatting import documents as d
 
 WIDTH = 120
 STEP = 4
+GAP = 2
 
 
 @dataclass(slots=True)
@@ -38,11 +39,11 @@ def lay_out(document: d.Document) -> list[Row]:
     while pending:
         indent, breaks, part = pending.pop()
         match part:
-            case d.Joined(parts=parts):
+            case d.Concatenation(parts=parts):
                 pending.extend((indent, breaks, inner) for inner in reversed(parts))
-            case d.Nest(body=body):
+            case d.Indent(body=body):
                 pending.append((indent + STEP, breaks, body))
-            case d.Group(body=body):
+            case d.DocumentGroup(body=body):
                 flat = not d.has_comment(body) and _fits(body, pending, WIDTH - page.column)
                 pending.append((indent, not flat, body))
             case _:
@@ -52,7 +53,7 @@ def lay_out(document: d.Document) -> list[Row]:
 
 def one_line(document: d.Document) -> str | None:
     """Return the text of a document without comments that fits one line, None for any other."""
-    rows = lay_out(d.Group(document))
+    rows = lay_out(d.DocumentGroup(document))
     return rows[0].code if len(rows) == 1 and not rows[0].remark else None
 
 
@@ -70,17 +71,17 @@ def _widths(pending: list[Pending]) -> Iterator[tuple[int, bool]]:
     while pending:
         indent, breaks, part = pending.pop()
         match part:
-            case d.Joined(parts=parts):
+            case d.Concatenation(parts=parts):
                 pending.extend((indent, breaks, inner) for inner in reversed(parts))
-            case d.Nest(body=inner) | d.Group(body=inner):
+            case d.Indent(body=inner) | d.DocumentGroup(body=inner):
                 pending.append((indent, breaks, inner))
-            case d.Text(text=text) | d.Mark(text=text):
+            case d.Fragment(text=text) | d.Punctuation(text=text):
                 yield len(text), False
-            case d.Space():
+            case d.Gap():
                 yield 1, False
-            case d.Line(flat=flat):
+            case d.SoftBreak(flat=flat):
                 yield 0 if breaks else len(flat), breaks
-            case d.NewLine() | d.Blank() | d.Remark() | d.Note():
+            case d.HardBreak() | d.BlankLine() | d.TrailingComment() | d.CommentLine():
                 yield 0, True
             case d.WhenBroken(text=text):
                 yield len(text) if breaks else 0, False
@@ -106,21 +107,21 @@ class _Page:
     def take(self, part: d.Leaf, indent: int, breaks: bool) -> None:
         """Write one part that has no parts of its own."""
         match part:
-            case d.Text(text=text):
+            case d.Fragment(text=text):
                 self._write(text, indent)
-            case d.Space():
+            case d.Gap():
                 self._space = self._open
-            case d.Line(flat=flat):
+            case d.SoftBreak(flat=flat):
                 self._line(flat, indent, breaks)
-            case d.NewLine():
+            case d.HardBreak():
                 self._end(indent)
-            case d.Blank():
+            case d.BlankLine():
                 self._blank = True
-            case d.Remark(text=text):
+            case d.TrailingComment(text=text):
                 self.rows[-1].remark = text
-            case d.Note(text=text):
+            case d.CommentLine(text=text):
                 self._note(text, indent)
-            case d.Mark(text=text):
+            case d.Punctuation(text=text):
                 self.rows[-1].code += text
             case d.WhenBroken(text=text):
                 self.rows[-1].code += text if breaks else ""
@@ -156,3 +157,30 @@ class _Page:
         self._end(start)
         self._write(text, indent)
         self._end(start)
+
+
+def render_rows(rows: Sequence[Row]) -> str:
+    """Return the text of all rows, each with its comment."""
+    return "".join(line for run in _runs(rows) for line in _lines(run))
+
+
+def _runs(rows: Sequence[Row]) -> Iterator[list[Row]]:
+    """Yield the rows up to a blank line or another indentation."""
+    run: list[Row] = []
+    for row in rows:
+        if run and (row.blank_before or row.indent != run[-1].indent):
+            yield run
+            run = []
+        run.append(row)
+    yield run
+
+
+def _lines(run: Sequence[Row]) -> Iterator[str]:
+    """Yield the lines of a run; where a comment would then be too long, each stands `GAP` columns from its line."""
+    column = GAP + max((row.width for row in run if row.remark), default=0)
+    aligned = all(column + len(row.remark) <= WIDTH for row in run)
+    for row in run:
+        blank = "\n" if row.blank_before else ""
+        code = (" " * row.indent + row.code).rstrip()
+        start = column if aligned else row.width + GAP
+        yield f"{blank}{code:<{start}}{row.remark}\n" if row.remark else f"{blank}{code}\n"

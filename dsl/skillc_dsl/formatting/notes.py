@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from lark import Token
 
-from skillc_dsl.comments import Comment, comments
-from skillc_dsl.formatting.documents import NOTHING, Blank, Document, Joined, Note, Remark
+from skillc_dsl.comments import Comment, find_comments
+from skillc_dsl.formatting.documents import NOTHING, BlankLine, CommentLine, Concatenation, Document, TrailingComment
 from skillc_dsl.source import Source
 
 _MARKS = ("COMMA", "LBRACE")
@@ -32,19 +32,19 @@ class Notes:
         return self.after.get(token.start_pos or 0, NOTHING)
 
 
-def notes_of(source: Source, tokens: Sequence[Token], statements: Collection[int]) -> Notes:
+def attach_comments(source: Source, tokens: Sequence[Token], statements: Collection[int]) -> Notes:
     """Attach every comment to the token before it on its line, else to the next.
 
     `statements` are the positions of tokens above which a blank line may stand.
     """
     lines = source.text.split("\n")
     before, after = _attached(source, tokens, lines)
-    last = Joined(tuple(before.pop(len(tokens), ())))
+    last = Concatenation(tuple(before.pop(len(tokens), ())))
     for index, token in enumerate(tokens):
         first = index == 0 or tokens[index - 1].end_line != token.line
         if first and token.start_pos in statements and _blank_above(lines, token.line or 1):
-            before.setdefault(index, []).append(Blank())
-    above = {tokens[index].start_pos or 0: Joined(tuple(parts)) for index, parts in before.items()}
+            before.setdefault(index, []).append(BlankLine())
+    above = {tokens[index].start_pos or 0: Concatenation(tuple(parts)) for index, parts in before.items()}
     return Notes(above, after, last)
 
 
@@ -58,13 +58,13 @@ def _attached(
     starts = [(token.line or 1, token.column or 1) for token in tokens]
     before: dict[int, list[Document]] = {}
     after: dict[int, Document] = {}
-    for comment in comments(source):
+    for comment in find_comments(source):
         index = found = bisect_left(starts, (comment.span.line, comment.span.column))
         while index < len(tokens) and tokens[index].type in _MARKS:
             index += 1
         last = tokens[index - 1] if index else None
         if last is not None and not comment.alone and last.start_pos not in after and index not in before:
-            after[last.start_pos or 0] = Remark(comment.written)
+            after[last.start_pos or 0] = TrailingComment(comment.written)
         else:
             entered = last is not None and last.type == "LBRACE" and tokens[index].type != "RBRACE"
             moved = index > found or not comment.alone
@@ -75,10 +75,10 @@ def _attached(
 def _note(comment: Comment, lines: Sequence[str], *, documents: bool) -> Iterator[Document]:
     """Yield a comment with the blank line above it; and one below it where it `documents` what it did not before."""
     if _blank_above(lines, comment.span.line) and comment.alone:
-        yield Blank()
-    yield Note(comment.written)
+        yield BlankLine()
+    yield CommentLine(comment.written)
     if documents and comment.written.startswith("##"):
-        yield Blank()
+        yield BlankLine()
 
 
 def _blank_above(lines: Sequence[str], line: int) -> bool:

@@ -7,12 +7,12 @@ from collections.abc import Iterator, Sequence
 from lark import Token, Tree
 
 from skillc_dsl.formatting import documents as d
-from skillc_dsl.formatting.inline import Branch, Inline, index_of, is_token
+from skillc_dsl.formatting.inline import Branch, InlineFormatter, index_of, is_token
 
 _SHORT = ("call", "wait", "wait_until", "check", "apply_posts")
 
 
-class Steps(Inline):
+class StepFormatter(InlineFormatter):
     """Makes documents of steps, each on its line."""
 
     def step(self, tree: Branch) -> d.Document:
@@ -25,7 +25,7 @@ class Steps(Inline):
         if start < 0:
             return self.of(tree)
         block = tree.children[start:]
-        return d.joined(self.spaced(tree.children[:start]), self._braces(block, self._is_short(block)))
+        return d.concatenate(self.spaced(tree.children[:start]), self._braces(block, self._is_short(block)))
 
     def _if(self, children: Sequence[Branch], short: bool) -> d.Document:
         """Return `if C { }` with `else { }` on the line of the `}` before it; all blocks are `short`, or none is."""
@@ -33,14 +33,14 @@ class Steps(Inline):
         parts: list[d.Document] = [self.spaced(children[:2]), self._braces(then, short)]
         for child in children[3:]:
             word, *rest = _inside(child)
-            parts += [d.Space() if self._is_free(then[-1], word) else d.NewLine(), self.of(word)]
+            parts += [d.Gap() if self._is_free(then[-1], word) else d.HardBreak(), self.of(word)]
             further = isinstance(rest[0], Tree)
-            parts += [d.Space(), self._if(_inside(rest[0]), short)] if further else [self._braces(rest, short)]
-        return d.Joined(tuple(parts))
+            parts += [d.Gap(), self._if(_inside(rest[0]), short)] if further else [self._braces(rest, short)]
+        return d.Concatenation(tuple(parts))
 
     def opening(self, brace: Token) -> d.Document:
         """Return an opening brace, which stays on the line of what it follows."""
-        return d.joined(d.Mark(" {"), self.notes.behind(brace))
+        return d.concatenate(d.Punctuation(" {"), self.notes.behind(brace))
 
     def _is_free(self, closing: Branch, word: Branch) -> bool:
         """Whether no comment stands between a `}` and the `else` after it."""
@@ -59,7 +59,7 @@ class Steps(Inline):
 
     def _is_bare(self, step: Branch) -> bool:
         """Whether a step has no comments."""
-        return not any(isinstance(leaf, d.Note | d.Remark) for leaf in d.leaves(self.of(step)))
+        return not any(isinstance(leaf, d.CommentLine | d.TrailingComment) for leaf in d.leaves(self.of(step)))
 
     def _braces(self, block: Sequence[Branch], short: bool) -> d.Document:
         """Return a block: on the line of its braces if it is `short` and fits, otherwise a line for each step."""
@@ -67,12 +67,12 @@ class Steps(Inline):
         if not isinstance(opening, Token) or not isinstance(closing, Token):
             raise TypeError(f"braces were expected, not {block!r}")
         if not steps and self._is_short(block):
-            return d.joined(self.opening(opening), d.Space(), self.bare(closing))
-        gap = d.Line() if short else d.NewLine()
+            return d.concatenate(self.opening(opening), d.Gap(), self.bare(closing))
+        gap = d.SoftBreak() if short else d.HardBreak()
         lines = (part for step in steps for part in (gap, self.step(step)))
-        body = d.Nest(d.joined(*lines, self.above_closing(closing)))
-        whole = d.joined(self.opening(opening), body, gap, self.bare(closing))
-        return d.Group(whole) if short else whole
+        body = d.Indent(d.concatenate(*lines, self.above_closing(closing)))
+        whole = d.concatenate(self.opening(opening), body, gap, self.bare(closing))
+        return d.DocumentGroup(whole) if short else whole
 
 
 def _blocks(tree: Tree[Token]) -> Iterator[Sequence[Branch]]:

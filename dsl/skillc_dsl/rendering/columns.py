@@ -16,7 +16,7 @@ _REMEMBERED_LINES = 16
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class DisplayLine:
     """A line as a terminal shows it: `pieces` has the text for each character, `edges` the cell where each begins.
 
     The last of the edges is where the line ends.
@@ -41,23 +41,23 @@ class Window:
 
 
 @lru_cache(_REMEMBERED_LINES)
-def lay_out(text: str) -> Line:
+def lay_out(text: str) -> DisplayLine:
     """Return a line with its tabs as spaces up to the next stop and nothing in it that steers a terminal."""
     pieces: list[str] = []
     edges = [0]
     for character in printable(text):
         piece = " " * (TAB - edges[-1] % TAB) if character == "\t" else character
         pieces.append(piece)
-        edges.append(edges[-1] + (len(piece) if character == "\t" else cells(character)))
-    return Line(tuple(pieces), tuple(edges))
+        edges.append(edges[-1] + (len(piece) if character == "\t" else count_cells(character)))
+    return DisplayLine(tuple(pieces), tuple(edges))
 
 
-def cells(text: str) -> int:
+def count_cells(text: str) -> int:
     """Return how many cells a text takes in a terminal."""
     return sum(_cells(character) for character in text)
 
 
-def window(line: Line, start: int, end: int, width: int) -> Window:
+def clip_line(line: DisplayLine, start: int, end: int, width: int) -> Window:
     """Return up to `width` cells of a line around those from `start` to `end`, of which the start is shown at least."""
     last = line.edges[-1]
     if last <= width:

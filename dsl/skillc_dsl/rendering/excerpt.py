@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import groupby
 
-from skillc_dsl.rendering.columns import Line, Window, lay_out, window
+from skillc_dsl.rendering.columns import DisplayLine, Window, clip_line, lay_out
 from skillc_dsl.rendering.paint import Kind, Paint
 from skillc_dsl.rendering.printable import printable
 from skillc_dsl.source import Source, Span
@@ -20,7 +20,7 @@ _NARROWEST = 24
 
 
 @dataclass(frozen=True, slots=True)
-class Mark:
+class Underline:
     """A place to be underlined, with what is said about it."""
 
     span: Span
@@ -29,7 +29,7 @@ class Mark:
 
 
 @dataclass(frozen=True, slots=True)
-class Page:
+class ExcerptLayout:
     """What excerpts are written on: colours, cells from edge to edge (None without end), digits of line numbers."""
 
     paint: Paint
@@ -46,7 +46,7 @@ class Page:
         return max((self.width or _WIDTH) - self.digits - 3, _NARROWEST)
 
 
-def excerpt(source: Source | None, marks: Sequence[Mark], arrow: str, page: Page) -> Iterator[str]:
+def render_excerpt(source: Source | None, marks: Sequence[Underline], arrow: str, page: ExcerptLayout) -> Iterator[str]:
     """Yield the marked lines of one file below the place of the first mark, which alone is given without a source."""
     first = marks[0].span
     place = f"{' ' * page.digits}{page.paint('place', arrow)} {printable(first.path)}:{first.line}:{first.column}"
@@ -66,7 +66,7 @@ def _split(text: str) -> tuple[str, ...]:
     return tuple(text.split("\n"))
 
 
-def _lines(text: Sequence[str], marks: Iterable[Mark], page: Page) -> Iterator[str]:
+def _lines(text: Sequence[str], marks: Iterable[Underline], page: ExcerptLayout) -> Iterator[str]:
     """Yield lines in their order; a single line left out between two is shown, more are dots."""
     previous = 0
     by_line = sorted(marks, key=lambda mark: mark.span.line)
@@ -79,25 +79,25 @@ def _lines(text: Sequence[str], marks: Iterable[Mark], page: Page) -> Iterator[s
         previous = number
 
 
-def _line(text: Sequence[str], number: int, marks: Sequence[Mark], page: Page) -> Iterator[str]:
+def _line(text: Sequence[str], number: int, marks: Sequence[Underline], page: ExcerptLayout) -> Iterator[str]:
     """Yield one line, cut around its first mark if it is too long, with a row below it for each mark."""
     written = text[number - 1].rstrip("\r")
     line = lay_out(written)
     edges = [_edges(line, mark.span, len(written)) for mark in marks]
     start, end = edges[0] if edges else (0, 0)
-    shown = window(line, start, end, page.room)
+    shown = clip_line(line, start, end, page.room)
     yield f"{page.gutter(number)} {shown.text}".rstrip()
     for mark, (start, end) in zip(marks, edges, strict=True):
         yield from _row(mark, start, end, shown, page)
 
 
-def _edges(line: Line, span: Span, length: int) -> tuple[int, int]:
+def _edges(line: DisplayLine, span: Span, length: int) -> tuple[int, int]:
     """Return the cells where a mark begins and ends on its first line."""
     end = span.end_column if span.end_line == span.line else length + 1
     return line.edge(span.column), max(line.edge(end), line.edge(span.column) + 1)
 
 
-def _row(mark: Mark, start: int, end: int, shown: Window, page: Page) -> Iterator[str]:
+def _row(mark: Underline, start: int, end: int, shown: Window, page: ExcerptLayout) -> Iterator[str]:
     """Yield the carets of a mark, with its message beside them or, where there is no room, below."""
     indent = min(max(0, start - shown.shift), page.room - 1)
     sign = "-" if mark.kind == "label" else "^"

@@ -1,4 +1,4 @@
-"""Diagnostics with the text they speak of: line numbers, carets, causes and cures."""
+"""Diagnostics with the text they refer to: line numbers, carets, causes and fixes."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import textwrap
 from collections.abc import Iterable, Iterator, Mapping
 
 from skillc_dsl.diagnostics import Diagnostic, Fix
-from skillc_dsl.edits import applied
-from skillc_dsl.rendering.columns import lay_out, window
-from skillc_dsl.rendering.excerpt import Mark, Page, excerpt
+from skillc_dsl.edits import apply_fixes
+from skillc_dsl.rendering.columns import clip_line, lay_out
+from skillc_dsl.rendering.excerpt import ExcerptLayout, Underline, render_excerpt
 from skillc_dsl.rendering.paint import Paint
 from skillc_dsl.rendering.printable import printable
 from skillc_dsl.source import Source
@@ -17,7 +17,7 @@ from skillc_dsl.source import Source
 def render(
     diagnostics: Iterable[Diagnostic], sources: Mapping[str, Source], *, colour: bool = False, width: int | None = None
 ) -> str:
-    """Return each diagnostic with the lines it speaks of; places whose source is not among `sources` are only named.
+    """Return each diagnostic with the lines it refers to; places whose source is not among `sources` are only named.
 
     `width` is that of the page in cells: messages are wrapped there and long lines of source cut around their marks.
     Without, nothing is wrapped.
@@ -29,24 +29,24 @@ def render(
 def _lines(diagnostic: Diagnostic, sources: Mapping[str, Source], paint: Paint, width: int | None) -> Iterator[str]:
     severity = diagnostic.severity
     marks = [
-        Mark(diagnostic.span, "", severity),
-        *(Mark(each.span, each.message, "label") for each in diagnostic.labels),
+        Underline(diagnostic.span, "", severity),
+        *(Underline(each.span, each.message, "label") for each in diagnostic.labels),
     ]
-    page = Page(paint, width, max(len(str(mark.span.line)) for mark in marks))
+    page = ExcerptLayout(paint, width, max(len(str(mark.span.line)) for mark in marks))
     first, *rest = _wrapped(f"{severity}[{diagnostic.name}]: {printable(diagnostic.message)}", width, "  ")
     head, colon, tail = first.partition(": ")
     yield f"{paint(severity, head)}{colon}{tail}"
     yield from rest
     for number, path in enumerate(dict.fromkeys(mark.span.path for mark in marks)):
         own = [mark for mark in marks if mark.span.path == path]
-        yield from excerpt(sources.get(path), own, ":::" if number else "-->", page)
+        yield from render_excerpt(sources.get(path), own, ":::" if number else "-->", page)
     if diagnostic.help:
         yield from _note("help", diagnostic.help, page)
     if diagnostic.fix:
         yield from _fix(diagnostic, diagnostic.fix, sources, page)
 
 
-def _note(title: str, text: str, page: Page) -> Iterator[str]:
+def _note(title: str, text: str, page: ExcerptLayout) -> Iterator[str]:
     """Yield a line below an excerpt, wrapped under its own beginning."""
     margin = " " * (page.digits + 1)
     first, *rest = _wrapped(f"{margin}= {title}: {printable(text)}", page.width, f"{margin}{' ' * (len(title) + 4)}")
@@ -55,17 +55,17 @@ def _note(title: str, text: str, page: Page) -> Iterator[str]:
     yield from rest
 
 
-def _fix(diagnostic: Diagnostic, fix: Fix, sources: Mapping[str, Source], page: Page) -> Iterator[str]:
+def _fix(diagnostic: Diagnostic, fix: Fix, sources: Mapping[str, Source], page: ExcerptLayout) -> Iterator[str]:
     """Yield what a fix does and, unless it is just another word at the place of the problem, the lines it writes."""
     yield from _note("fix", f"{fix.message}{' (--fix does it)' if fix.safe else ''}", page)
     source = sources.get(fix.span.path)
     old = source.text.split("\n") if source else []
     if source is None or fix.span == diagnostic.span or fix.span.end_line > len(old):
         return
-    new = applied(source.text, [fix]).split("\n")
+    new = apply_fixes(source.text, [fix]).split("\n")
     changed = new[fix.span.line - 1 : fix.span.line + fix.text.count("\n")]
     for line in (each for each in changed if each.strip() and each not in old):
-        shown = window(lay_out(line), 0, 1, page.room)
+        shown = clip_line(lay_out(line), 0, 1, page.room)
         yield f"{page.gutter('+')} {page.paint('help', shown.text)}"
 
 

@@ -17,7 +17,7 @@ Object = dict[str, object]
 
 
 @dataclass(frozen=True, slots=True)
-class Rule:
+class SarifRule:
     """What the manual says about the diagnostics of one name: a line of summary and a page in Markdown."""
 
     name: str
@@ -26,7 +26,7 @@ class Rule:
 
 
 def render(
-    diagnostics: Iterable[Diagnostic], sources: Mapping[str, Source], rules: Mapping[str, Rule], version: str
+    diagnostics: Iterable[Diagnostic], sources: Mapping[str, Source], rules: Mapping[str, SarifRule], version: str
 ) -> str:
     """Return a log of one run of skillc `version`; `rules` are described as far as they are among the results."""
     found = tuple(diagnostics)
@@ -46,7 +46,7 @@ def render(
     return escaped(json.dumps(log, indent=2, ensure_ascii=False)) + "\n"
 
 
-def _rule(name: str, rule: Rule | None) -> Object:
+def _rule(name: str, rule: SarifRule | None) -> Object:
     described: Object = {"id": name, "name": "".join(part.capitalize() for part in name.split("-"))}
     if rule is not None:
         described["shortDescription"] = {"text": rule.summary}

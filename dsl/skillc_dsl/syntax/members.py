@@ -119,7 +119,7 @@ class Body:
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """What a `verify` property speaks of: a called skill (a name) or a condition."""
+    """What a `verify` property refers to: a called skill (a name) or a condition."""
 
     what: Name | Condition
     span: Span

@@ -47,7 +47,7 @@ class Quantity:
 
 @dataclass(frozen=True, slots=True)
 class Number:
-    """A bare number; `text` tells `2` from `2.0`."""
+    """A bare number; `text` distinguishes `2` from `2.0`."""
 
     value: float
     text: str

@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from skillc_dsl.diagnostics import Diagnostic, Fix
-from skillc_dsl.edits import apart, applied
-from skillc_dsl.encoding import REPLACEMENT, lines_of
-from skillc_dsl.parser import parse
+from skillc_dsl.edits import apply_fixes, drop_overlapping
+from skillc_dsl.encoding import REPLACEMENT, split_lines
+from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 from skillc_runtime.commands._files import LibraryFiles
 from skillc_runtime.commands._writing import rewrite
@@ -69,7 +69,7 @@ def diff(cured: Cured) -> str:
 
 def unified(old: str, new: str, shown: str) -> str:
     """Return how a text, called `shown`, changes, as a unified diff."""
-    lines = difflib.unified_diff(lines_of(old), lines_of(new), shown, shown, n=2)
+    lines = difflib.unified_diff(split_lines(old), split_lines(new), shown, shown, n=2)
     return "".join(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in lines)
 
 
@@ -81,8 +81,8 @@ def _improved(library: LibraryFiles, found: Sequence[Diagnostic], unsafe: bool) 
             fixes[fix.span.path].append(fix)
     sources, count = [], 0
     for source in library.sources:
-        chosen = _fitting(source, apart(fixes[library.shown(source.path)]))
-        sources.append(replace(source, text=applied(source.text, chosen)))
+        chosen = _fitting(source, drop_overlapping(fixes[library.shown(source.path)]))
+        sources.append(replace(source, text=apply_fixes(source.text, chosen)))
         count += len(chosen)
     return replace(library, sources=tuple(sources)), count
 
@@ -102,5 +102,5 @@ def _fitting(source: Source, fixes: Sequence[Fix]) -> Sequence[Fix]:
 
 
 def _errors(source: Source, fixes: Sequence[Fix]) -> int:
-    problems = parse(replace(source, text=applied(source.text, fixes))).diagnostics
+    problems = parse(replace(source, text=apply_fixes(source.text, fixes))).diagnostics
     return sum(problem.severity == "error" for problem in problems)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from skillc_dsl.diagnostics import Diagnostic, Fix
-from skillc_dsl.edits import apart, applied
+from skillc_dsl.edits import apply_fixes, drop_overlapping
 from skillc_dsl.encoding import REPLACEMENT, decode
 from skillc_ontology import catalogue
 from skillc_runtime.commands._writing import rewrite
@@ -46,7 +46,7 @@ def _is_own(path: Path) -> bool:
 
 def _mended(path: Path, fixes: list[Fix]) -> Mended | None:
     text = decode(str(path), path.read_bytes()).text
-    chosen = apart(dict.fromkeys(fixes))
+    chosen = drop_overlapping(dict.fromkeys(fixes))
     if REPLACEMENT in text or not chosen:
         return None
-    return Mended(path, text, applied(text, chosen), len(chosen))
+    return Mended(path, text, apply_fixes(text, chosen), len(chosen))

@@ -10,8 +10,8 @@ from pathlib import Path
 import click
 
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.encoding import decode, lines_of
-from skillc_dsl.formatting import formatted, not_formatted
+from skillc_dsl.encoding import decode, split_lines
+from skillc_dsl.formatting.formatter import check_layout, format_source
 from skillc_dsl.source import Source
 from skillc_runtime.commands import _files, _telling
 from skillc_runtime.commands._paths import look
@@ -81,7 +81,7 @@ def show_problems(layouts: Iterable[Layout]) -> int:
 
 def show_unformatted(layouts: Sequence[Layout]) -> int:
     """List the files that are not formatted, tell of those that cannot be, and return 1 if there is one of either."""
-    warnings = [warning for layout in layouts if (warning := not_formatted(layout.source)) is not None]
+    warnings = [warning for layout in layouts if (warning := check_layout(layout.source)) is not None]
     click.echo(_telling.rendered(warnings, {}, "concise"), nl=False)
     failed = show_problems(layouts)
     if warnings:
@@ -92,12 +92,12 @@ def show_unformatted(layouts: Sequence[Layout]) -> int:
 def show_diffs(layouts: Iterable[Layout]) -> None:
     """Print what would change as unified diffs."""
     for layout in layouts:
-        old, new = (lines_of(text) for text in (layout.source.text, layout.text))
+        old, new = (split_lines(text) for text in (layout.source.text, layout.text))
         name = layout.source.path
         for line in difflib.unified_diff(old, new, name, f"{name} (formatted)"):
             click.echo(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n", nl=False)
 
 
 def _layout(source: Source, path: Path | None) -> Layout:
-    outcome = formatted(source)
+    outcome = format_source(source)
     return Layout(source, path, outcome.value, outcome.diagnostics)

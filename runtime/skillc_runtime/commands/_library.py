@@ -20,7 +20,7 @@ from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
-from skillc_dsl.parser import parse
+from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source, Span
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _ontologies

@@ -113,9 +113,9 @@ def _sarif(diagnostics: Sequence[Diagnostic], texts: Mapping[str, Source]) -> st
     from importlib.metadata import version
 
     from skillc_compiler.manual import pages
-    from skillc_dsl.rendering.sarif import Rule, render
+    from skillc_dsl.rendering.sarif import SarifRule, render
 
-    rules = {page.name: Rule(page.name, page.title, page.prose or page.title) for page in pages().values()}
+    rules = {page.name: SarifRule(page.name, page.title, page.prose or page.title) for page in pages().values()}
     return render(diagnostics, texts, rules, version("skillc"))
 
 

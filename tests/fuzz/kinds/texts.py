@@ -14,11 +14,11 @@ from skillc_compiler.emit.artifacts import artifacts
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.pipeline import compile
 from skillc_compiler.vocabulary.load import load
-from skillc_dsl import parser
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.encoding import decode
-from skillc_dsl.formatting import formatted
+from skillc_dsl.formatting.formatter import format_source
+from skillc_dsl.parsing import parser
 from skillc_dsl.rendering import concise, full, github, sarif
 from skillc_dsl.rendering import json as as_json
 from skillc_dsl.source import Source
@@ -45,12 +45,12 @@ def try_text(source: Source, format: str) -> None:
 
 
 def _try_format(source: Source) -> None:
-    once = formatted(source)
+    once = format_source(source)
     if not once.ok:
         assert once.value == source.text, "a file with errors was changed"
         assert once.diagnostics[0].name != "not-formatted", f"not formatted: {once.diagnostics[0].message}"
         return
-    again = formatted(Source(source.path, once.value))
+    again = format_source(Source(source.path, once.value))
     assert again.ok and again.value == once.value, "formatting twice is not formatting once"
 
 

@@ -11,9 +11,9 @@ from urllib.parse import quote, urlsplit
 from pygls.uris import from_fs_path, to_fs_path
 
 from skillc_compiler.assist.analysis import Analysis, Library, analyse
-from skillc_dsl import parser
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.encoding import plain_text
+from skillc_dsl.encoding import normalise_text
+from skillc_dsl.parsing import parser
 from skillc_dsl.source import Source
 from skillc_runtime.commands._library import vocabulary_with
 from skillc_runtime.commands._server import files, scenes
@@ -51,7 +51,7 @@ class Libraries:
         """Take a file's text from the editor, and return its path."""
         file = self.file(uri)
         opened = file not in self.buffers
-        self.buffers[file] = plain_text(text)
+        self.buffers[file] = normalise_text(text)
         if opened or files.is_turtle(file):
             self.forget(file)
             return file

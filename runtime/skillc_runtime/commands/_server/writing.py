@@ -14,7 +14,7 @@ from skillc_compiler.assist.offers import Offer
 from skillc_compiler.assist.rename import Refused, renamable
 from skillc_compiler.assist.rename import rename as renamed
 from skillc_dsl.diagnostics import Diagnostic, Fix
-from skillc_dsl.edits import apart
+from skillc_dsl.edits import drop_overlapping
 from skillc_dsl.source import Source, Span
 from skillc_ontology import catalogue
 from skillc_runtime.commands._server import problems
@@ -109,7 +109,7 @@ def _actions(
     if _wanted(params, types.CodeActionKind.QuickFix.value):
         touched = [problem for problem in here if _meet(lines.range(problem.span), params.range)]
         actions += [_quick_fix(session, root, lines, problem) for problem in touched if problem.fix]
-    safe = apart(problem.fix for problem in here if problem.fix and problem.fix.safe)
+    safe = drop_overlapping(problem.fix for problem in here if problem.fix and problem.fix.safe)
     if safe and _wanted(params, FIX_ALL):
         edit = _workspace_edit(session, root, lines, safe)
         actions.append(types.CodeAction("Fix everything that is safe to fix", FIX_ALL, edit=edit))
@@ -118,11 +118,11 @@ def _actions(
 
 def formatting(session: Session, params: types.DocumentFormattingParams) -> list[types.TextEdit]:
     """Return the edit that lays the file out; none for a file with errors or one that is laid out already."""
-    from skillc_dsl.formatting import formatted
+    from skillc_dsl.formatting.formatter import format_source
 
     view = session.libraries.view(params.text_document.uri)
     text = view.analysis.texts.get(view.path, "")
-    outcome = formatted(Source(view.path, text))
+    outcome = format_source(Source(view.path, text))
     if not outcome.ok or outcome.value == text:
         return []
     rows = text.split("\n")

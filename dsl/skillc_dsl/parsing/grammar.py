@@ -1,18 +1,22 @@
-"""The grammar as tables: what fits after what."""
+"""The grammar as tables: what fits after what. They are made once and then cached, which is much faster."""
 
 from __future__ import annotations
 
 import functools
+import hashlib
+import io
 import re
+import sys
 from collections.abc import Mapping, Sequence
 from importlib import resources
+from pathlib import Path
 
+import lark
 from lark import Lark, Token
 from lark.parsers.lalr_analysis import Shift
 from lark.parsers.lalr_parser_state import ParseConf
 
-from skillc_dsl.keeping import cache_folder
-from skillc_dsl.tables import parser_of
+from skillc_dsl.keeping import cache_folder, keep, kept
 from skillc_dsl.units import UNITS
 
 END = "$END"
@@ -26,24 +30,24 @@ def grammar_text() -> str:
 
 
 @functools.cache
-def machine() -> Lark:
-    """Return the parser."""
-    return parser_of(grammar_text(), cache_folder())
+def load_parser() -> Lark:
+    """Return the parser of the language."""
+    return make_parser(grammar_text(), cache_folder())
 
 
 @functools.cache
-def words() -> Mapping[str, str]:
+def fixed_texts() -> Mapping[str, str]:
     """Return the text of each terminal that is always written in the same way."""
-    return {t.name: t.pattern.value for t in machine().terminals if t.pattern.type == "str"}
+    return {t.name: t.pattern.value for t in load_parser().terminals if t.pattern.type == "str"}
 
 
 @functools.cache
 def _tables() -> ParseConf[int]:
-    tables: ParseConf[int] = machine().parse_interactive("").parser_state.parse_conf
+    tables: ParseConf[int] = load_parser().parse_interactive("").parser_state.parse_conf
     return tables
 
 
-def shifted(stack: Sequence[int], terminal: str) -> list[int] | None:
+def shift(stack: Sequence[int], terminal: str) -> list[int] | None:
     """Return the stack of parser states after `terminal`, or None where it does not fit."""
     tables, result = _tables(), list(stack)
     while True:
@@ -59,27 +63,47 @@ def shifted(stack: Sequence[int], terminal: str) -> list[int] | None:
             return result
 
 
-def fits(stack: Sequence[int], *terminals: str) -> bool:
+def can_continue(stack: Sequence[int], *terminals: str) -> bool:
     """Whether all of `terminals`, one after the other, continue what led to `stack`."""
     states: Sequence[int] | None = stack
     for terminal in terminals:
-        states = None if states is None else shifted(states, terminal)
+        states = None if states is None else shift(states, terminal)
     return states is not None
 
 
-def fitting(stack: Sequence[int]) -> frozenset[str]:
+def list_fitting_terminals(stack: Sequence[int]) -> frozenset[str]:
     """Return every terminal that fits after what led to `stack`."""
-    return frozenset(t for t in _tables().states[stack[-1]] if (t.isupper() or t == END) and shifted(stack, t))
+    return frozenset(t for t in _tables().states[stack[-1]] if (t.isupper() or t == END) and shift(stack, t))
 
 
-def following(terminals: str) -> frozenset[str]:
+def list_following_terminals(terminals: str) -> frozenset[str]:
     """Return every terminal that fits after `terminals`, given with spaces between, at the start of a file."""
     stack = [_tables().start_state]
     for terminal in terminals.split():
-        stack = shifted(stack, terminal) or stack
-    return fitting(stack)
+        stack = shift(stack, terminal) or stack
+    return list_fitting_terminals(stack)
 
 
-def first_on_line(tokens: Sequence[Token], index: int) -> bool:
+def begins_line(tokens: Sequence[Token], index: int) -> bool:
     """Whether a line begins with the token at `index`; the end of the file does."""
     return index == 0 or tokens[index].type == END or tokens[index].line != tokens[index - 1].end_line
+
+
+def make_parser(grammar: str, folder: Path | None) -> Lark:
+    """Return the parser of `grammar`: from the cache in `folder` if it is intact there, else made and cached."""
+    if folder is None:
+        return _make(grammar)
+    key = f"{lark.__version__} {sys.version_info[:2]}\n{grammar}"
+    path = folder / f"grammar-{hashlib.sha256(key.encode()).hexdigest()[:16]}"
+    tables = kept(path)
+    if tables is not None:
+        return Lark.load(io.BytesIO(tables))
+    parser = _make(grammar)
+    content = io.BytesIO()
+    parser.save(content)
+    keep(path, content.getvalue())
+    return parser
+
+
+def _make(grammar: str) -> Lark:
+    return Lark(grammar, parser="lalr", lexer="basic", keep_all_tokens=True, maybe_placeholders=False)

@@ -1,4 +1,4 @@
-"""From text to tokens; whatever is no token is told and left out or mended."""
+"""From text to tokens; what is not a token is reported and skipped or repaired."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from lark.lexer import LexerState
 
 from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
 from skillc_dsl.encoding import REPLACEMENT
-from skillc_dsl.grammar import END, machine
+from skillc_dsl.parsing.grammar import END, load_parser
 from skillc_dsl.source import Source, Span
 
 _HINTS = MappingProxyType(
@@ -31,14 +31,14 @@ _HINTS = MappingProxyType(
 )
 
 
-def span_of(token: Token, path: str) -> Span:
+def token_span(token: Token, path: str) -> Span:
     """Return the place of a token."""
     return Span(path, token.line or 1, token.column or 1, token.end_line or 1, token.end_column or 1)
 
 
-def tokens_of(source: Source) -> Outcome[tuple[Token, ...]]:
+def tokenize(source: Source) -> Outcome[tuple[Token, ...]]:
     """Return the tokens of `source`, closed by an END token, without what could not be read."""
-    thread = machine().parse_interactive(source.text).lexer_thread
+    thread = load_parser().parse_interactive(source.text).lexer_thread
     tokens: list[Token] = []
     problems: list[Diagnostic] = []
     while True:
@@ -48,10 +48,10 @@ def tokens_of(source: Source) -> Outcome[tuple[Token, ...]]:
             _skip(thread.state, source, tokens, problems)
         else:
             break
-    return Outcome((*tokens, after(tokens[-1] if tokens else None, END)), tuple(problems))
+    return Outcome((*tokens, empty_token_after(tokens[-1] if tokens else None, END)), tuple(problems))
 
 
-def after(last: Token | None, terminal: str) -> Token:
+def empty_token_after(last: Token | None, terminal: str) -> Token:
     """Return an empty token right after `last`, or at the start of the file."""
     line, column, position = (last.end_line, last.end_column, last.end_pos) if last is not None else (1, 1, 0)
     return Token(terminal, "", position, line, column, line, column, position)

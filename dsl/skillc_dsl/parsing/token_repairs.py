@@ -1,33 +1,45 @@
-"""Mistakes that show in neighbouring tokens, told and mended before the grammar sees them."""
+"""Mistakes that show in neighbouring tokens, reported and repaired before the grammar sees them."""
 
 from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from lark import Token
 
 from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
-from skillc_dsl.lexing import span_of
-from skillc_dsl.operators import comparison, foreign_length
+from skillc_dsl.parsing.lexer import token_span
 from skillc_dsl.source import Span
-from skillc_dsl.units import UNITS, near_units
+from skillc_dsl.units import UNITS, suggest_units
+
+MEANT: Mapping[str, tuple[str, str]] = MappingProxyType(
+    {
+        "=>": ("MORE_EQUAL", ">="),
+        "=<": ("LESS_EQUAL", "<="),
+        "===": ("EQUALS", "=="),
+        "<>": ("UNEQUAL", "!="),
+    }
+)
+"""What stands for which token."""
 
 
-def mend(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, ...]]:
+def repair_tokens(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, ...]]:
     """Return the tokens with units and operators that exist and labels that read as labels."""
-    mended: list[Token] = []
+    repaired: list[Token] = []
     problems: list[Diagnostic] = []
     index = 0
     while index < len(tokens):
-        count, token, problem = _mended(tokens, index, path)
-        mended.append(token)
+        count, token, problem = _repaired(tokens, index, path)
+        repaired.append(token)
         problems += [problem] if problem else []
         index += count
-    return Outcome(tuple(mended), tuple(problems))
+    return Outcome(tuple(repaired), tuple(problems))
 
 
-def _mended(tokens: tuple[Token, ...], index: int, path: str) -> tuple[int, Token, Diagnostic | None]:
+def _repaired(tokens: tuple[Token, ...], index: int, path: str) -> tuple[int, Token, Diagnostic | None]:
     """Return how many tokens from `index` belong together, the one in their place, and what is wrong with them."""
-    if count := foreign_length(tokens, index):
-        return count, *comparison(tokens[index : index + count], path)
+    if count := match_foreign_comparison(tokens, index):
+        return count, *repair_comparison(tokens[index : index + count], path)
     if count := _unit_length(tokens, index):
         return count, *_unit(tokens[index : index + count], path)
     if _is_doubled_brace(tokens, index):
@@ -37,7 +49,7 @@ def _mended(tokens: tuple[Token, ...], index: int, path: str) -> tuple[int, Toke
     return 1, tokens[index], None
 
 
-def joined(kind: str, first: Token, last: Token, text: str) -> Token:
+def join_tokens(kind: str, first: Token, last: Token, text: str) -> Token:
     """Return one token in the place of `first` to `last`."""
     end = (last.end_line, last.end_column, last.end_pos)
     return Token(kind, text, first.start_pos, first.line, first.column, *end)
@@ -69,15 +81,15 @@ def _unit(tokens: tuple[Token, ...], path: str) -> tuple[Token, Diagnostic]:
     first, last = tokens[0], tokens[-1]
     digits = first.rstrip("/ \t" + "".join(c for c in first if c.isalpha())) if first.type == "QUANTITY" else first
     wrong = (first[len(digits) :] + "".join(tokens[1:])).strip()
-    start = span_of(tokens[1], path) if first.type == "NUMBER" else span_of(first, path)
-    span = start.to(span_of(last, path))
-    near = near_units(wrong)
+    start = token_span(tokens[1], path) if first.type == "NUMBER" else token_span(first, path)
+    span = start.to(token_span(last, path))
+    near = suggest_units(wrong)
     listed = " or ".join(f"`{unit}`" for unit in near) if near else ", ".join(f"`{unit}`" for unit in UNITS)
     help_ = f"did you mean {listed}?" if near else f"the units are {listed}"
     problem = Diagnostic("unknown-unit", span, f"there is no unit `{wrong}`", help_)
     if near:
-        return joined("QUANTITY", first, last, f"{digits} {near[0]}"), problem
-    return joined("NUMBER", first, last, str(digits)), problem
+        return join_tokens("QUANTITY", first, last, f"{digits} {near[0]}"), problem
+    return join_tokens("NUMBER", first, last, str(digits)), problem
 
 
 def _is_doubled_brace(tokens: tuple[Token, ...], index: int) -> bool:
@@ -87,7 +99,7 @@ def _is_doubled_brace(tokens: tuple[Token, ...], index: int) -> bool:
 
 
 def _doubled(brace: Token, path: str) -> Diagnostic:
-    span = span_of(brace, path)
+    span = token_span(brace, path)
     return Diagnostic("syntax", span, "this `{` is one too many", fix=Fix(span, "", "delete it"))
 
 
@@ -99,18 +111,37 @@ def _is_split_label(tokens: tuple[Token, ...], index: int) -> bool:
 
 
 def _label(word: Token, colon: Token, value: Token, path: str) -> tuple[Token, Diagnostic]:
-    label = joined("LABEL", word, colon, f"{word}:")
-    before, after = span_of(word, path), span_of(colon, path)
+    label = join_tokens("LABEL", word, colon, f"{word}:")
+    before, after = token_span(word, path), token_span(colon, path)
     if _touch(word, colon):
-        return label, missing_space(before.to(after), value)
+        return label, report_missing_space(before.to(after), value)
     gap = Span(path, before.end_line, before.end_column, after.line, after.column)
     fix = Fix(gap, "", "delete the space")
     return label, Diagnostic("syntax", gap.to(after), f"the `:` stands right after `{word}`", f"`{word}:`", fix=fix)
 
 
-def missing_space(label: Span, value: str) -> Diagnostic:
+def report_missing_space(label: Span, value: str) -> Diagnostic:
     """Report that `value` follows a label's `:` without a space."""
     end = Span(label.path, label.end_line, label.end_column, label.end_line, label.end_column)
     message = f"a space is missing between `:` and `{value}`"
     help_ = "without it, `a:b` reads as the name `b` of the vocabulary `a`"
     return Diagnostic("missing-space-after-colon", label, message, help_, fix=Fix(end, " ", "insert a space"))
+
+
+def match_foreign_comparison(tokens: Sequence[Token], index: int) -> int:
+    """Return how many tokens from `index` make a comparison of another language, 0 where there is none."""
+    first, second = tokens[index], tokens[min(index + 1, len(tokens) - 1)]
+    if first in MEANT:
+        return 1
+    return 2 if first.end_pos == second.start_pos and first + second in MEANT else 0
+
+
+def repair_comparison(tokens: Sequence[Token], path: str) -> tuple[Token, Diagnostic]:
+    """Return the comparison that is meant, and the problem."""
+    first, last = tokens[0], tokens[-1]
+    written = "".join(tokens)
+    kind, text = MEANT[written]
+    span = token_span(first, path).to(token_span(last, path))
+    token = Token(kind, text, first.start_pos, first.line, first.column, last.end_line, last.end_column, last.end_pos)
+    fix = Fix(span, text, f"write `{text}`")
+    return token, Diagnostic("syntax", span, f"there is no `{written}`", f"did you mean `{text}`?", fix=fix)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from lark import Token, Tree
 
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.lexing import span_of
+from skillc_dsl.parsing.lexer import token_span
 from skillc_dsl.source import Span
 
 DEEPEST = 64
@@ -21,7 +21,7 @@ _NESTED = frozenset(
 _WITH_MEMBERS = frozenset({"skill", "impl", "task"})
 
 
-def without_too_deep(tree: Tree[Token], path: str) -> tuple[Tree[Token], tuple[Diagnostic, ...]]:
+def drop_too_deep(tree: Tree[Token], path: str) -> tuple[Tree[Token], tuple[Diagnostic, ...]]:
     """Return a file's tree without the members and declarations that are nested too deep, and a problem for each."""
     problems: list[Diagnostic] = []
     declarations: list[Tree[Token] | Token] = []
@@ -38,7 +38,7 @@ def _reported(part: Tree[Token] | Token, path: str, problems: list[Diagnostic]) 
     """Whether a part is nested too deep, which is noted at its first token on the level that is too deep."""
     found = _first_too_deep(part)
     if found is not None:
-        problems.append(too_deep(span_of(found, path)))
+        problems.append(report_too_deep(token_span(found, path)))
     return found is not None
 
 
@@ -55,7 +55,7 @@ def _first_too_deep(part: Tree[Token] | Token) -> Token | None:
     return None
 
 
-def too_deep(span: Span) -> Diagnostic:
+def report_too_deep(span: Span) -> Diagnostic:
     """Return the problem of a text that is nested too deep from `span` on."""
     return Diagnostic(
         "nesting-too-deep",

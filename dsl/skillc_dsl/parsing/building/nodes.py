@@ -7,15 +7,15 @@ from typing import Literal, cast
 from lark import Token
 
 from skillc_dsl import syntax as s
-from skillc_dsl.building.conditions import Conditions
-from skillc_dsl.building.places import Child, Part, every, part_of, word_at
+from skillc_dsl.parsing.building.conditions import ConditionBuilder
+from skillc_dsl.parsing.building.places import Child, Part, children_of_type, find_part, keyword_at
 
 BlockKind = Literal[
     "seq", "sel", "reactive seq", "reactive sel", "par all", "par any", "par race", "par lead", "try", "invert", "once"
 ]
 
 
-class Nodes(Conditions):
+class NodeBuilder(ConditionBuilder):
     """Nodes; the braces of a node with children stay among its rule's children, as tokens."""
 
     def block(self, children: list[Child]) -> s.Block:
@@ -25,7 +25,7 @@ class Nodes(Conditions):
 
     def counted(self, children: list[Child]) -> s.Counted:
         """`retry N { }`, `repeat N { }`"""
-        kind: Literal["retry", "repeat"] = "retry" if word_at(children, 0) == "retry" else "repeat"
+        kind: Literal["retry", "repeat"] = "retry" if keyword_at(children, 0) == "retry" else "repeat"
         return s.Counted(kind, self.as_number(children[1]), self.nodes(children), self.over(children))
 
     def timeout(self, children: list[Child]) -> s.Timeout:
@@ -44,7 +44,7 @@ class Nodes(Conditions):
     def if_(self, children: list[Child]) -> s.If:
         """`if C { } else { }`, `if C { } else if ..`"""
         condition = self.condition(children[1])
-        then, orelse = part_of(children, "then"), part_of(children, "else_")
+        then, orelse = find_part(children, "then"), find_part(children, "else_")
         return s.If(
             condition,
             self.written(condition.span),
@@ -79,15 +79,15 @@ class Nodes(Conditions):
 
     def apply_posts(self, children: list[Child]) -> s.ApplyPosts:
         """`apply LABEL, ..`"""
-        return s.ApplyPosts(every(children, s.Name), self.over(children))
+        return s.ApplyPosts(children_of_type(children, s.Name), self.over(children))
 
     def call(self, children: list[Child]) -> s.CallSkill:
         """`Skill[implementation](argument, ..) -> out`"""
-        implementation, out = part_of(children, "implementation"), part_of(children, "out")
+        implementation, out = find_part(children, "implementation"), find_part(children, "out")
         return s.CallSkill(
             self.as_name(children[0]),
             self.as_name(implementation.children[1]) if implementation else None,
-            every(children, s.Argument),
+            children_of_type(children, s.Argument),
             self.as_name(out.children[1]) if out else None,
             self.over(children),
         )

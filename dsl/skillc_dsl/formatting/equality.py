@@ -5,8 +5,8 @@ from __future__ import annotations
 import dataclasses
 import re
 
-from skillc_dsl.comments import comments
-from skillc_dsl.parser import parse
+from skillc_dsl.comments import find_comments
+from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source, Span
 
 _WRITTEN = ("text", "goal_text")
@@ -14,12 +14,12 @@ _WRITTEN = ("text", "goal_text")
 _TEXT_OR_BLANK = re.compile(r'("[^"\n]*")|\s+')
 
 
-def say_the_same(left: Source, right: Source) -> bool:
+def equal_modulo_layout(left: Source, right: Source) -> bool:
     """Whether both parse without errors to the same tree and have the same comments in the same order."""
     trees = parse(left), parse(right)
     if not all(tree.ok for tree in trees):
         return False
-    notes = ([comment.written for comment in comments(source)] for source in (left, right))
+    notes = ([comment.written for comment in find_comments(source)] for source in (left, right))
     return _flat(trees[0].value) == _flat(trees[1].value) and next(notes) == next(notes)
 
 

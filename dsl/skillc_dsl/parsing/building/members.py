@@ -7,25 +7,25 @@ from typing import Literal, cast
 from lark import Token
 
 from skillc_dsl import syntax as s
-from skillc_dsl.building.nodes import Nodes
-from skillc_dsl.building.places import Child, Part, first, part_of, word_at
+from skillc_dsl.parsing.building.nodes import NodeBuilder
+from skillc_dsl.parsing.building.places import Child, Part, find_part, first_of_type, keyword_at
 
 
-class Members(Nodes):
+class MemberBuilder(NodeBuilder):
     """Members; `= value` and `range a .. b` are parts of the member they follow."""
 
     def parameter(self, children: list[Child]) -> s.Parameter:
         """`in name: Type = default range a .. b`"""
-        any_ = word_at(children, 1) == "any"
+        any_ = keyword_at(children, 1) == "any"
         at = 2 if any_ else 1
         span = self.over(children)
         return s.Parameter(
-            cast(s.Direction, word_at(children, 0)),
+            cast(s.Direction, keyword_at(children, 0)),
             any_,
             self.label(children[at]),
             self.type_at(children, at + 1),
             self._default(children),
-            first(children, s.Range),
+            first_of_type(children, s.Range),
             self.doc(span),
             span,
         )
@@ -33,7 +33,7 @@ class Members(Nodes):
     def refinement(self, children: list[Child]) -> s.Refinement:
         """`refine name: Type = default range a .. b`"""
         name, type_ = self.label(children[1]), self.type_at(children, 2)
-        return s.Refinement(name, type_, self._default(children), first(children, s.Range), self.over(children))
+        return s.Refinement(name, type_, self._default(children), first_of_type(children, s.Range), self.over(children))
 
     def default(self, children: list[Child]) -> Part:
         """`= value`"""
@@ -44,13 +44,13 @@ class Members(Nodes):
         return s.Range(self.value(children[1]), self.value(children[3]), self.over(children))
 
     def _default(self, children: list[Child]) -> s.Value | None:
-        default = part_of(children, "default")
+        default = find_part(children, "default")
         return self.value(default.children[1]) if default else None
 
     def requirement(self, children: list[Child]) -> s.Requirement:
         """`pre|hold|post [sensed] [label:] condition`"""
-        kind = cast(Literal["pre", "hold", "post"], word_at(children, 0))
-        sensed = word_at(children, 1) == "sensed"
+        kind = cast(Literal["pre", "hold", "post"], keyword_at(children, 0))
+        sensed = keyword_at(children, 1) == "sensed"
         label = next((self.label(c) for c in children if isinstance(c, Token) and c.type == "LABEL"), None)
         condition = self.condition(children[-1])
         return s.Requirement(kind, sensed, label, condition, self.written(condition.span), self.over(children))
@@ -61,13 +61,13 @@ class Members(Nodes):
 
     def device_use(self, children: list[Child]) -> s.DeviceUse:
         """`uses parameter`, `shares parameter`"""
-        kind: Literal["uses", "shares"] = "uses" if word_at(children, 0) == "uses" else "shares"
+        kind: Literal["uses", "shares"] = "uses" if keyword_at(children, 0) == "uses" else "shares"
         return s.DeviceUse(kind, self.as_name(children[1]), self.over(children))
 
     def flag(self, children: list[Child]) -> s.Flag:
         """`scoped`, `noplan`, `fallback`, `endless`"""
         return s.Flag(
-            cast(Literal["scoped", "noplan", "fallback", "endless"], word_at(children, 0)), self.over(children)
+            cast(Literal["scoped", "noplan", "fallback", "endless"], keyword_at(children, 0)), self.over(children)
         )
 
     def let(self, children: list[Child]) -> s.Let:

@@ -1,4 +1,4 @@
-"""Braces left open, or closed twice: found by the indentation, told, and mended."""
+"""Braces left open, or closed twice: found by the indentation, reported and repaired."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 from lark import Token
 
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label, Outcome
-from skillc_dsl.grammar import DECLARATIONS, END, first_on_line
-from skillc_dsl.lexing import after, span_of
+from skillc_dsl.parsing.grammar import DECLARATIONS, END, begins_line
+from skillc_dsl.parsing.lexer import empty_token_after, token_span
 from skillc_dsl.source import Span
 
 
@@ -33,7 +33,7 @@ def _regions(tokens: tuple[Token, ...]) -> Iterator[tuple[int, int]]:
     """Yield the stretch of each declaration; a declaration's keyword begins a line."""
     start = 0
     for index, token in enumerate(tokens):
-        if token.type == END or (token.type in DECLARATIONS and index > start and first_on_line(tokens, index)):
+        if token.type == END or (token.type in DECLARATIONS and index > start and begins_line(tokens, index)):
             yield start, index
             start = index
 
@@ -47,19 +47,19 @@ def _close(
     opened: list[tuple[Token, int]] = []
     indent = 1
     for index, token in enumerate(region):
-        if first_on_line(region, index):
+        if begins_line(region, index):
             indent = token.column or 1
         if token.type == "LBRACE":
             opened.append((token, indent))
         elif token.type == "RBRACE" and opened:
             while len(problems) < missing and len(opened) > 1 and opened[-1][1] > indent:
                 problems.append(_unclosed(*opened.pop(), result[-1], token, path))
-                result.append(after(result[-1], "RBRACE"))
+                result.append(empty_token_after(result[-1], "RBRACE"))
             opened.pop()
         result.append(token)
     for opener, column in reversed(opened):
         problems.append(_unclosed(opener, column, result[-1], following, path))
-        result.append(after(result[-1], "RBRACE"))
+        result.append(empty_token_after(result[-1], "RBRACE"))
     return tuple(result), problems
 
 
@@ -70,13 +70,13 @@ def _without_surplus(region: Sequence[Token], surplus: int, path: str) -> tuple[
     opened: list[int] = []
     indent = 1
     for index, token in enumerate(region):
-        if first_on_line(region, index):
+        if begins_line(region, index):
             indent = token.column or 1
         if token.type == "LBRACE":
             opened.append(indent)
         elif token.type == "RBRACE" and opened:
             if opened[-1] < indent and len(problems) < surplus:
-                problems.append(_unopened(span_of(token, path)))
+                problems.append(_unopened(token_span(token, path)))
                 continue
             opened.pop()
         result.append(token)
@@ -93,9 +93,9 @@ def _unopened(span: Span) -> Diagnostic:
 def _unclosed(opener: Token, indent: int, last: Token, found: Token, path: str) -> Diagnostic:
     """Report after `last`, where the brace belongs, that `opener` is open; `found` is the token that shows it."""
     where = "at the end of the file" if found.type == END else f"before the `{found}` of line {found.line}"
-    place = span_of(last, path)
+    place = token_span(last, path)
     end = Span(path, place.end_line, place.end_column, place.end_line, place.end_column)
     fix = Fix(end, "\n" + " " * (indent - 1) + "}", "close the brace")
     message = f"the `{{` of line {opener.line} is not closed {where}"
-    label = Label(span_of(opener, path), "opened here")
+    label = Label(token_span(opener, path), "opened here")
     return Diagnostic("unclosed-brace", place, message, "add a `}` on the next line", labels=(label,), fix=fix)

@@ -8,15 +8,15 @@ from typing import Literal, TypeVar, cast
 from lark import Token, Tree
 
 from skillc_dsl import syntax as s
-from skillc_dsl.building.members import Members
-from skillc_dsl.building.places import Child, Part, Placed, every, part_of, word_at
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.parsing.building.members import MemberBuilder
+from skillc_dsl.parsing.building.places import Child, Part, Spanned, children_of_type, find_part, keyword_at
 
-P = TypeVar("P", bound=Placed)
+P = TypeVar("P", bound=Spanned)
 TraitKind = Literal["functional", "symmetric", "transitive", "inverse", "sub"]
 
 
-class Declarations(Members):
+class FileBuilder(MemberBuilder):
     """Declarations; `start` is the whole file."""
 
     def file(self, tree: Tree[Token]) -> s.File:
@@ -34,11 +34,11 @@ class Declarations(Members):
 
     def use(self, children: list[Child]) -> s.Use:
         """`use skiros, rparts`"""
-        return s.Use(every(children, s.Name), self.over(children))
+        return s.Use(children_of_type(children, s.Name), self.over(children))
 
     def prefix(self, children: list[Child]) -> s.Prefix:
         """`prefix lab: <iri>`"""
-        return s.Prefix(self.label(children[1]), word_at(children, 2)[1:-1], self.over(children))
+        return s.Prefix(self.label(children[1]), keyword_at(children, 2)[1:-1], self.over(children))
 
     def import_(self, children: list[Child]) -> s.Import:
         """`import "file.skill"`"""
@@ -46,12 +46,12 @@ class Declarations(Members):
 
     def class_(self, children: list[Child]) -> s.ClassDeclaration:
         """`class Name < Parent, .. disjoint Other, ..`"""
-        parents, disjoint = part_of(children, "parents"), part_of(children, "disjoint")
+        parents, disjoint = find_part(children, "parents"), find_part(children, "disjoint")
         span = self.over(children)
         return s.ClassDeclaration(
             self.as_name(children[1]),
-            every(parents.children, s.Name) if parents else (),
-            every(disjoint.children, s.Name) if disjoint else (),
+            children_of_type(parents.children, s.Name) if parents else (),
+            children_of_type(disjoint.children, s.Name) if disjoint else (),
             self.doc(span),
             span,
         )
@@ -66,14 +66,14 @@ class Declarations(Members):
 
     def relation(self, children: list[Child]) -> s.RelationDeclaration:
         """`relation name(Domain, Range) traits`"""
-        name, domain, range_ = every(children, s.Name)
+        name, domain, range_ = children_of_type(children, s.Name)
         span = self.over(children)
-        return s.RelationDeclaration(name, domain, range_, every(children, s.Trait), self.doc(span), span)
+        return s.RelationDeclaration(name, domain, range_, children_of_type(children, s.Trait), self.doc(span), span)
 
     def trait(self, children: list[Child]) -> s.Trait:
         """`functional`, `inverse NAME` and their like"""
         name = self.as_name(children[1]) if len(children) > 1 else None
-        return s.Trait(cast(TraitKind, word_at(children, 0)), name, self.over(children))
+        return s.Trait(cast(TraitKind, keyword_at(children, 0)), name, self.over(children))
 
     def property(self, children: list[Child]) -> s.PropertyDeclaration:
         """`property name(Domain): Type`"""
@@ -86,7 +86,7 @@ class Declarations(Members):
         span = self.over(children)
         return s.FunctionDeclaration(
             self.as_name(children[1]),
-            every(children, s.FunctionParameter),
+            children_of_type(children, s.FunctionParameter),
             self.type_at(children, len(children) - 4),
             self.string(children[-1]),
             self.doc(span),
@@ -105,7 +105,7 @@ class Declarations(Members):
 
     def impl(self, children: list[Child]) -> s.ImplementationDeclaration:
         """`impl name of Skill { members }`"""
-        name, skill = every(children, s.Name)
+        name, skill = children_of_type(children, s.Name)
         members = tuple(child for child in children if isinstance(child, s.ImplementationMember))
         span = self.over(children)
         return s.ImplementationDeclaration(name, skill, members, self.doc(span), span)
@@ -113,15 +113,15 @@ class Declarations(Members):
     def task(self, children: list[Child]) -> s.TaskDeclaration:
         """`task name { scene, goal or do }`"""
         name, span = self.as_name(children[1]), self.over(children)
-        scene = self._only(part for part in every(children, Part) if part.rule == "scene")
-        goal = self._only(part for part in every(children, Part) if part.rule == "goal")
+        scene = self._only(part for part in children_of_type(children, Part) if part.rule == "scene")
+        goal = self._only(part for part in children_of_type(children, Part) if part.rule == "goal")
         condition = self.condition(goal.children[1]) if goal else None
         return s.TaskDeclaration(
             name,
             self.string(scene.children[1]) if scene else None,
             condition,
             self.written(condition.span) if condition else "",
-            self._only(every(children, s.Body)),
+            self._only(children_of_type(children, s.Body)),
             self.doc(span),
             span,
         )

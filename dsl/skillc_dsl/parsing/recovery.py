@@ -9,11 +9,16 @@ from lark.exceptions import UnexpectedToken
 from lark.parsers.lalr_parser_state import ParserState
 
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.expectations import advice, described, home, shown
-from skillc_dsl.grammar import DECLARATIONS, END, first_on_line, fits, fitting, machine
-from skillc_dsl.lexing import after, span_of
-from skillc_dsl.nesting import DEEPEST, too_deep
-from skillc_dsl.repairs import Fault, repair
+from skillc_dsl.parsing.expectations import (
+    advise_on_foreign_word,
+    describe_terminals,
+    describe_token,
+    explain_where_it_belongs,
+)
+from skillc_dsl.parsing.grammar import DECLARATIONS, END, begins_line, can_continue, list_fitting_terminals, load_parser
+from skillc_dsl.parsing.lexer import empty_token_after, token_span
+from skillc_dsl.parsing.nesting import DEEPEST, report_too_deep
+from skillc_dsl.parsing.repairs import Fault, repair
 
 _LISTS = ("__start_star", "__skill_star", "__impl_star", "__task_star", "___nodes_star")
 _MOST_STATES = 10 * DEEPEST
@@ -21,25 +26,25 @@ _MOST_STATES = 10 * DEEPEST
 MOST_FAULTS = 200
 """After so many faults a text is none of this language, and what is left of it is not read."""
 _CALM = 2
-"""So many tokens must fit after a fault before the next one is told."""
+"""So many tokens must fit after a fault before the next one is reported."""
 
 
 class Recovery:
-    """One run over the tokens of a file, a copy that repairs change; lines in `told` have a problem already."""
+    """One run over the tokens of a file, a copy that repairs change; lines in `reported` have a problem already."""
 
-    def __init__(self, tokens: Sequence[Token], path: str, told: Collection[int]) -> None:
+    def __init__(self, tokens: Sequence[Token], path: str, reported: Collection[int]) -> None:
         self.tokens = list(tokens)
         self.path = path
-        self.told = told
+        self.reported = reported
         self.problems: list[Diagnostic] = []
-        self._state: ParserState[int] = machine().parse_interactive("").parser_state
+        self._state: ParserState[int] = load_parser().parse_interactive("").parser_state
         self._since = _CALM
         self._faults = 0
 
     def run(self) -> Tree[Token]:
         """Return the tree of everything understood."""
         index, feed = 0, self._state.feed_token
-        while self.tokens[index].type != END or not fits(self._state.state_stack, END):
+        while self.tokens[index].type != END or not can_continue(self._state.state_stack, END):
             before = self._state.state_stack.copy()
             if len(before) > _MOST_STATES:
                 index = self._leave_too_deep(index)
@@ -65,18 +70,18 @@ class Recovery:
             self._since = 0
             return index
         misfit = self._misfit(before, index)
-        if misfit.span.line not in self.told:
+        if misfit.span.line not in self.reported:
             self._report(misfit)
         position = self._resume(index)
-        self._since = _CALM if first_on_line(self.tokens, position) else 0
+        self._since = _CALM if begins_line(self.tokens, position) else 0
         return position
 
     def _leave_too_deep(self, index: int) -> int:
         """Report what is nested too deep, and return the index of the next declaration, or the end."""
-        self.problems.append(too_deep(span_of(self.tokens[index], self.path)))
+        self.problems.append(report_too_deep(token_span(self.tokens[index], self.path)))
         last = len(self.tokens) - 1
         begins = (at for at in range(index, last) if self.tokens[at].type in DECLARATIONS)
-        position = next((at for at in begins if first_on_line(self.tokens, at)), last)
+        position = next((at for at in begins if begins_line(self.tokens, at)), last)
         self._drop_member(self._level(self.tokens[position].type) or 0)
         self._close(self.tokens[position].type)
         return position
@@ -85,13 +90,13 @@ class Recovery:
         """Drop the unfinished member of the declaration that begins at the level `outer`."""
         states, values = self._state.state_stack, self._state.value_stack
         levels = (level for level in range(outer + 1, len(values)) if _is_list(values[level - 1]))
-        level = next((level for level in levels if fits(states[: level + 1], "RBRACE")), None)
+        level = next((level for level in levels if can_continue(states[: level + 1], "RBRACE")), None)
         if level is not None:
             self._drop(level)
 
     def _give_up(self, index: int) -> int:
         """Report that the rest is not read, and return the index of the end."""
-        span = span_of(self.tokens[index], self.path)
+        span = token_span(self.tokens[index], self.path)
         help_ = "correct the errors above first; if there are none to see, this is no file of skills"
         message = f"this file has more than {MOST_FAULTS} syntax errors; the rest is not read"
         self.problems.append(Diagnostic("syntax", span, message, help_))
@@ -105,24 +110,24 @@ class Recovery:
 
     def _misfit(self, before: list[int], index: int) -> Diagnostic:
         """Say what was found and what would fit; a member cut short is reported where it stops."""
-        token, expected = self.tokens[index], fitting(before)
-        span = span_of(token, self.path)
+        token, expected = self.tokens[index], list_fitting_terminals(before)
+        span = token_span(token, self.path)
         if token.type == "RBRACE" and END in expected:
             return Diagnostic("unopened-brace", span, "this `}` closes nothing", "delete it, or add the `{` before it")
-        found = f"{shown(token)} does not fit here"
-        if index and not expected & {"RBRACE", END} and first_on_line(self.tokens, index):
+        found = f"{describe_token(token)} does not fit here"
+        if index and not expected & {"RBRACE", END} and begins_line(self.tokens, index):
             last = self.tokens[index - 1]
-            span, found = span_of(last, self.path), f"something is missing after {shown(last)}"
+            span, found = token_span(last, self.path), f"something is missing after {describe_token(last)}"
         left = self.tokens[index - 1] if index else None
-        help_ = advice(token, left) or (home(token) if "RBRACE" in expected else "")
-        return Diagnostic("syntax", span, f"{found}: expected {described(expected)}", help_)
+        help_ = advise_on_foreign_word(token, left) or (explain_where_it_belongs(token) if "RBRACE" in expected else "")
+        return Diagnostic("syntax", span, f"{found}: expected {describe_terminals(expected)}", help_)
 
     def _resume(self, index: int) -> int:
         """Skip to a token that begins or ends a member, a node or a declaration, and drop what was left incomplete."""
         depth = 0
         for position in range(index, len(self.tokens)):
             token = self.tokens[position]
-            begins = first_on_line(self.tokens, position)
+            begins = begins_line(self.tokens, position)
             if token.type == END or (token.type in DECLARATIONS and begins):
                 self._close(token.type)
                 return position
@@ -133,11 +138,11 @@ class Recovery:
 
     def _cut(self, position: int) -> bool:
         """Drop the incomplete member if the token at `position` can follow; a name proves it only with the next one."""
-        is_name = self.tokens[position].type in ("NAME", "QNAME") and not first_on_line(self.tokens, position + 1)
+        is_name = self.tokens[position].type in ("NAME", "QNAME") and not begins_line(self.tokens, position + 1)
         count = 2 if is_name else 1
         following = [token.type for token in self.tokens[position : position + count]]
         level = self._level("RBRACE")
-        if level is None or not fits(self._state.state_stack[: level + 1], *following):
+        if level is None or not can_continue(self._state.state_stack[: level + 1], *following):
             return False
         self._drop(level)
         return True
@@ -148,7 +153,7 @@ class Recovery:
         inner = self._level("RBRACE")
         while inner is not None and inner > outer:
             self._drop(inner)
-            self._state.feed_token(after(self._last(), "RBRACE"))
+            self._state.feed_token(empty_token_after(self._last(), "RBRACE"))
             outer, inner = self._level(terminal) or 0, self._level("RBRACE")
         self._drop(outer)
 
@@ -169,7 +174,7 @@ class Recovery:
         for level in range(len(values), -1, -1):
             closed = max(0, closed + _braces(values[level : level + 1]))
             at_member = closed == 0 and (level == 0 or _is_list(values[level - 1]))
-            if at_member and fits(states[: level + 1], terminal):
+            if at_member and can_continue(states[: level + 1], terminal):
                 return level
         return None
 

@@ -11,14 +11,14 @@ from lark import Token
 from lark.visitors import Transformer_NonRecursive
 
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.lexing import span_of
+from skillc_dsl.parsing.lexer import token_span
 from skillc_dsl.source import Source, Span
 
 T = TypeVar("T")
 _STRING_OR_COMMENT = re.compile(r'("[^"\n]*")|#[^\n]*')
 
 
-class Placed(Protocol):
+class Spanned(Protocol):
     """A piece of the syntax tree."""
 
     @property
@@ -27,7 +27,7 @@ class Placed(Protocol):
         ...
 
 
-Child = Token | Placed
+Child = Token | Spanned
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +39,7 @@ class Part:
     span: Span
 
 
-class Places(Transformer_NonRecursive[Token, Placed]):
+class TreeBuilder(Transformer_NonRecursive[Token, Spanned]):
     """Turns trees into syntax from the leaves up; every method is named after the rule whose children it gets."""
 
     def __init__(self, source: Source) -> None:
@@ -53,7 +53,7 @@ class Places(Transformer_NonRecursive[Token, Placed]):
 
     def place(self, child: Child) -> Span:
         """Return where a token or a piece of syntax stands."""
-        return span_of(child, self.source.path) if isinstance(child, Token) else child.span
+        return token_span(child, self.source.path) if isinstance(child, Token) else child.span
 
     def over(self, children: Sequence[Child]) -> Span:
         """Return the span from the first of `children` to the last."""
@@ -81,22 +81,22 @@ class Places(Transformer_NonRecursive[Token, Placed]):
         return "\n".join(line.removeprefix(" ") for line in found)
 
 
-def every(children: Iterable[Child], kind: type[T]) -> tuple[T, ...]:
+def children_of_type(children: Iterable[Child], kind: type[T]) -> tuple[T, ...]:
     """Return the children of one kind, in their order."""
     return tuple(child for child in children if isinstance(child, kind))
 
 
-def first(children: Iterable[Child], kind: type[T]) -> T | None:
+def first_of_type(children: Iterable[Child], kind: type[T]) -> T | None:
     """Return the first child of one kind, None where there is none."""
     return next((child for child in children if isinstance(child, kind)), None)
 
 
-def part_of(children: Iterable[Child], rule: str) -> Part | None:
+def find_part(children: Iterable[Child], rule: str) -> Part | None:
     """Return the part made by `rule`, None where it was not written."""
     return next((child for child in children if isinstance(child, Part) and child.rule == rule), None)
 
 
-def word_at(children: Sequence[Child], index: int) -> str:
+def keyword_at(children: Sequence[Child], index: int) -> str:
     """Return the word at `index`, empty where no token stands there."""
     child = children[index] if index < len(children) else None
     return child.value if isinstance(child, Token) else ""

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 from lark import Token, Tree
 
 from skillc_dsl.formatting import documents as d
-from skillc_dsl.formatting.columns import KEYWORD, Cell, Member, aligned
+from skillc_dsl.formatting.columns import KEYWORD, ColumnCell, MemberLine, align_columns
 from skillc_dsl.formatting.inline import Branch, index_of
-from skillc_dsl.formatting.members import Members
+from skillc_dsl.formatting.members import MemberFormatter
 
 _HEADER = ("use", "prefix", "import_")
 _BLOCKS = ("skill", "impl", "task")
@@ -17,7 +17,7 @@ _WORD = 4
 """The keywords of a skill, such as `pre` and `hold`, take as much in every skill."""
 
 
-class Declarations(Members):
+class FileFormatter(MemberFormatter):
     """Makes the document of a file."""
 
     def file(self, tree: Tree[Token]) -> d.Document:
@@ -27,11 +27,11 @@ class Declarations(Members):
         for trees in self._paragraphs([child for child in tree.children if isinstance(child, Tree)]):
             kind = str(trees[0].data)
             if before in _BLOCKS or kind in _BLOCKS or (before in _HEADER and kind not in _HEADER):
-                parts.append(d.Blank())
+                parts.append(d.BlankLine())
             for part in self._paragraph(trees):
-                parts += [part, d.NewLine()]
+                parts += [part, d.HardBreak()]
             before = kind
-        return d.joined(*parts, self.notes.last)
+        return d.concatenate(*parts, self.notes.last)
 
     def _paragraphs(self, trees: Sequence[Tree[Token]]) -> Iterator[list[Tree[Token]]]:
         """Yield each part of the header and each declaration, those of the vocabulary together up to a blank line."""
@@ -50,40 +50,40 @@ class Declarations(Members):
         if first.data in _BLOCKS:
             start = index_of(first.children, "LBRACE")
             braces = self.members(first.children[start:], _WORD if first.data == "skill" else 0)
-            yield d.joined(self.spaced(first.children[:start]), braces)
+            yield d.concatenate(self.spaced(first.children[:start]), braces)
         elif first.data in _HEADER:
             yield self.spaced(first.children)
         else:
-            yield from aligned([self._term(tree) for tree in trees])
+            yield from align_columns([self._term(tree) for tree in trees])
 
-    def _term(self, tree: Tree[Token]) -> Member:
+    def _term(self, tree: Tree[Token]) -> MemberLine:
         """Return the declaration of a class, a relation, a property or a function."""
         head, rest = _keyword(tree), tree.children[1:]
-        above, first = self.notes.above(head), Cell(KEYWORD, self.bare(head))
+        above, first = self.notes.above(head), ColumnCell(KEYWORD, self.bare(head))
         if tree.data == "class_":
             content, last = self._class(rest)
         else:
             content, last = self._signature(rest)
         if tree.data in ("function", "property") or not last:
-            return Member(above, (first,), d.joined(content, *last))
-        return Member(above, (first, Cell(str(tree.data), content, gap=2)), d.joined(*last[1:]))
+            return MemberLine(above, (first,), d.concatenate(content, *last))
+        return MemberLine(above, (first, ColumnCell(str(tree.data), content, gap=2)), d.concatenate(*last[1:]))
 
     def _class(self, rest: Sequence[Branch]) -> tuple[d.Document, list[d.Document]]:
         """Return the name with the parents, and the disjoint classes."""
         *content, last = rest
         if isinstance(last, Tree) and last.data == "disjoint":
-            return self.spaced(content), [d.Space(), self.of(last)]
+            return self.spaced(content), [d.Gap(), self.of(last)]
         return self.spaced(rest), []
 
     def _signature(self, rest: Sequence[Branch]) -> tuple[d.Document, list[d.Document]]:
         """Return the name with the brackets, and what follows; the `:` of a property touches its bracket."""
         start, end = index_of(rest, "LPAR"), index_of(rest, "RPAR")
-        content = d.joined(self.of(rest[0]), self.bracketed(rest[start : end + 1]))
+        content = d.concatenate(self.of(rest[0]), self.bracketed(rest[start : end + 1]))
         tail = rest[end + 1 :]
         colon = index_of(tail, "COLON")
         if colon == 0:
-            return content, [self.of(tail[0]), d.Space(), self.spaced(tail[1:])]
-        return content, [d.Space(), self.spaced(tail)] if tail else []
+            return content, [self.of(tail[0]), d.Gap(), self.spaced(tail[1:])]
+        return content, [d.Gap(), self.spaced(tail)] if tail else []
 
 
 def _keyword(tree: Tree[Token]) -> Token:
@@ -95,4 +95,4 @@ def _keyword(tree: Tree[Token]) -> Token:
 
 
 def _has_blank(above: d.Document) -> bool:
-    return isinstance(above, d.Joined) and any(isinstance(part, d.Blank) for part in above.parts)
+    return isinstance(above, d.Concatenation) and any(isinstance(part, d.BlankLine) for part in above.parts)

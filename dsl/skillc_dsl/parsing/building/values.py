@@ -8,14 +8,14 @@ import re
 from lark import Token
 
 from skillc_dsl import syntax as s
-from skillc_dsl.building.places import Child, Places
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.parsing.building.places import Child, TreeBuilder
 from skillc_dsl.source import Span
 
 _QUANTITY = re.compile(r"([\d.]+(?:[eE][+-]?\d+)?)\s*(\S+)")
 
 
-class Values(Places):
+class ValueBuilder(TreeBuilder):
     """Names, types and values; a condition in parentheses passes through where it may yet be one."""
 
     def name(self, children: list[Token]) -> s.Name:

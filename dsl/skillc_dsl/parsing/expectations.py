@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 from lark import Token
 
-from skillc_dsl.grammar import END, following, words
+from skillc_dsl.parsing.grammar import END, fixed_texts, list_following_terminals
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,20 +25,28 @@ class Phrase:
 def _phrases() -> tuple[Phrase, ...]:
     """Return the phrases, those that cover most first; what they cover is read off the grammar."""
     impl = "IMPL NAME OF NAME LBRACE"
-    values = following(f"{impl} LET NAME EQUAL")
-    conditions = following(f"{impl} DO IF")
-    relations = names() & following(f"{impl} DO IF NAME")
+    values = list_following_terminals(f"{impl} LET NAME EQUAL")
+    conditions = list_following_terminals(f"{impl} DO IF")
+    relations = name_terminals() & list_following_terminals(f"{impl} DO IF NAME")
     operators = _set("PLUS MINUS STAR SLASH DOT LPAR")
     table = (
-        ("a declaration such as `skill` or `impl`", "CLASS SKILL", following("") - {END}),
-        ("a member of a skill, such as `in` or `pre`", "IN OPT PRE", following("SKILL NAME LBRACE") - {"RBRACE"}),
-        ("a member of an implementation, such as `let` or `do`", "LET RUN", following(impl) - {"RBRACE"}),
+        ("a declaration such as `skill` or `impl`", "CLASS SKILL", list_following_terminals("") - {END}),
+        (
+            "a member of a skill, such as `in` or `pre`",
+            "IN OPT PRE",
+            list_following_terminals("SKILL NAME LBRACE") - {"RBRACE"},
+        ),
+        (
+            "a member of an implementation, such as `let` or `do`",
+            "LET RUN",
+            list_following_terminals(impl) - {"RBRACE"},
+        ),
         ("a member of a task, such as `scene` or `goal`", "SCENE GOAL DO", _set("SCENE GOAL DO")),
         ("a condition", "NOT EXISTS NUMBER", conditions | values),
-        ("a step, such as `seq` or a call", "SEQ IF", following(f"{impl} DO")),
-        ("a value", "NUMBER QUANTITY STRING", values | names()),
+        ("a step, such as `seq` or a call", "SEQ IF", list_following_terminals(f"{impl} DO")),
+        ("a value", "NUMBER QUANTITY STRING", values | name_terminals()),
         ("a relation", "NAME HAS", relations | {"HAS", "IS"}),
-        ("a name", "NAME", names()),
+        ("a name", "NAME", name_terminals()),
         ("a comparison such as `==`", "EQUALS LESS", _set("EQUALS UNEQUAL LESS LESS_EQUAL MORE MORE_EQUAL")),
         ("a connective such as `and`", "AND OR", _set("AND OR IMPLIES") | operators),
         ("an operator such as `+`", "PLUS STAR", operators),
@@ -53,19 +61,21 @@ def _phrases() -> tuple[Phrase, ...]:
 
 
 @functools.cache
-def names() -> frozenset[str]:
+def name_terminals() -> frozenset[str]:
     """Return every terminal that may be a name."""
-    return following("USE")
+    return list_following_terminals("USE")
 
 
-def home(token: Token) -> str:
+def explain_where_it_belongs(token: Token) -> str:
     """Return help that says where a member belongs, empty for what is no member."""
     homes = (
         ("a `skill`", "SKILL NAME LBRACE"),
         ("an `impl`", "IMPL NAME OF NAME LBRACE"),
         ("a `task`", "TASK NAME LBRACE"),
     )
-    fitting = [kind for kind, start in homes if token.type != "RBRACE" and token.type in following(start)]
+    fitting = [
+        kind for kind, start in homes if token.type != "RBRACE" and token.type in list_following_terminals(start)
+    ]
     return f"`{token}` belongs in {' or '.join(fitting)}" if fitting else ""
 
 
@@ -85,7 +95,7 @@ _FOREIGN = MappingProxyType(
 """What authors used to other languages write, and what to write instead."""
 
 
-def advice(token: Token, before: Token | None) -> str:
+def advise_on_foreign_word(token: Token, before: Token | None) -> str:
     """Return help for a word or mark of another language, at the fault or right before it; empty for any other."""
     if token == "=" and before is not None and before.isidentifier():
         return "an argument is written `name: value`, a value is named by `let` before the steps"
@@ -96,7 +106,7 @@ def _set(terminals: str) -> frozenset[str]:
     return frozenset(terminals.split())
 
 
-def described(terminals: Iterable[str]) -> str:
+def describe_terminals(terminals: Iterable[str]) -> str:
     """Return what `terminals` are to an author: `a value, a relation or `}``."""
     left = set(terminals)
     if len(left) > 1:
@@ -106,12 +116,12 @@ def described(terminals: Iterable[str]) -> str:
         if phrase.signs <= left:
             phrases.append(phrase.text)
             left -= phrase.covers
-    marks = sorted(f"`{words()[terminal]}`" for terminal in left if terminal in words())
+    marks = sorted(f"`{fixed_texts()[terminal]}`" for terminal in left if terminal in fixed_texts())
     *others, last = [*marks, *phrases] or ["nothing more"]
     return f"{', '.join(others)} or {last}" if others else last
 
 
-def shown(token: Token) -> str:
+def describe_token(token: Token) -> str:
     """Return what an author sees at `token`."""
     if token.type == END:
         return "the end of the file"

@@ -7,11 +7,11 @@ from typing import Literal, cast
 from lark import Token
 
 from skillc_dsl import syntax as s
-from skillc_dsl.building.places import Child, word_at
-from skillc_dsl.building.values import Values
+from skillc_dsl.parsing.building.places import Child, keyword_at
+from skillc_dsl.parsing.building.values import ValueBuilder
 
 
-class Conditions(Values):
+class ConditionBuilder(ValueBuilder):
     """Conditions; a lone value among them becomes `Bare`."""
 
     def implies(self, children: list[Child]) -> s.Implies:
@@ -36,14 +36,14 @@ class Conditions(Values):
 
     def quantified(self, children: list[Child]) -> s.Quantified:
         """`exists x: Class (body)`, `forall x: Class (body)`"""
-        word: Literal["exists", "forall"] = "exists" if word_at(children, 0) == "exists" else "forall"
+        word: Literal["exists", "forall"] = "exists" if keyword_at(children, 0) == "exists" else "forall"
         body = self.condition(children[4])
         return s.Quantified(word, self.label(children[1]), self.as_name(children[2]), body, self.over(children))
 
     def compare(self, children: list[Child]) -> s.Compare:
         """`left == right` and its like"""
         left, _, right = children
-        operator = cast(s.CompareOperator, word_at(children, 1))
+        operator = cast(s.CompareOperator, keyword_at(children, 1))
         return s.Compare(self.value(left), operator, self.value(right), self.over(children))
 
     def relation_of(self, children: list[Child]) -> s.Relation:

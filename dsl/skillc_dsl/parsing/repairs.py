@@ -1,4 +1,4 @@
-"""Slips that one token's change mends, so that the rest of the declaration is understood."""
+"""Mistakes that the change of one token repairs, so that the rest of the declaration is understood."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from lark import Token
 
 from skillc_dsl.diagnostics import Diagnostic, Fix
-from skillc_dsl.grammar import DECLARATIONS, END, first_on_line, fits, fitting, words
-from skillc_dsl.lexing import span_of
+from skillc_dsl.parsing.grammar import DECLARATIONS, END, begins_line, can_continue, fixed_texts, list_fitting_terminals
+from skillc_dsl.parsing.lexer import token_span
+from skillc_dsl.parsing.token_repairs import join_tokens, report_missing_space
 from skillc_dsl.source import Span
-from skillc_dsl.spelling import joined, missing_space
 
 _INSERTED = ("RPAR", "RSQB", "COMMA", "EQUAL", "OF", "DOTS", "LBRACE", "COLON", "LPAR", "IN", "SEQ", "PYTHON", "ARROW")
 _SPACED = ("EQUAL", "DOTS", "LBRACE", "ARROW")
@@ -46,14 +46,14 @@ class Fault:
     @property
     def span(self) -> Span:
         """Where that token is."""
-        return span_of(self.token, self.path)
+        return token_span(self.token, self.path)
 
     @property
     def gap(self) -> Span:
         """The place right after the token before."""
         if self.index == 0:
             return Span(self.path, 1, 1, 1, 1)
-        before = span_of(self.tokens[self.index - 1], self.path)
+        before = token_span(self.tokens[self.index - 1], self.path)
         return Span(self.path, before.end_line, before.end_column, before.end_line, before.end_column)
 
     def mended_by(self, *terminals: str, skip: int = 1) -> bool:
@@ -63,9 +63,9 @@ class Fault:
         """
         start = self.index + skip
         after = self.tokens[start : start + 2]
-        if first_on_line(self.tokens, min(start, len(self.tokens) - 1)):
+        if begins_line(self.tokens, min(start, len(self.tokens) - 1)):
             after = after[:1]
-        return fits(self.states, *terminals, *(token.type for token in after))
+        return can_continue(self.states, *terminals, *(token.type for token in after))
 
 
 def repair(fault: Fault) -> Repair | None:
@@ -89,53 +89,53 @@ def _label(fault: Fault) -> Iterator[Repair]:
         column = (token.column or 1) + len(name) + 1
         label = Token("LABEL", f"{name}:", token.start_pos, token.line, token.column, token.line, column, None)
         value = Token("NAME", rest, None, token.line, column, token.line, token.end_column, token.end_pos)
-        yield Repair(missing_space(span_of(label, fault.path), rest), (label, value))
+        yield Repair(report_missing_space(token_span(label, fault.path), rest), (label, value))
     elif token.isidentifier() and fault.mended_by("LABEL"):
         end = Span(fault.path, fault.span.line, fault.span.end_column, fault.span.line, fault.span.end_column)
         problem = Diagnostic("syntax", fault.span, f"`:` is missing after `{token}`", fix=Fix(end, ":", "insert `:`"))
-        yield Repair(problem, (joined("LABEL", token, token, f"{token}:"),))
+        yield Repair(problem, (join_tokens("LABEL", token, token, f"{token}:"),))
 
 
 def _swapped(fault: Fault) -> Iterator[Repair]:
     """`=` where values are compared, `==` where a value is given."""
     right = _SWAPPED.get(fault.token.type)
     if right and fault.mended_by(right):
-        text = words()[right]
+        text = fixed_texts()[right]
         role = "compares" if right == "EQUALS" else "gives a value"
         fix = Fix(fault.span, text, f"write `{text}`")
         problem = Diagnostic("syntax", fault.span, f"`{text}` {role}, not `{fault.token}`", fix=fix)
-        yield Repair(problem, (joined(right, fault.token, fault.token, text),))
+        yield Repair(problem, (join_tokens(right, fault.token, fault.token, text),))
 
 
 def _keyword(fault: Fault) -> Iterator[Repair]:
-    """A keyword with a slip of the pen."""
+    """A misspelt keyword."""
     if fault.token.type != "NAME":
         return
-    possible = fitting(fault.states)
-    if not first_on_line(fault.tokens, fault.index):
+    possible = list_fitting_terminals(fault.states)
+    if not begins_line(fault.tokens, fault.index):
         possible -= DECLARATIONS
-    keywords = {words()[t]: t for t in possible if words().get(t, "").isalpha()}
+    keywords = {fixed_texts()[t]: t for t in possible if fixed_texts().get(t, "").isalpha()}
     for near in difflib.get_close_matches(fault.token, sorted(keywords), n=3, cutoff=0.7):
         if fault.mended_by(keywords[near]):
             fix = Fix(fault.span, near, f"write `{near}`", safe=False)
             message = f"there is no keyword `{fault.token}` that fits here"
             problem = Diagnostic("syntax", fault.span, message, f"did you mean `{near}`?", fix=fix)
-            yield Repair(problem, (joined(keywords[near], fault.token, fault.token, near),))
+            yield Repair(problem, (join_tokens(keywords[near], fault.token, fault.token, near),))
 
 
 def _missing(fault: Fault) -> Iterator[Repair]:
     """A bracket, a comma, or a small word left out before the token at fault."""
-    name_fits = fits(fault.states, "NAME")
-    complete = fits(fault.states, "RBRACE") or fits(fault.states, END)
-    new_line = first_on_line(fault.tokens, fault.index)
+    name_fits = can_continue(fault.states, "NAME")
+    complete = can_continue(fault.states, "RBRACE") or can_continue(fault.states, END)
+    new_line = begins_line(fault.tokens, fault.index)
     if complete and new_line:
         return
-    span = span_of(fault.tokens[fault.index - 1], fault.path) if new_line and fault.index else fault.span
+    span = token_span(fault.tokens[fault.index - 1], fault.path) if new_line and fault.index else fault.span
     for terminal in _INSERTED:
         if (new_line and terminal == "LPAR") or (name_fits and terminal in _WORDS):
             continue
         if fault.mended_by(terminal, skip=0) and (terminal != "LBRACE" or _has_unopened(fault)):
-            text, gap = words()[terminal], fault.gap
+            text, gap = fixed_texts()[terminal], fault.gap
             before = fault.tokens[fault.index - 1] if fault.index else ""
             padded = f" {text}" if text.isalpha() or terminal in _SPACED else text
             fix = Fix(gap, padded, f"insert `{text}`")
@@ -148,7 +148,7 @@ def _has_unopened(fault: Fault) -> bool:
     """Whether the declaration at fault has more `}` than `{`, so that one more `{` makes it whole."""
     open_ = 0
     for index, token in enumerate(fault.tokens):
-        if token.type in DECLARATIONS and first_on_line(fault.tokens, index):
+        if token.type in DECLARATIONS and begins_line(fault.tokens, index):
             if index > fault.index:
                 break
             open_ = 0
@@ -158,10 +158,10 @@ def _has_unopened(fault: Fault) -> bool:
 
 def _superfluous(fault: Fault) -> Iterator[Repair]:
     """A mark or a word too many on its line; at the end of a line only if nothing is missing there."""
-    if fault.token.type in _KEPT or first_on_line(fault.tokens, fault.index):
+    if fault.token.type in _KEPT or begins_line(fault.tokens, fault.index):
         return
-    complete = fits(fault.states, "RBRACE") or fits(fault.states, END)
-    at_end = first_on_line(fault.tokens, fault.index + 1)
+    complete = can_continue(fault.states, "RBRACE") or can_continue(fault.states, END)
+    at_end = begins_line(fault.tokens, fault.index + 1)
     if fault.mended_by() and (complete or not at_end):
         fix = Fix(fault.span, "", "delete it", safe=False)
         yield Repair(Diagnostic("syntax", fault.span, f"`{fault.token}` is one too many here", fix=fix), ())

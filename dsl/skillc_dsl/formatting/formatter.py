@@ -1,0 +1,71 @@
+"""The one way a `.skill` file is laid out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lark import Token, Tree
+
+from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
+from skillc_dsl.formatting.equality import equal_modulo_layout
+from skillc_dsl.formatting.files import FileFormatter
+from skillc_dsl.formatting.layout import lay_out, render_rows
+from skillc_dsl.formatting.notes import attach_comments
+from skillc_dsl.parsing.grammar import load_parser
+from skillc_dsl.parsing.parser import parse
+from skillc_dsl.source import Source, Span
+
+
+def format_source(source: Source) -> Outcome[str]:
+    """Return the text of a file in its one layout: same meaning, same comments.
+
+    A file with errors stays as it is, and the errors are reported. So does one whose meaning would change.
+    """
+    errors = tuple(problem for problem in parse(source).diagnostics if problem.severity == "error")
+    if errors:
+        return Outcome(source.text, errors)
+    text = _layout(source)
+    if text != source.text and not equal_modulo_layout(source, Source(source.path, text)):
+        return Outcome(source.text, (_refused(source, "it would not mean the same"),))
+    return Outcome(text)
+
+
+def check_layout(source: Source) -> Diagnostic | None:
+    """Return the warning that a file is not in its one layout, at the first line that differs, with the layout as fix.
+
+    None for a file that is, and for one with errors, which have to be fixed first.
+    """
+    outcome = format_source(source)
+    if not outcome.ok or outcome.value == source.text:
+        return None
+    old, new = source.text.split("\n"), outcome.value.split("\n")
+    same = next((n for n, (left, right) in enumerate(zip(old, new, strict=False)) if left != right), len(new) - 1)
+    line = min(same, len(old) - 1)
+    span = Span(source.path, line + 1, 1, line + 1, len(old[line]) + 1)
+    fix = Fix(Span(source.path, 1, 1, len(old), len(old[-1]) + 1), outcome.value, "format the file")
+    message = "this file is not formatted; this is the first line that differs"
+    return Diagnostic("not-formatted", span, message, "run `skillc fmt` on it", "warning", fix=fix)
+
+
+def _layout(source: Source) -> str:
+    tree: Tree[Token] = load_parser().parse(source.text)
+    tokens = list(tree.scan_values(lambda value: isinstance(value, Token)))
+    notes = attach_comments(source, tokens, frozenset(_statements(tree)))
+    return render_rows(lay_out(FileFormatter(notes).file(tree)))
+
+
+def _statements(tree: Tree[Token]) -> Iterator[int]:
+    """Yield where each declaration, member and step starts, above which a blank line may stand."""
+    for holder in tree.iter_subtrees():
+        names = [child.type for child in holder.children if isinstance(child, Token)]
+        if holder.data == "start" or "LBRACE" in names:
+            for child in holder.children:
+                first = next(child.scan_values(lambda v: True), None) if isinstance(child, Tree) else None
+                if first is not None:
+                    yield first.start_pos or 0
+
+
+def _refused(source: Source, why: str) -> Diagnostic:
+    start = Span(source.path, 1, 1, 1, 1)
+    message = f"this file cannot be formatted: {why}"
+    return Diagnostic("not-formatted", start, message, "it is left as it is; please report it")
