@@ -19,11 +19,11 @@ import msgspec
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 from planning.samples import CLEAN, CLEANED, DRIVE, LAB, PICK, library, post, skill
 from skillc_compiler.library.conditions import And, Holds, Individual, Not
-from skillc_runtime.planning.bound import relaxed_scene
-from skillc_runtime.planning.choose import available
-from skillc_runtime.planning.narrowing import NARROW
+from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.plan import Solved
-from skillc_runtime.planning.problem import Posed, pose_problem
+from skillc_runtime.planning.planners import list_planners
+from skillc_runtime.planning.problem.neighbourhood import NARROW
+from skillc_runtime.planning.problem.pose import Posed, pose_problem
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.world.bulk import Facts, state_of
 from skillc_runtime.world.state import WorldState
@@ -124,13 +124,13 @@ def _triples(state: WorldState) -> int:
 
 def prove(near: Posed, state: WorldState) -> None:
     """Find the bound on all plans of the scene."""
-    bound = relaxed_scene(near, state)
-    assert bound is not None and isinstance(available()[0].plan(bound, 30.0), Solved)
+    bound = relax_scene(near, state)
+    assert bound is not None and isinstance(list_planners()[0].plan(bound, 30.0), Solved)
 
 
 def first_plan(state: WorldState) -> None:
     """Pose the near problem and solve it with the first planner."""
-    answer = available()[0].plan(pose_problem(SKILLS, state, GOAL, (), NARROW).problem, 30.0)
+    answer = list_planners()[0].plan(pose_problem(SKILLS, state, GOAL, (), NARROW).problem, 30.0)
     assert isinstance(answer, Solved)
 
 

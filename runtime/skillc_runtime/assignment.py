@@ -9,8 +9,8 @@ from typing import Literal, assert_never
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.tree import Node
-from skillc_runtime.planning.choose import Planners, at_hand
 from skillc_runtime.planning.plan import PlanResult, Solved, Step
+from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.plans.body import plan_body
@@ -77,7 +77,7 @@ def prepare(
     """
     match assignment.aim:
         case Reach():
-            prepared = _planned(assignment, assignment.aim, library, without, planners or at_hand())
+            prepared = _planned(assignment, assignment.aim, library, without, planners or find_planners())
         case Perform(body):
             prepared = Prepared(assignment, body, None)
         case _:

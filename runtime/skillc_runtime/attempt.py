@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.assignment import Assignment, Planned, Prepared, Reach
-from skillc_runtime.planning.claims import quality
+from skillc_runtime.planning.plan import describe_quality
 from skillc_runtime.plans.failures import Failures
 from skillc_runtime.plans.progress import doubt, progress
 from skillc_runtime.primitives.primitive import Status
@@ -125,7 +125,7 @@ def _tell_plan(prepared: Prepared, setting: Setting) -> None:
         cost=cost,
         steps=steps,
         names=names,
-        quality=quality(solved.optimal, solved.left_out, solved.at_least_s),
+        quality=describe_quality(solved.optimal, solved.left_out, solved.at_least_s),
     )
     Listeners(setting.listeners)(made)
 

@@ -10,9 +10,9 @@ import pytest
 
 from skillc_runtime.assignment import Reach
 from skillc_runtime.commands._mission import Mission, of_task
-from skillc_runtime.planning.astar import AStar
 from skillc_runtime.planning.plan import Plan, Solved
-from skillc_runtime.planning.problem import Posed, pose_problem
+from skillc_runtime.planning.problem.pose import Posed, pose_problem
+from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
 
 pytestmark = pytest.mark.reasoner

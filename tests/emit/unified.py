@@ -18,10 +18,10 @@ from skillc_compiler.library.pddl.domain import Action, RelationFact
 from skillc_compiler.library.pddl.problem import Problem
 from skillc_compiler.library.pddl.text import domain_text, problem_text, temporal_problem_text, temporal_text
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.planning.initial import Initial
 from skillc_runtime.planning.plan import Plan, Step
-from skillc_runtime.planning.problem import Posed
-from skillc_runtime.planning.validate import PlanError, validate
+from skillc_runtime.planning.problem.initial_state import InitialState
+from skillc_runtime.planning.problem.pose import Posed
+from skillc_runtime.planning.validation import PlanError, validate
 from skillc_runtime.world.state import WorldState
 
 get_environment().credits_stream = None
@@ -130,7 +130,7 @@ def _facts(posed: Posed, facts: Iterator[tuple[str, ...]]) -> frozenset[tuple[st
 
 def _initial(posed: Posed, world: WorldState) -> Iterator[tuple[str, ...]]:
     problem = posed.problem
-    for each in Initial(problem.domain, world, problem.objects, problem.names).atoms():
+    for each in InitialState(problem.domain, world, problem.objects, problem.names).atoms():
         yield each.predicate, *each.terms
 
 

@@ -20,7 +20,7 @@ from skillc_compiler.library.conditions import And
 from skillc_compiler.library.pddl.planning import planning_domain
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.tree import Node
-from skillc_runtime.planning.problem import pose_problem
+from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.tree.run import Run
 from skillc_runtime.world.model import WorldModel

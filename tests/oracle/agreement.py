@@ -20,10 +20,10 @@ from skillc_compiler.library.pddl.formulas import (
 )
 from skillc_compiler.library.pddl.relations import Relations
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.planning.grounding import GroundAction, Grounding
 from skillc_runtime.planning.plan import Step
-from skillc_runtime.planning.problem import Posed, pose_problem
-from skillc_runtime.planning.steps import step_of
+from skillc_runtime.planning.plan_text import read_step
+from skillc_runtime.planning.problem.pose import Posed, pose_problem
+from skillc_runtime.planning.search.grounding import GroundAction, Grounding
 from skillc_runtime.world.state import WorldState
 
 
@@ -32,7 +32,7 @@ def disagreements(library: SkillLibrary, state: WorldState) -> Iterator[str]:
     posed = pose_problem(library, state, And(()))
     planned = {each.skill for each in posed.problem.domain.actions}
     before = frozenset(posed.problem.init)
-    actions = {_key(step_of(posed.problem, each.words)): each for each in Grounding(posed.problem).actions}
+    actions = {_key(read_step(posed.problem, each.words)): each for each in Grounding(posed.problem).actions}
     for step in steps(library, state):
         if step.skill in planned:
             action, after = actions.get(_key(step)), worked(step, library, state)

@@ -12,7 +12,7 @@ from skillc_compiler.library.conditions import And, Condition
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import ClassType
 from skillc_runtime.planning.plan import Plan, Step
-from skillc_runtime.planning.validate import PlanError, validate
+from skillc_runtime.planning.validation import PlanError, validate
 from skillc_runtime.selection.fit import Fitted, fit
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.expressions import EvaluationError, value_of

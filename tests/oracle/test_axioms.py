@@ -18,10 +18,10 @@ from skillc_compiler.library.pddl.formulas import FALSE
 from skillc_compiler.library.pddl.planning import planning_domain
 from skillc_compiler.library.pddl.pruning import pruned
 from skillc_compiler.library.pddl.text import domain_text, problem_text, temporal_problem_text, temporal_text
-from skillc_runtime.planning.astar import AStar
-from skillc_runtime.planning.choose import available
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
-from skillc_runtime.planning.problem import GoalError, pose_problem
+from skillc_runtime.planning.planners import list_planners
+from skillc_runtime.planning.problem.pose import GoalError, pose_problem
+from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
 
 EXAMPLES = int(os.environ.get("SKILLC_EXAMPLES", "0"))
@@ -59,7 +59,7 @@ def test_what_is_said_of_a_plan_is_true(seed: int) -> None:
 def test_the_strongest_planner_claims_the_same(seed: int) -> None:
     drawn = Author(seed).drawn()
     own = solve(drawn.library, drawn.state, drawn.goal, (AStar(),), LONG_S)
-    other = solve(drawn.library, drawn.state, drawn.goal, available()[:1], LONG_S)
+    other = solve(drawn.library, drawn.state, drawn.goal, list_planners()[:1], LONG_S)
     assert type(own) is type(other)
     if isinstance(own, Solved) and isinstance(other, Solved):
         assert (other.optimal, other.plan.duration_s) == (own.optimal, pytest.approx(own.plan.duration_s))

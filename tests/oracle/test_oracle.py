@@ -16,13 +16,13 @@ from oracle.text import Contradictory
 from skillc_compiler.library.conditions import And, Condition
 from skillc_compiler.library.pddl.complement import complemented
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.planning.astar import AStar
-from skillc_runtime.planning.bound import relaxed_scene
-from skillc_runtime.planning.choose import available
-from skillc_runtime.planning.narrowing import Breadth
+from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.plan import Planner, PlanResult, Solved, Unsolvable
-from skillc_runtime.planning.problem import pose_problem
-from skillc_runtime.planning.reachable import why_unreachable
+from skillc_runtime.planning.planners import list_planners
+from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
+from skillc_runtime.planning.problem.pose import pose_problem
+from skillc_runtime.planning.reachability import explain_unreachable
+from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.world.state import WorldState
 
@@ -66,7 +66,7 @@ def test_the_built_in_planner_finds_the_cheapest_plan(seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", range(EXAMPLES or 2))
-@pytest.mark.parametrize("planner", available()[:-1], ids=lambda planner: planner.name)
+@pytest.mark.parametrize("planner", list_planners()[:-1], ids=lambda planner: planner.name)
 def test_every_other_planner_finds_a_plan_as_cheap(seed: int, planner: Planner) -> None:
     skills, state, goal = drawn(Dice(1000 + seed))
     own = solve(skills, state, goal, (AStar(),), LONG_S)
@@ -90,10 +90,10 @@ def test_pddl_means_what_the_world_model_means(seed: int) -> None:
 @pytest.mark.parametrize("seed", range(EXAMPLES or 5))
 def test_nothing_wrong_is_said_of_a_scene_from_a_part_of_it(seed: int) -> None:
     skills, state, goal = drawn(Dice(seed, CROWD))
-    breadth = Breadth(1 + seed % 3, 1)
+    breadth = AbstractionSize(1 + seed % 3, 1)
     narrow = pose_problem(skills, state, goal, (), breadth)
     whole = AStar().plan(pose_problem(skills, state, goal).problem, LONG_S)
-    bound = relaxed_scene(narrow, state)
+    bound = relax_scene(narrow, state)
     if bound is not None:
         assert cost_of(AStar().plan(bound, LONG_S)) <= cost_of(whole) + 1e-9
     first = solve(skills, state, goal, (AStar(),), LONG_S, breadth=breadth)
@@ -104,7 +104,7 @@ def test_nothing_wrong_is_said_of_a_scene_from_a_part_of_it(seed: int) -> None:
         assert cost_of(first) == pytest.approx(cost_of(whole))
     proven = solve(skills, state, goal, (AStar(),), LONG_S, breadth=breadth, prove=True)
     assert cost_of(proven) == pytest.approx(cost_of(whole))
-    assert why_unreachable(skills, state, goal) is None or isinstance(whole, Unsolvable)
+    assert explain_unreachable(skills, state, goal) is None or isinstance(whole, Unsolvable)
 
 
 @pytest.mark.parametrize("seed", range(EXAMPLES or 5))

@@ -3,8 +3,8 @@
 import sys
 
 from planning.samples import CLEANED, LAB, WIPING
-from skillc_runtime.planning.fast_downward import FastDownward, Programs
-from skillc_runtime.planning.problem import pose_problem
+from skillc_runtime.planning.fast_downward.solver import FastDownward, Programs
+from skillc_runtime.planning.problem.pose import pose_problem
 
 search, translate = sys.argv[1:]
 problem = pose_problem(WIPING, LAB, CLEANED).problem

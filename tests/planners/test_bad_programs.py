@@ -10,9 +10,9 @@ import pytest
 from planners.programs import CRASH, ENDLESS, FILL, GARBAGE, HANG, HOG, SMALL, ends, program, started
 from planning.samples import CLEANED, LAB, WIPING
 from skillc_runtime.planning.aries.solver import Aries
-from skillc_runtime.planning.fast_downward import FastDownward, Programs
+from skillc_runtime.planning.fast_downward.solver import FastDownward, Programs
 from skillc_runtime.planning.plan import GaveUp
-from skillc_runtime.planning.problem import pose_problem
+from skillc_runtime.planning.problem.pose import pose_problem
 
 PROBLEM = pose_problem(WIPING, LAB, CLEANED).problem
 TRANSLATED = 'touch task.sas; echo "Translator axioms: 0"'

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from docs.pages import ROOT, Reader
-from skillc_runtime.planning.fast_downward import installed
+from skillc_runtime.planning.fast_downward.solver import find_fast_downward
 
 
-@pytest.mark.skipif(installed() is None, reason="the page speaks of planners that are extras")
+@pytest.mark.skipif(find_fast_downward() is None, reason="the page speaks of planners that are extras")
 def test_the_page_is_true(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))

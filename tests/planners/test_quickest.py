@@ -20,18 +20,18 @@ from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, prepare
 from skillc_runtime.commands import _planners
 from skillc_runtime.commands._mission import Mission
-from skillc_runtime.planning import fast_downward
-from skillc_runtime.planning.aries.solver import Aries, installed
-from skillc_runtime.planning.astar import AStar
-from skillc_runtime.planning.busy import work_of
-from skillc_runtime.planning.choose import Planners, at_hand
-from skillc_runtime.planning.critical import critical_path_s
-from skillc_runtime.planning.fast_downward import FastDownward
+from skillc_runtime.planning.aries.solver import Aries, find_aries
+from skillc_runtime.planning.fast_downward import solver as fast_downward
+from skillc_runtime.planning.fast_downward.solver import FastDownward
 from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Unsolvable
-from skillc_runtime.planning.problem import pose_problem
+from skillc_runtime.planning.planners import Planners, find_planners
+from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.planning.schedule import Schedule, Scheduled
+from skillc_runtime.planning.search.astar import AStar
+from skillc_runtime.planning.search.device_work import price_device_work
+from skillc_runtime.planning.search.h_max import critical_path_s
 from skillc_runtime.planning.solve import solve
-from skillc_runtime.planning.validate import validate
+from skillc_runtime.planning.validation import validate
 from skillc_runtime.plans.quickest import ScheduleResult, quickest
 from skillc_runtime.plans.rehearsal import rehearse
 from skillc_runtime.world.model import WorldModel
@@ -146,18 +146,18 @@ def test_bounds_hold() -> None:
     assert critical_path_s(problem, 0.0) == 0.0, "there was no time to look"
     names = {iri: name for name, iri in problem.names.items()}
     for robot in ("carl", "dora"):
-        least = AStar().plan(work_of(problem, names[depot.iri(robot)]), 20.0)
+        least = AStar().plan(price_device_work(problem, names[depot.iri(robot)]), 20.0)
         assert isinstance(least, Solved) and least.plan.duration_s == 0.0, "the other one can do everything"
     alone = depot.world({"carl": "a"}, {"crate": "a", "box": "b"}, "a b c")
     problem = pose_problem(LIBRARY, alone, BOTH).problem
     names = {iri: name for name, iri in problem.names.items()}
-    least = AStar().plan(work_of(problem, names[depot.iri("carl")]), 20.0)
+    least = AStar().plan(price_device_work(problem, names[depot.iri("carl")]), 20.0)
     cheapest = AStar().plan(problem, 20.0)
     assert isinstance(least, Solved) and isinstance(cheapest, Solved)
     assert least.plan.duration_s == cheapest.plan.duration_s > 0.0
 
 
-PROGRAM = installed()
+PROGRAM = find_aries()
 needs_aries = pytest.mark.skipif(PROGRAM is None, reason="aries is an extra")
 
 
@@ -184,9 +184,9 @@ def test_aries_takes_goals_of_every_kind(text: str) -> None:
 
 
 @needs_aries
-@pytest.mark.skipif(fast_downward.installed() is None, reason="the planner is an extra")
+@pytest.mark.skipif(fast_downward.find_fast_downward() is None, reason="the planner is an extra")
 def test_several_may_ask_at_the_same_time() -> None:
-    programs = fast_downward.installed()
+    programs = fast_downward.find_fast_downward()
     assert programs is not None and PROGRAM is not None
     problem, scheduler, planner = pose_problem(LIBRARY, WORLD, BOTH).problem, Aries(PROGRAM), FastDownward(programs)
     with ThreadPoolExecutor(3) as pool:
@@ -205,7 +205,7 @@ def test_no_schedule_is_worse_than_the_cheapest_plan_or_better_than_the_bounds(s
     crates = {name: random.choice("abcd") for name in ("crate", "box")}
     world = depot.world(robots, crates)
     goal = depot.goal(" and ".join(f"lab:{random.choice('abcd')} contain lab:{name}" for name in crates), world)
-    answer = quickest(LIBRARY, world, goal, at_hand(), 6.0)
+    answer = quickest(LIBRARY, world, goal, find_planners(), 6.0)
     cheapest = solve(LIBRARY, world, goal)
     assert isinstance(answer, Scheduled) and isinstance(cheapest, Solved)
     assert rehearse(answer.schedule, LIBRARY, world, goal) and validate(answer.plan, LIBRARY, world, goal)

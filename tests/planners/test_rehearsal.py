@@ -15,11 +15,11 @@ from plans import depot
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.commands import _library
-from skillc_runtime.planning.astar import AStar
 from skillc_runtime.planning.plan import Plan, Solved, Step
 from skillc_runtime.planning.schedule import Schedule, TimedStep
+from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
-from skillc_runtime.planning.validate import PlanError
+from skillc_runtime.planning.validation import PlanError
 from skillc_runtime.plans.rehearsal import rehearse
 from skillc_runtime.plans.scheduling import scheduled
 from skillc_runtime.world.state import WorldState

@@ -9,25 +9,25 @@ import pytest
 
 from planning.samples import DRIVE, LAB, PICK, library, post, skill
 from skillc_compiler.library.conditions import And, Anything, Holds, Individual, Not, Variable
-from skillc_runtime.planning import fast_downward
-from skillc_runtime.planning.admissible import (
+from skillc_runtime.planning.fast_downward import solver as fast_downward
+from skillc_runtime.planning.fast_downward.heuristics import (
     BLIND,
     H_MAX,
     LM_CUT,
     MERGE_AND_SHRINK,
     Heuristic,
-    Needs,
-    heuristics,
-    needs_of,
+    TaskFeatures,
+    choose_heuristics,
+    read_task_features,
 )
-from skillc_runtime.planning.fast_downward import FastDownward, Programs, installed
+from skillc_runtime.planning.fast_downward.solver import FastDownward, Programs, find_fast_downward
 from skillc_runtime.planning.plan import GaveUp, Solved
-from skillc_runtime.planning.problem import pose_problem
+from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.planning.solve import solve
 from world.lab import holds, iri, parameter
 
 AT = iri("at")
-pytestmark = pytest.mark.skipif(installed() is None, reason="the planner is an extra")
+pytestmark = pytest.mark.skipif(find_fast_downward() is None, reason="the planner is an extra")
 DOMAIN = """
 (define (domain d) (:requirements :adl :derived-predicates)
   (:predicates (wet) (clean) (done))
@@ -53,7 +53,7 @@ CONDITIONAL, SIMPLE = "(and (wet) (when (not (clean)) (clean)) (when (clean) (no
 def test_a_task_gets_the_heuristics_that_are_lower_bounds_for_it(
     effect: str, read: str, expected: tuple[Heuristic, ...], tmp_path: Path
 ) -> None:
-    programs = installed()
+    programs = find_fast_downward()
     assert programs is not None
     text = DOMAIN.format(derived=DERIVED, effect=effect, read=f"(or {read} (clean))")
     (tmp_path / "domain.pddl").write_text(text)
@@ -61,7 +61,7 @@ def test_a_task_gets_the_heuristics_that_are_lower_bounds_for_it(
     subprocess.run(
         [*programs.translate, "--sas-file", "task.sas", "domain.pddl", "problem.pddl"], cwd=tmp_path, check=True
     )
-    assert heuristics(needs_of(tmp_path / "task.sas")) == expected
+    assert choose_heuristics(read_task_features(tmp_path / "task.sas")) == expected
     for each in expected:
         with (tmp_path / "task.sas").open() as task:
             search = [programs.search, "--search", f"astar({each.text})"]
@@ -75,7 +75,7 @@ JUMP = skill(
 
 
 def test_what_a_step_replaces_without_knowing_it_is_planned_for_and_proved() -> None:
-    programs = installed()
+    programs = find_fast_downward()
     assert programs is not None
     goal = Holds(Individual(iri("robot")), iri("at"), Individual(iri("wall")))
     problem = pose_problem(library(JUMP), LAB, goal).problem
@@ -87,21 +87,23 @@ LIFT = skill("Lift", (parameter("robot", "Robot"),), (), (post(Not(Holds(Variabl
 
 
 def test_an_optimum_is_proved_where_effects_depend_on_what_holds(monkeypatch: pytest.MonkeyPatch) -> None:
-    programs, needs = installed(), []
+    programs, needs = find_fast_downward(), []
     assert programs is not None
-    monkeypatch.setattr(fast_downward, "needs_of", lambda task: needs.append(needs_of(task)) or needs[-1])
+    monkeypatch.setattr(
+        fast_downward, "read_task_features", lambda task: needs.append(read_task_features(task)) or needs[-1]
+    )
     gone = Not(Holds(Individual(iri("robot")), AT, Individual(iri("dock"))))
     picked = Holds(Individual(iri("gripper")), iri("contain"), Individual(iri("eraser")))
     goal = And((gone, picked))
     answer = solve(library(DRIVE, PICK, LIFT), LAB, goal, (FastDownward(programs),))
     assert isinstance(answer, Solved) and answer.optimal == "proven"
     assert [each.skill for each in answer.plan.steps] == ["Drive", "Pick"]
-    assert needs == [Needs(conditional_effects=True, axioms=False)]
+    assert needs == [TaskFeatures(conditional_effects=True, axioms=False)]
 
 
 @pytest.mark.parametrize(("failing", "proved"), [("lmcut", True), ("lmcut blind", False)])
 def test_where_a_search_fails_the_next_heuristic_gets_its_turn(failing: str, proved: bool, tmp_path: Path) -> None:
-    programs = installed()
+    programs = find_fast_downward()
     assert programs is not None
     cases = "\n".join(f'*"astar({each}("*) exit 34;;' for each in failing.split())
     search = tmp_path / "search"

@@ -11,7 +11,9 @@ from click.testing import CliRunner
 
 from skillc_compiler.library.pddl.costs import MOST_UNITS, common_scale, exact_seconds
 from skillc_runtime.commands.main import skillc
-from skillc_runtime.planning import astar, choose, fast_downward
+from skillc_runtime.planning import planners
+from skillc_runtime.planning.fast_downward import solver as fast_downward
+from skillc_runtime.planning.search import astar
 
 VOCABULARY = """
 use sumo
@@ -42,7 +44,8 @@ HAND = 'impl hand of Brush {{ {} run python "nobody:Needs" }}'
 PLANNERS = [
     "built-in A*",
     pytest.param(
-        "Fast Downward", marks=pytest.mark.skipif(fast_downward.installed() is None, reason="the planner is an extra")
+        "Fast Downward",
+        marks=pytest.mark.skipif(fast_downward.find_fast_downward() is None, reason="the planner is an extra"),
     ),
 ]
 
@@ -54,7 +57,7 @@ def plan(folder: Path, skills: str, goal: str, planner: str, monkeypatch: pytest
     (library / "wash.skill").write_text(VOCABULARY + skills, "utf-8")
     (library / "scene.ttl").write_text(SCENE, "utf-8")
     if planner == astar.AStar.name:
-        monkeypatch.setattr(choose, "installed_fast_downward", lambda: None)
+        monkeypatch.setattr(planners, "find_fast_downward", lambda: None)
     words = ["plan", "--library", str(library), "--scene", str(library / "scene.ttl"), "--goal", goal]
     result = CliRunner().invoke(skillc, [*words, "--no-plan-cache", *options])
     assert result.exit_code == 0, result.output

@@ -9,18 +9,18 @@ from planning.samples import CLEAN, CLEANED, DRIVE, LAB, PICK, WIPING, library
 from skillc_compiler.library.conditions import Forall, Holds, Individual, Not, PropertyOf, Variable
 from skillc_compiler.library.pddl.complement import complemented
 from skillc_compiler.library.pddl.formulas import Negation, Universal, conjuncts
-from skillc_runtime.planning import initial
-from skillc_runtime.planning.astar import AStar
-from skillc_runtime.planning.bound import relaxed_scene
-from skillc_runtime.planning.grounding import Grounding, TimeIsUp
-from skillc_runtime.planning.narrowing import Breadth
+from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable
-from skillc_runtime.planning.problem import pose_problem
-from skillc_runtime.planning.reachable import why_unreachable
+from skillc_runtime.planning.problem import initial_state as initial
+from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
+from skillc_runtime.planning.problem.pose import pose_problem
+from skillc_runtime.planning.reachability import explain_unreachable
+from skillc_runtime.planning.search.astar import AStar
+from skillc_runtime.planning.search.grounding import Grounding, GroundingTimeout
 from skillc_runtime.planning.solve import solve
 from world.lab import assign, fact, individual, iri
 
-SMALL = Breadth(10, 2)
+SMALL = AbstractionSize(10, 2)
 CROWD = LAB.changed(
     [
         *(individual(f"place-{n}", "Location") for n in range(12)),
@@ -72,10 +72,10 @@ def test_a_small_scene_is_widened_until_the_plan_is_proven() -> None:
         ]
     )
     skills, things = library(DRIVE, quick, CLEAN), len(light.individuals)
-    proven = solve(skills, light, CLEANED, (AStar(),), breadth=Breadth(10, 2, things))
+    proven = solve(skills, light, CLEANED, (AStar(),), breadth=AbstractionSize(10, 2, things))
     assert isinstance(proven, Solved) and proven.optimal == "proven"
     assert proven.plan.duration_s == pytest.approx(0.2 + 12 + 40)
-    larger = solve(skills, light, CLEANED, (AStar(),), breadth=Breadth(10, 2, 10))
+    larger = solve(skills, light, CLEANED, (AStar(),), breadth=AbstractionSize(10, 2, 10))
     assert isinstance(larger, Solved) and larger.optimal == "optimal for the filtered problem"
 
 
@@ -84,7 +84,7 @@ def test_a_stand_in_has_what_one_of_those_has_whom_it_stands_for() -> None:
     assert narrow.narrowed and narrow.things == len(narrow.problem.objects) + len(
         next(each for each in narrow.left_out if not each.harmless).what
     )
-    bound = relaxed_scene(narrow, CROWD)
+    bound = relax_scene(narrow, CROWD)
     assert bound is not None
     (other,) = {each.name for each in bound.objects} & {each for each in bound.names if "location" in each}
     assert any(other in each.terms and "contain" in each.predicate for each in bound.init)
@@ -94,13 +94,13 @@ def test_that_a_large_scene_has_no_plan_is_proved_from_a_part_and_said_of_the_wh
     result = solve(WIPING, HEAVY, CLEANED, (AStar(),), breadth=SMALL)
     assert isinstance(result, Unsolvable)
     assert "Pick needs light for t:eraser, which nothing fulfils" in result.why
-    assert why_unreachable(WIPING, HEAVY, CLEANED) is not None
-    assert why_unreachable(WIPING, CROWD, CLEANED) is None
+    assert explain_unreachable(WIPING, HEAVY, CLEANED) is not None
+    assert explain_unreachable(WIPING, CROWD, CLEANED) is None
 
 
 def test_a_part_without_a_plan_is_widened() -> None:
     goal = Forall("x", iri("Eraser"), Not(Holds(Variable("x"), iri("containedIn"), Individual(iri("shelf")))))
-    result = solve(WIPING, CROWD, goal, (AStar(),), breadth=Breadth(1, 1))
+    result = solve(WIPING, CROWD, goal, (AStar(),), breadth=AbstractionSize(1, 1))
     assert isinstance(result, Solved) and result.optimal == "proven"
     assert [step.skill for step in result.plan.steps] == ["Drive", "Pick"]
 
@@ -110,16 +110,16 @@ def test_what_would_have_to_be_worked_out_for_too_many_things_is_refused(monkeyp
     result = solve(WIPING, CROWD, CLEANED, (AStar(),))
     assert isinstance(result, GaveUp)
     assert result.why == "condition `light` of Pick would have to be worked out for 13 things"
-    assert why_unreachable(WIPING, CROWD, CLEANED) is None
+    assert explain_unreachable(WIPING, CROWD, CLEANED) is None
 
 
 def test_nothing_stands_in_where_nothing_was_left_out() -> None:
-    assert relaxed_scene(pose_problem(WIPING, CROWD, CLEANED), CROWD) is None
+    assert relax_scene(pose_problem(WIPING, CROWD, CLEANED), CROWD) is None
 
 
 def test_a_problem_that_is_too_large_is_given_up_in_time() -> None:
     problem = pose_problem(WIPING, CROWD, CLEANED).problem
-    with pytest.raises(TimeIsUp):
+    with pytest.raises(GroundingTimeout):
         Grounding(problem, end=0.0).explore()
     assert isinstance(AStar().plan(problem, 0.0), GaveUp)
 

@@ -10,10 +10,10 @@ from oracle.text import compiled
 from planning.samples import DRIVE, LAB, PICK, library, post, skill
 from skillc_compiler.library.conditions import And, Anything, Condition, Holds, Individual, Not, Variable
 from skillc_compiler.library.vocabulary import RelationTerm, Signature
-from skillc_runtime.planning.astar import AStar
-from skillc_runtime.planning.choose import available
-from skillc_runtime.planning.narrowing import Breadth
 from skillc_runtime.planning.plan import Planner, Solved
+from skillc_runtime.planning.planners import list_planners
+from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
+from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.world.changes import AddIndividual
 from skillc_runtime.world.state import WorldState
@@ -35,7 +35,7 @@ GOALS: list[tuple[Condition, list[str]]] = [
 ]
 
 
-@pytest.mark.parametrize("planner", available(), ids=lambda planner: planner.name)
+@pytest.mark.parametrize("planner", list_planners(), ids=lambda planner: planner.name)
 @pytest.mark.parametrize(("goal", "expected"), GOALS)
 def test_an_open_goal_counts_everybody(goal: Condition, expected: list[str], planner: Planner) -> None:
     answer = solve(library(DRIVE, PICK, LIFT), LAB, goal, (planner,))
@@ -45,9 +45,9 @@ def test_an_open_goal_counts_everybody(goal: Condition, expected: list[str], pla
 
 def test_of_a_part_of_the_scene_nothing_is_claimed_about_who_was_left_out() -> None:
     goal = And((FULL, Not(Holds(ROBOT, AT, Anything()))))
-    narrow = solve(library(DRIVE, PICK, LIFT), LAB, goal, breadth=Breadth(1, 1))
+    narrow = solve(library(DRIVE, PICK, LIFT), LAB, goal, breadth=AbstractionSize(1, 1))
     assert isinstance(narrow, Solved) and narrow.plan.duration_s == 29.5
-    whole = solve(library(DRIVE, PICK, LIFT), LAB, goal, breadth=Breadth(1, 1), prove=True)
+    whole = solve(library(DRIVE, PICK, LIFT), LAB, goal, breadth=AbstractionSize(1, 1), prove=True)
     assert isinstance(whole, Solved) and whole.optimal == "proven"
 
 

@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 from planning.samples import CLEANED, LAB, WIPING
-from skillc_runtime.planning.fast_downward import FastDownward, Programs, installed
+from skillc_runtime.planning.fast_downward.solver import FastDownward, Programs, find_fast_downward
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
-from skillc_runtime.planning.problem import pose_problem
-from skillc_runtime.planning.process import Ended, NotStarted, OutOfTime, run
+from skillc_runtime.planning.problem.pose import pose_problem
+from skillc_runtime.planning.process import ProcessEnded, ProcessNotStarted, ProcessTimedOut, run_program
 
 PROBLEM = pose_problem(WIPING, LAB, CLEANED).problem
 TRANSLATE = 'touch task.sas; echo "Translator axioms: 0"'
@@ -86,15 +86,15 @@ def _arguments() -> list[tuple[str, ...]]:
 def test_a_program_that_hangs_is_killed_with_all_it_started(tmp_path: Path) -> None:
     pid_file = tmp_path / "child.pid"
     script = program(tmp_path, "hang", f"sleep 60 & echo $! > {pid_file}; wait")
-    assert isinstance(run((script,), tmp_path, 0.5), OutOfTime)
+    assert isinstance(run_program((script,), tmp_path, 0.5), ProcessTimedOut)
     assert not _lives(int(pid_file.read_text()))
 
 
 def test_what_a_program_leaves_running_is_killed_too(tmp_path: Path) -> None:
     pid_file = tmp_path / "child.pid"
     script = program(tmp_path, "leave", f"sleep 60 & echo $! > {pid_file}; echo done; exit 3")
-    ended = run((script,), tmp_path, 20.0)
-    assert isinstance(ended, Ended) and ended.code == 3 and ended.last_line == "done"
+    ended = run_program((script,), tmp_path, 20.0)
+    assert isinstance(ended, ProcessEnded) and ended.code == 3 and ended.last_line == "done"
     assert not _lives(int(pid_file.read_text()))
 
 
@@ -104,13 +104,13 @@ def test_a_planner_that_hangs_gives_up_in_time(tmp_path: Path) -> None:
 
 
 def test_a_program_that_is_missing_is_not_started(tmp_path: Path) -> None:
-    assert isinstance(run((str(tmp_path / "nothing"),), tmp_path, 1.0), NotStarted)
+    assert isinstance(run_program((str(tmp_path / "nothing"),), tmp_path, 1.0), ProcessNotStarted)
 
 
-@pytest.mark.skipif(installed() is None, reason="the planner is an extra")
+@pytest.mark.skipif(find_fast_downward() is None, reason="the planner is an extra")
 def test_nothing_is_left_in_the_temporary_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    programs = installed()
+    programs = find_fast_downward()
     assert programs is not None
     assert isinstance(FastDownward(programs).plan(PROBLEM, 30.0), Solved)
     assert not list(tmp_path.iterdir())

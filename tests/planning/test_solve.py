@@ -17,12 +17,12 @@ from skillc_compiler.library.conditions import (
     Variable,
 )
 from skillc_compiler.library.vocabulary import ClassTerm
-from skillc_runtime.planning.astar import AStar
-from skillc_runtime.planning.choose import available
 from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Step, Unsolvable
-from skillc_runtime.planning.problem import pose_problem
+from skillc_runtime.planning.planners import list_planners
+from skillc_runtime.planning.problem.pose import pose_problem
+from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
-from skillc_runtime.planning.validate import PlanError, validate
+from skillc_runtime.planning.validation import PlanError, validate
 from skillc_runtime.world.changes import RemoveIndividual, RemoveRelation
 from skillc_runtime.world.state import WorldState
 from world.lab import assign, fact, individual, iri
@@ -41,7 +41,7 @@ def skills(result: PlanResult) -> list[str]:
     return [step.skill for step in result.plan.steps]
 
 
-@pytest.mark.parametrize("planner", available(), ids=lambda planner: planner.name)
+@pytest.mark.parametrize("planner", list_planners(), ids=lambda planner: planner.name)
 def test_the_optimal_plan_fetches_the_eraser_first(planner: Planner) -> None:
     result = solve(WIPING, LAB, CLEANED, (planner,))
     assert skills(result) == ["Drive", "Pick", "Drive", "Clean"]
@@ -64,7 +64,7 @@ GOALS: list[tuple[Condition, list[str]]] = [
 ]
 
 
-@pytest.mark.parametrize("planner", available(), ids=lambda planner: planner.name)
+@pytest.mark.parametrize("planner", list_planners(), ids=lambda planner: planner.name)
 @pytest.mark.parametrize(("goal", "expected"), GOALS)
 def test_every_kind_of_goal_is_planned_for(goal: Condition, expected: list[str], planner: Planner) -> None:
     assert skills(solve(WIPING, LAB, goal, (planner,))) == expected
@@ -92,7 +92,7 @@ UNSOLVABLE = [
 ]
 
 
-@pytest.mark.parametrize("planner", available(), ids=lambda planner: planner.name)
+@pytest.mark.parametrize("planner", list_planners(), ids=lambda planner: planner.name)
 @pytest.mark.parametrize(("changes", "goal", "words"), UNSOLVABLE)
 def test_no_plan_is_proved_and_explained(changes: list, goal: Condition, words: str, planner: Planner) -> None:  # type: ignore[type-arg]
     result = solve(WIPING, LAB.changed(changes), goal, (planner,))
@@ -211,7 +211,7 @@ def test_durations_that_depend_on_things_are_minimised() -> None:
             fact("shelf", "contain", "light"),
         ]
     )
-    for planner in available():
+    for planner in list_planners():
         result = solve(library(DRIVE, slow, CLEAN), state, CLEANED, (planner,))
         assert isinstance(result, Solved)
         assert result.plan.steps[1].arguments["object"] == iri("light")

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from plans.depot import goal, library, world
 from skillc_runtime.planning.plan import Plan, Solved
 from skillc_runtime.planning.solve import solve
-from skillc_runtime.planning.validate import validate
+from skillc_runtime.planning.validation import validate
 from skillc_runtime.plans.order import Arrangement, InOrder, Together, arrange, arranged, numbers
 
 PAIRS = st.integers(2, 9).flatmap(

@@ -9,8 +9,8 @@ import pytest
 from plans.depot import SKIROS, Depot, contain, goal, iri, library, world
 from skillc_compiler.library.pddl.problem import Problem
 from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare
-from skillc_runtime.planning.choose import Planners
 from skillc_runtime.planning.plan import Plan, PlanResult, Solved, Step
+from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.plans.quickest import quickest
 from skillc_runtime.primitives.primitive import Status

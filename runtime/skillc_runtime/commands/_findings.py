@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, requires, version
 
-from skillc_runtime.planning import fast_downward
 from skillc_runtime.planning.aries import solver as aries
+from skillc_runtime.planning.fast_downward import solver as fast_downward
 from skillc_runtime.simulation.rendering import RenderingError, check_rendering
 
 
@@ -50,13 +50,13 @@ def _package(name: str) -> Finding:
 
 
 def _planners() -> Iterator[Finding]:
-    if fast_downward.installed():
+    if fast_downward.find_fast_downward():
         can = "plans: the least work, proved"
         yield Finding("Fast Downward", True, version("up-fast-downward"), can)
     else:
         yield Finding("Fast Downward", False, "", "plans for larger scenes; pip install 'skillc[planner]'")
     yield Finding("built-in A*", True, version("skillc"), "plans for small scenes: the least work, proved")
-    if aries.installed():
+    if aries.find_aries():
         yield Finding("aries", True, version("up-aries"), "schedules that are over early (--minimise makespan)")
     else:
         missing = "better schedules than those of the plan with the least work; pip install 'skillc[temporal]'"

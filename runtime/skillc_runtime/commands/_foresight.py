@@ -19,7 +19,7 @@ from skillc_runtime.commands import _diagnostics, _named_texts
 from skillc_runtime.commands._arm_sheets import unfit_sheets
 from skillc_runtime.commands._controllers import unknown_controllers
 from skillc_runtime.commands._scenes import Populated
-from skillc_runtime.planning.reachable import Unreachable, why_unreachable
+from skillc_runtime.planning.reachability import UnreachableGoal, explain_unreachable
 from skillc_runtime.selection.first import first_refusals
 from skillc_runtime.selection.preflight import Origin, Refusal, preflight
 from skillc_runtime.selection.unfit import Unfit, unfit
@@ -74,7 +74,7 @@ def _of_task(
     """Yield what keeps a task from being done in its scene; `places` is where values are written."""
     told = _Teller(shown, scene, task)
     if task.goal is not None:
-        found = why_unreachable(library, scene.state, task.goal)
+        found = explain_unreachable(library, scene.state, task.goal)
         if found is not None:
             yield told.unreachable(found)
     if task.body is not None:
@@ -125,7 +125,7 @@ class _Teller:
         message = f"`{self._task.name}` begins with a call that cannot start in this scene: {refusal.message}"
         return self.diagnostic(_problem_name(refusal, "cannot-start"), message, refusal, "warning")
 
-    def unreachable(self, found: Unreachable) -> Diagnostic:
+    def unreachable(self, found: UnreachableGoal) -> Diagnostic:
         """Tell of a goal."""
         what = "cannot be reached" if found.proved else "no plan can be made for"
         message = f"`{self._task.name}` has a goal that {what} in its scene: {found.why}"

@@ -11,8 +11,7 @@ import click
 from skillc_compiler.picture.boxes import Box
 from skillc_runtime.assignment import Reach
 from skillc_runtime.commands import _mission
-from skillc_runtime.planning.claims import quality
-from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable
+from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable, describe_quality
 from skillc_runtime.planning.solve import solve
 
 
@@ -32,7 +31,7 @@ def planned(path: Path, task: str) -> Box:
     answer = solve(mission.library, state, aim.goal)
     match answer:
         case Solved(plan=plan):
-            good = quality(answer.optimal, answer.left_out, answer.at_least_s)
+            good = describe_quality(answer.optimal, answer.left_out, answer.at_least_s)
             steps = (_step(step.skill, step.arguments, state.vocabulary.short) for step in plan.steps)
             return Box("flow", "→", "plan", (f"{plan.duration_s:g} s expected, {good}",), tuple(steps))
         case Unsolvable() | GaveUp():

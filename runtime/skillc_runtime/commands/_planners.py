@@ -12,7 +12,7 @@ import click
 
 if TYPE_CHECKING:
     from skillc_runtime.commands._mission import Mission
-    from skillc_runtime.planning.choose import Planners
+    from skillc_runtime.planning.planners import Planners
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -38,9 +38,9 @@ def options(command: Command) -> Command:
 def planners(plan_cache: bool) -> Planners:
     """Return the planners of this installation, with the answers that they gave before."""
     from skillc_runtime.commands._shelf import user_shelf
-    from skillc_runtime.planning.choose import at_hand
+    from skillc_runtime.planning.planners import find_planners
 
-    return at_hand(user_shelf() if plan_cache else None)
+    return find_planners(user_shelf() if plan_cache else None)
 
 
 @contextmanager

@@ -8,9 +8,8 @@ from typing import Literal, TypeAlias, assert_never
 
 from skillc_compiler.library.conditions import Condition
 from skillc_runtime.commands._mission import Mission
-from skillc_runtime.planning.choose import Planners
-from skillc_runtime.planning.claims import quality
-from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Step, Unsolvable
+from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Step, Unsolvable, describe_quality
+from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.plans.quickest import quickest
@@ -55,7 +54,7 @@ def _schedule_text(answer: Scheduled, mission: Mission) -> str:
 
 
 def _quality(answer: Solved | Scheduled) -> str:
-    return quality(answer.optimal, answer.left_out, answer.at_least_s)
+    return describe_quality(answer.optimal, answer.left_out, answer.at_least_s)
 
 
 def _assumed(answer: Solved | Scheduled) -> Iterator[str]:

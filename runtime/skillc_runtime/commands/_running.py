@@ -18,7 +18,7 @@ from skillc_runtime.commands import _looks
 from skillc_runtime.commands._following import Follower
 from skillc_runtime.commands._live import Live
 from skillc_runtime.commands._mission import Mission
-from skillc_runtime.planning.choose import Planners
+from skillc_runtime.planning.planners import Planners
 from skillc_runtime.report.drawing import Drawing, drawing
 from skillc_runtime.report.moments import moments
 from skillc_runtime.report.result import TaskResult

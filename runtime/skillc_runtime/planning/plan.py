@@ -1,13 +1,12 @@
-"""Plans, and what planners answer."""
+"""Plans, what planners answer, and what is claimed of a plan."""
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
-from typing import Protocol, TypeAlias
+from typing import Literal, Protocol, TypeAlias, assert_never
 
 from skillc_compiler.library.pddl.problem import Problem
-from skillc_runtime.planning.claims import Optimal
-from skillc_runtime.planning.left_out import LeftOut
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,6 +23,31 @@ class Plan:
 
     steps: tuple[Step, ...]
     duration_s: float
+
+
+Optimal: TypeAlias = Literal[
+    "proven", "optimal for the filtered problem", "optimal for approximate durations", "best found"
+]
+
+Kind: TypeAlias = Literal["individuals", "skills", "steps"]
+
+
+@dataclass(frozen=True, slots=True)
+class LeftOut:
+    """Individuals (IRIs), skills or steps, in any order, that a problem leaves out for one reason.
+
+    `harmless` says that it is proved: with them no plan would be cheaper, and there would be none if there is none.
+    """
+
+    members: Collection[str]
+    why: str
+    harmless: bool
+    kind: Kind = "individuals"
+
+    @property
+    def what(self) -> tuple[str, ...]:
+        """Return them sorted: there may be a million, and most answers show none."""
+        return tuple(sorted(self.members))
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,3 +115,28 @@ class Planner(Protocol):
     def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
         """Solve a problem within so many seconds of wall-clock time; never raises for what the problem or time is."""
         ...
+
+
+PARTS: dict[Kind, str] = {
+    "individuals": "the part of the scene that was planned with",
+    "skills": "the skills that can be planned with",
+    "steps": "the steps that have not failed",
+}
+
+
+def describe_quality(optimal: Optimal, left_out: Collection[LeftOut], at_least_s: float | None) -> str:
+    """Say how good a plan is known to be, and for what: `proved optimal` refers to the whole problem."""
+    known = "" if at_least_s is None else f", any plan takes at least {at_least_s:g} s"
+    missing = {each.kind for each in left_out if not each.harmless}
+    parts = [words for kind, words in PARTS.items() if kind in missing]
+    match optimal:
+        case "proven":
+            return "proved optimal"
+        case "optimal for the filtered problem":
+            return f"optimal for {' and '.join(parts)}{known}"
+        case "optimal for approximate durations":
+            return f"optimal for {' and '.join([*parts, 'approximate durations'])}{known}"
+        case "best found":
+            return f"best found, not proved optimal{known}"
+        case _:
+            assert_never(optimal)

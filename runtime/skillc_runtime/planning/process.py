@@ -15,13 +15,13 @@ from tempfile import TemporaryDirectory
 from types import TracebackType
 from typing import TypeAlias
 
-from skillc_runtime.planning import guard
+from skillc_runtime.planning import process_sandbox
 
 LOOK_S = 0.005
 """How often is looked whether a program has ended."""
 
 SWEEP_S = 1.0
-"""How long a guard gets to end what the program started, before it is killed with the program."""
+"""How long the sandbox gets to end what the program started, before it is killed with the program."""
 
 TAIL_BYTES = 2**16
 """So much of what a program says is read; it may say more than memory holds."""
@@ -37,7 +37,7 @@ class Limits:
     file_bytes: int
 
 
-def workplace() -> TemporaryDirectory[str]:
+def make_workplace() -> TemporaryDirectory[str]:
     """Return a temporary folder for programs, which is removed after a `with`; also when this process is killed."""
     return TemporaryDirectory(prefix=_PREFIX, ignore_cleanup_errors=True)
 
@@ -53,7 +53,7 @@ def machine_limits() -> Limits:
 
 
 @dataclass(frozen=True, slots=True)
-class Ended:
+class ProcessEnded:
     """The program ended; `code` is negative for a signal, `output` is the end of what it said on both streams."""
 
     code: int
@@ -66,24 +66,24 @@ class Ended:
 
 
 @dataclass(frozen=True, slots=True)
-class OutOfTime:
+class ProcessTimedOut:
     """The program was stopped because its time was up; `output` is the end of what it had said."""
 
     output: str = ""
 
 
 @dataclass(frozen=True, slots=True)
-class NotStarted:
+class ProcessNotStarted:
     """The program could not be started, and why."""
 
     why: str
 
 
-Run: TypeAlias = Ended | OutOfTime | NotStarted
+Run: TypeAlias = ProcessEnded | ProcessTimedOut | ProcessNotStarted
 
 
-class Running:
-    """A program that runs under a guard, which ends it and all it started when this process dies.
+class RunningProcess:
+    """A program that runs in a sandbox, which ends it and all it started when this process dies.
 
     Used in a `with` statement, after which nothing of the program runs any more.
     """
@@ -99,11 +99,11 @@ class Running:
     ) -> None:
         """Start a program in a folder; it talks into the file `said` there. OSError when the folder is not usable."""
         self._said, self._cut_short = folder / said, False
-        guarded = (sys.executable, "-I", "-S", guard.__file__, str(os.getpid()))
+        sandboxed = (sys.executable, "-I", "-S", process_sandbox.__file__, str(os.getpid()))
         limited = (str(limits.memory_bytes), str(limits.file_bytes), str(folder) if _is_workplace(folder) else "")
         with self._said.open("wb") as output, (stdin or Path(os.devnull)).open("rb") as source:
             self._process = subprocess.Popen(
-                (*guarded, *limited, *command),
+                (*sandboxed, *limited, *command),
                 cwd=folder,
                 stdin=source,
                 stdout=output,
@@ -112,7 +112,7 @@ class Running:
                 env=None if environment is None else {**os.environ, **environment},
             )
 
-    def __enter__(self) -> Running:
+    def __enter__(self) -> RunningProcess:
         return self
 
     def __exit__(self, *_: type[BaseException] | BaseException | TracebackType | None) -> None:
@@ -139,19 +139,19 @@ class Running:
         code = self._process.poll()
         output = _tail(self._said)
         if code is None or self._cut_short:
-            return OutOfTime(output)
-        ended = Ended(code, output)
-        return NotStarted(ended.last_line) if code == guard.NOT_STARTED else ended
+            return ProcessTimedOut(output)
+        ended = ProcessEnded(code, output)
+        return ProcessNotStarted(ended.last_line) if code == process_sandbox.NOT_STARTED else ended
 
 
-def run(command: Sequence[str], folder: Path, seconds: float, stdin: Path | None = None) -> Run:
+def run_program(command: Sequence[str], folder: Path, seconds: float, stdin: Path | None = None) -> Run:
     """Run a program in a folder; whatever it started is killed when it ends or its time is up."""
-    with Running(command, folder, "said.txt", machine_limits(), stdin) as running:
-        wait((running,), time.monotonic() + seconds)
+    with RunningProcess(command, folder, "said.txt", machine_limits(), stdin) as running:
+        wait_for_end((running,), time.monotonic() + seconds)
         return running.outcome()
 
 
-def wait(programs: Sequence[Running], end: float) -> None:
+def wait_for_end(programs: Sequence[RunningProcess], end: float) -> None:
     """Wait until a program has ended, or until the monotonic clock says `end`."""
     while not any(each.ended for each in programs) and time.monotonic() < end:
         time.sleep(LOOK_S)

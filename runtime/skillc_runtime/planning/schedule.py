@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from typing import Literal, Protocol
 
 from skillc_compiler.library.pddl.problem import Problem
-from skillc_runtime.planning.left_out import LeftOut
-from skillc_runtime.planning.plan import GaveUp, Plan, Solved, Step
+from skillc_runtime.planning.plan import GaveUp, LeftOut, Plan, Solved, Step
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,12 +9,10 @@ from dataclasses import replace
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.pddl.problem import Problem
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.planning.choose import available
-from skillc_runtime.planning.claims import Optimal
-from skillc_runtime.planning.diagnose import why_unsolvable
-from skillc_runtime.planning.narrowing import NARROW, Breadth
+from skillc_runtime.planning.abstraction.stages import PlanningStages, plan_in_stages
 from skillc_runtime.planning.plan import (
     GaveUp,
+    Optimal,
     Plan,
     Planner,
     PlanResult,
@@ -22,9 +20,11 @@ from skillc_runtime.planning.plan import (
     Step,
     Unsolvable,
 )
-from skillc_runtime.planning.problem import GoalError, Posed, already_holds, pose_problem
-from skillc_runtime.planning.validate import PlanError, validate, work_of_s
-from skillc_runtime.planning.widening import Means, in_stages
+from skillc_runtime.planning.planners import list_planners
+from skillc_runtime.planning.problem.neighbourhood import NARROW, AbstractionSize
+from skillc_runtime.planning.problem.pose import GoalError, Posed, already_holds, pose_problem
+from skillc_runtime.planning.unsolvability import explain_unsolvable
+from skillc_runtime.planning.validation import PlanError, compute_work_s, validate
 from skillc_runtime.world.state import WorldState
 
 DEADLINE_S = 30.0
@@ -39,7 +39,7 @@ def solve(
     without: Sequence[Step] = (),
     *,
     prove: bool = False,
-    breadth: Breadth | None = NARROW,
+    breadth: AbstractionSize | None = NARROW,
 ) -> PlanResult:
     """Return a plan from a version of the world to the goal; every plan was run in the world model first.
 
@@ -49,9 +49,9 @@ def solve(
     planners can express; where one does not hold and cannot be planned for, nothing is searched.
     """
     end = time.monotonic() + deadline_s
-    chosen = tuple(available() if planners is None else planners)
+    chosen = tuple(list_planners() if planners is None else planners)
 
-    def pose(width: Breadth | None) -> Posed:
+    def pose(width: AbstractionSize | None) -> Posed:
         return pose_problem(library, state, goal, without, width)
 
     def answer(posed: Posed, seconds: float) -> PlanResult:
@@ -61,12 +61,12 @@ def solve(
         return chosen[0].plan(problem, seconds)
 
     def explain(posed: Posed) -> str:
-        return why_unsolvable(posed, goal, state)
+        return explain_unsolvable(posed, goal, state)
 
     try:
         if already_holds(goal, state):
             return Solved(Plan((), 0.0), "proven", "the world as it is")
-        return in_stages(Means(pose, answer, search, explain), state, end, breadth, prove=prove)
+        return plan_in_stages(PlanningStages(pose, answer, search, explain), state, end, breadth, prove=prove)
     except GoalError as reason:
         return GaveUp(str(reason), searched=False)
 
@@ -91,7 +91,7 @@ def _checked(result: PlanResult, posed: Posed, state: WorldState, goal: Conditio
         return result
     try:
         validate(result.plan, posed.library, state, goal)
-        work_s = work_of_s(result.plan, posed.library, state)
+        work_s = compute_work_s(result.plan, posed.library, state)
     except PlanError as error:
         return GaveUp(f"{result.planner} returned a plan that does not work: {error}")
     return _estimated(result, work_s, posed.assumptions) if posed.assumptions else _timed(result, work_s)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.planning.plan import Step
-from skillc_runtime.planning.validate import PlanError, after_step, fitting
+from skillc_runtime.planning.validation import PlanError, apply_step, find_startable_implementations
 from skillc_runtime.plans.touched import Fact, changed_between, read_by
 from skillc_runtime.world.expressions import EvaluationError
 from skillc_runtime.world.state import WorldState
@@ -62,10 +62,10 @@ class Failures:
         found: list[Step] = []
         for step in steps:
             try:
-                possible = fitting(step, self._library, state)
+                possible = find_startable_implementations(step, self._library, state)
                 if all(self.reason(step.skill, step.arguments, each.name, state) for each in possible):
                     found.append(step)
-                state = after_step(step, self._library, state)
+                state = apply_step(step, self._library, state)
             except (PlanError, EvaluationError):
                 break
         return tuple(found)

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 
 from skillc_compiler.library.pddl.devices import devices
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.planning.busy import work_of
-from skillc_runtime.planning.critical import critical_path_s
 from skillc_runtime.planning.plan import Planner, Solved
-from skillc_runtime.planning.problem import Posed
+from skillc_runtime.planning.problem.pose import Posed
 from skillc_runtime.planning.schedule import Schedule
+from skillc_runtime.planning.search.device_work import price_device_work
+from skillc_runtime.planning.search.h_max import critical_path_s
 
 TOLERANCE_S = 1e-9
 SHARE = 0.5
@@ -31,7 +31,7 @@ def at_least_s(posed: Posed, schedule: Schedule, planner: Planner, deadline_s: f
     for device, busy_s in _work_s(schedule, posed.library):
         if busy_s <= bound or schedule.makespan_s <= bound + TOLERANCE_S:
             break  # no device need work longer than it does here
-        answer = planner.plan(work_of(problem, names[device]), max(end - time.monotonic(), 0.0))
+        answer = planner.plan(price_device_work(problem, names[device]), max(end - time.monotonic(), 0.0))
         if isinstance(answer, Solved):
             bound = max(bound, answer.bound_s)
     return bound

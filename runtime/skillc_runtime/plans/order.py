@@ -10,7 +10,7 @@ from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.pddl.devices import devices
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.planning.plan import Plan, Step
-from skillc_runtime.planning.validate import after_step, effects_of
+from skillc_runtime.planning.validation import apply_step, compute_effects
 from skillc_runtime.plans.touched import Touched, changed_between, read_by, settled_by
 from skillc_runtime.world.state import WorldState
 
@@ -99,7 +99,7 @@ def _touched(steps: Iterable[Step], library: SkillLibrary, state: WorldState) ->
     locked = devices(library)
     found = []
     for step in steps:
-        after = after_step(step, library, state)
+        after = apply_step(step, library, state)
         found.append(touched_by(step, library, locked, state, after))
         state = after
     return found
@@ -110,7 +110,7 @@ def touched_by(
 ) -> Touched:
     """Return what a step touches that leads from one version of the world to another; `locked` as of `devices`."""
     reads = (fact for each in _conditions(step, library) for fact in read_by(each, step.arguments, before))
-    settles = (fact for each in effects_of(step, library, before) for fact in settled_by(each, before))
+    settles = (fact for each in compute_effects(step, library, before) for fact in settled_by(each, before))
     return Touched(
         reads=frozenset(reads),
         changes=frozenset(changed_between(before, after)),

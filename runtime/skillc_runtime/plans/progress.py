@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.planning.plan import Step
-from skillc_runtime.planning.validate import PlanError, after_step, reached, with_effects
+from skillc_runtime.planning.validation import PlanError, apply_effects, apply_step, check_goal_reached
 from skillc_runtime.plans.body import achieved
 from skillc_runtime.trace.outcome import Outcome
 from skillc_runtime.world.conditions import evaluate
@@ -52,17 +52,17 @@ def doubt(so_far: Progress, goal: Condition, library: SkillLibrary, state: World
     """
     try:
         for step in so_far.of("running"):
-            state = with_effects(step, library, state)
+            state = apply_effects(step, library, state)
     except (EvaluationError, WorldError):
         return None  # in the middle of a step the world may be such that its effects make no sense yet
     for step in so_far.of("idle"):
         done = achieved(step, library)
         try:
-            state = state if done is not None and evaluate(done, state, {}) else after_step(step, library, state)
+            state = state if done is not None and evaluate(done, state, {}) else apply_step(step, library, state)
         except (EvaluationError, PlanError) as reason:
             return f"{step.skill} can no longer follow: {reason}"
     try:
-        reached(goal, state)
+        check_goal_reached(goal, state)
     except PlanError as reason:
         return str(reason)
     return None

@@ -9,14 +9,14 @@ from typing import TypeAlias
 
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.planning.choose import Planners
-from skillc_runtime.planning.initial import TooManyValues
-from skillc_runtime.planning.narrowing import AT_ONCE
 from skillc_runtime.planning.plan import GaveUp, Plan, Solved, Step, Unsolvable
-from skillc_runtime.planning.problem import Posed, pose_problem
+from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.problem.initial_state import TooManyValues
+from skillc_runtime.planning.problem.neighbourhood import AT_ONCE
+from skillc_runtime.planning.problem.pose import Posed, pose_problem
 from skillc_runtime.planning.schedule import Schedule, Scheduled, Scheduler
 from skillc_runtime.planning.solve import DEADLINE_S, solve
-from skillc_runtime.planning.validate import PlanError, validate, work_of_s
+from skillc_runtime.planning.validation import PlanError, compute_work_s, validate
 from skillc_runtime.plans.least import TOLERANCE_S, at_least_s
 from skillc_runtime.plans.rehearsal import rehearse
 from skillc_runtime.plans.scheduling import scheduled
@@ -137,7 +137,7 @@ def _tightened(schedule: Schedule, question: Question) -> tuple[Plan, Schedule]:
     except PlanError:
         validate(Plan(by_end, 0.0), library, state, goal)
         steps = by_end
-    plan = Plan(steps, work_of_s(Plan(steps, 0.0), library, state))
+    plan = Plan(steps, compute_work_s(Plan(steps, 0.0), library, state))
     tight = scheduled(plan, library, state)
     rehearse(tight, library, state, goal)
     return plan, tight

@@ -15,13 +15,13 @@ from skillc_compiler.library.pddl.devices import devices
 from skillc_compiler.library.skills import Implementation, SkillLibrary
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.schedule import Schedule, TimedStep
-from skillc_runtime.planning.validate import (
+from skillc_runtime.planning.validation import (
     PlanError,
-    duration_of_step,
-    fitting,
-    reached,
-    still_held,
-    with_effects,
+    apply_effects,
+    check_goal_reached,
+    compute_step_duration_s,
+    filter_held_implementations,
+    find_startable_implementations,
 )
 from skillc_runtime.plans.order import touched_by
 from skillc_runtime.plans.touched import Touched
@@ -77,7 +77,7 @@ class _Rehearsal:
                 if number in ending:
                     self._end(number)
                     self._check_holds()
-        return reached(goal, self._state)
+        return check_goal_reached(goal, self._state)
 
     def _check_times(self, number: int, timed: TimedStep) -> None:
         with _blaming(number, timed.step):
@@ -89,11 +89,11 @@ class _Rehearsal:
     def _begin(self, number: int) -> None:
         step, library, state = self._steps[number - 1].step, self._library, self._state
         with _blaming(number, step):
-            implementations = fitting(step, library, state)
-            expected_s = float(duration_of_step(step, library, state, self._before))
+            implementations = find_startable_implementations(step, library, state)
+            expected_s = float(compute_step_duration_s(step, library, state, self._before))
             if abs(self._steps[number - 1].duration_s - expected_s) > INSTANT_S:
                 raise PlanError(f"it takes {expected_s:g} s, not {self._steps[number - 1].duration_s:g}")
-            touched = touched_by(step, library, self._locked, state, with_effects(step, library, state))
+            touched = touched_by(step, library, self._locked, state, apply_effects(step, library, state))
             for other, active in self._active.items():
                 shared = active.touched.shares_with(touched)
                 if shared is not None:
@@ -105,12 +105,12 @@ class _Rehearsal:
     def _end(self, number: int) -> None:
         active = self._active.pop(number)
         with _blaming(number, active.step):
-            self._state = with_effects(active.step, self._library, self._state)
+            self._state = apply_effects(active.step, self._library, self._state)
 
     def _check_holds(self) -> None:
         for number, active in self._active.items():
             with _blaming(number, active.step):
-                held = still_held(active.step, active.implementations, self._library, self._state)
+                held = filter_held_implementations(active.step, active.implementations, self._library, self._state)
                 self._active[number] = replace(active, implementations=held)
 
 

@@ -9,7 +9,7 @@ from typing import assert_never
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.planning.plan import Plan
 from skillc_runtime.planning.schedule import Schedule, TimedStep
-from skillc_runtime.planning.validate import after_step, duration_of_step
+from skillc_runtime.planning.validation import apply_step, compute_step_duration_s
 from skillc_runtime.plans.order import Arrangement, InOrder, Together, arranged
 from skillc_runtime.world.state import WorldState
 
@@ -30,8 +30,8 @@ def durations_s(plan: Plan, library: SkillLibrary, state: WorldState) -> tuple[F
     """Return how long the steps of a plan are expected to last, in seconds; PlanError when it does not work."""
     before, found = state, []
     for step in plan.steps:
-        found.append(duration_of_step(step, library, state, before))
-        state = after_step(step, library, state)
+        found.append(compute_step_duration_s(step, library, state, before))
+        state = apply_step(step, library, state)
     return tuple(found)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from msgspec import structs
 
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.planning.claims import quality
+from skillc_runtime.planning.plan import describe_quality
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.report.choices import Choices as Choices
 from skillc_runtime.report.result import ChoiceResult, StepResult, TaskResult
@@ -45,7 +45,7 @@ def summarise(
         plan=_steps(last.tree, choices, library),
         choices=_choices(choices, library),
         plan_optimal=None if solved is None else solved.optimal == "proven",
-        plan_quality="" if solved is None else quality(solved.optimal, solved.left_out, solved.at_least_s),
+        plan_quality="" if solved is None else describe_quality(solved.optimal, solved.left_out, solved.at_least_s),
         planner="" if solved is None else solved.planner,
         robot=", ".join(robots),
         controller=", ".join(_controllers(cell)),

@@ -11,12 +11,12 @@ from fuzz.kinds._domains import Domains
 from oracle.forced import TooManyStates, cheapest, seconds
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.planning.choose import Planners, at_hand
 from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Unsolvable
-from skillc_runtime.planning.problem import GoalError, pose_problem
+from skillc_runtime.planning.planners import Planners, find_planners
+from skillc_runtime.planning.problem.pose import GoalError, pose_problem
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import solve
-from skillc_runtime.planning.validate import after_step, reached
+from skillc_runtime.planning.validation import apply_step, check_goal_reached
 from skillc_runtime.plans.quickest import quickest
 from skillc_runtime.plans.rehearsal import rehearse
 from skillc_runtime.world.state import WorldState
@@ -42,7 +42,7 @@ def run_case(random: Random, folder: Path) -> None:
     excluded = {each.skill for each in posed.problem.domain.excluded}
     skills = {name: each for name, each in library.skills.items() if name not in excluded}
     known = msgspec.structs.replace(library, skills=skills)
-    planner = random.choice(at_hand().for_work)
+    planner = random.choice(find_planners().for_work)
     answer = solve(library, state, goal, (planner,), DEADLINE_S)
     if posed.restricted:
         _check_part(answer, known, state, goal)
@@ -110,8 +110,8 @@ def _work_s(plan: Plan, library: SkillLibrary, start: WorldState, goal: Conditio
     state, work = start, 0.0
     for step in plan.steps:
         work += float(seconds(step, library, state, start))
-        state = after_step(step, library, state)
-    reached(goal, state)
+        state = apply_step(step, library, state)
+    check_goal_reached(goal, state)
     return work
 
 

@@ -1,1 +1,1 @@
-"""The temporal planner aries, a program of its own: plans with several robots at once that are over early."""
+"""Aries, a separate program: schedules for several robots with a short makespan. Start at `solver.Aries`."""

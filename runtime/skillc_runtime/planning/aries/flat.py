@@ -39,7 +39,7 @@ class NotTemporal(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class Case:
+class Disjunct:
     """One way for a formula to hold: all literals do, for some objects of the variables."""
 
     variables: tuple[Typed, ...] = ()
@@ -67,7 +67,7 @@ class FlatProblem:
     goal: tuple[Literal, ...]
 
 
-def flattened(problem: Problem) -> FlatProblem:
+def flatten_problem(problem: Problem) -> FlatProblem:
     """Return a problem as aries takes it; NotTemporal when there is no such form of it."""
     plain = prepared(problem)
     actions = tuple(flat for action in plain.domain.actions for flat in _flat(action))
@@ -94,11 +94,11 @@ def _plain(change: Change, action: Action) -> Change:
     return Change(change.atom, change.positive)
 
 
-def _cases(formula: Formula, fresh: Iterator[int]) -> tuple[Case, ...]:
+def _cases(formula: Formula, fresh: Iterator[int]) -> tuple[Disjunct, ...]:
     """Return the ways for a formula to hold; variables get names of their own."""
     match formula:
         case Atom() | Equal() | Negation():
-            return (Case(literals=(formula,)),)
+            return (Disjunct(literals=(formula,)),)
         case Disjunction(parts):
             return tuple(case for part in parts for case in _cases(part, fresh))
         case Conjunction(parts):
@@ -111,22 +111,22 @@ def _cases(formula: Formula, fresh: Iterator[int]) -> tuple[Case, ...]:
             assert_never(formula)
 
 
-def _combined(ways: Sequence[tuple[Case, ...]]) -> Iterator[tuple[Case, ...]]:
+def _combined(ways: Sequence[tuple[Disjunct, ...]]) -> Iterator[tuple[Disjunct, ...]]:
     cases = prod(map(len, ways))
     if cases > MOST_CASES:
         raise NotTemporal(f"a condition has {cases} cases")
     return product(*ways)
 
 
-def _all(cases: Sequence[Case]) -> Case:
+def _all(cases: Sequence[Disjunct]) -> Disjunct:
     literals = dict.fromkeys(literal for case in cases for literal in case.literals)
-    return Case(tuple(variable for case in cases for variable in case.variables), tuple(literals))
+    return Disjunct(tuple(variable for case in cases for variable in case.variables), tuple(literals))
 
 
-def _exists(variable: Typed, case: Case, number: int) -> Case:
+def _exists(variable: Typed, case: Disjunct, number: int) -> Disjunct:
     own = Typed(f"{variable.name}_{number}", variable.type)
     literals = (_with(each, {variable.name: own.name}) for each in case.literals)
-    return Case((own, *case.variables), tuple(literals))
+    return Disjunct((own, *case.variables), tuple(literals))
 
 
 def _with(literal: Literal, names: Mapping[str, str]) -> Literal:

@@ -9,7 +9,7 @@ from skillc_compiler.library.pddl.domain import ROOT, ComputedCost, Cost, FixedC
 from skillc_compiler.library.pddl.formulas import Atom, Change, Equal, Negation, Typed
 from skillc_compiler.library.pddl.problem import Problem
 from skillc_runtime.planning.aries.flat import FlatAction, FlatProblem, Literal
-from skillc_runtime.planning.aries.wire import message, nested, number, text
+from skillc_runtime.planning.aries.wire import encode_message, encode_nested, encode_number, encode_text
 
 IDLE = "up_idle"
 """The fluent that says that nothing is running that locks the device; no predicate has this name."""
@@ -27,26 +27,29 @@ def action_name(index: int) -> str:
     return f"a{index}"
 
 
-def problem_message(flat: FlatProblem) -> bytes:
+def encode_problem(flat: FlatProblem) -> bytes:
     """Return the problem as bytes: minimise the time at which all actions have ended."""
     problem, types = flat.problem, {each.name: each.type for each in flat.problem.objects}
-    return message(
-        text(1, "domain"),
-        text(2, "task"),
-        *(nested(3, each) for each in _types(problem)),
-        *(nested(4, each) for each in _fluents(problem)),
-        *(nested(5, message(text(1, each.name), text(2, each.type))) for each in problem.objects),
-        *(nested(6, _action(index, each, types, problem.domain)) for index, each in enumerate(flat.actions)),
-        *(nested(7, each) for each in _initial(problem, types)),
-        *(nested(9, message(nested(1, _literal(each, types)))) for each in flat.goal),
-        *(number(10, each) for each in _FEATURES),
-        nested(11, number(1, _MINIMIZE_MAKESPAN)),
+    return encode_message(
+        encode_text(1, "domain"),
+        encode_text(2, "task"),
+        *(encode_nested(3, each) for each in _types(problem)),
+        *(encode_nested(4, each) for each in _fluents(problem)),
+        *(
+            encode_nested(5, encode_message(encode_text(1, each.name), encode_text(2, each.type)))
+            for each in problem.objects
+        ),
+        *(encode_nested(6, _action(index, each, types, problem.domain)) for index, each in enumerate(flat.actions)),
+        *(encode_nested(7, each) for each in _initial(problem, types)),
+        *(encode_nested(9, encode_message(encode_nested(1, _literal(each, types)))) for each in flat.goal),
+        *(encode_number(10, each) for each in _FEATURES),
+        encode_nested(11, encode_number(1, _MINIMIZE_MAKESPAN)),
     )
 
 
 def _types(problem: Problem) -> Iterator[bytes]:
-    yield text(1, ROOT)
-    yield from (message(text(1, each.name), text(2, each.parent)) for each in problem.domain.types)
+    yield encode_text(1, ROOT)
+    yield from (encode_message(encode_text(1, each.name), encode_text(2, each.parent)) for each in problem.domain.types)
 
 
 def _fluents(problem: Problem) -> Iterator[bytes]:
@@ -57,21 +60,23 @@ def _fluents(problem: Problem) -> Iterator[bytes]:
 
 def _fluent(name: str, kind: str, parameters: Iterable[Typed]) -> bytes:
     default = _truth(False) if kind == _BOOL else _integer(1)
-    return message(text(1, name), text(2, kind), *map(_parameter, parameters), nested(4, default))
+    return encode_message(
+        encode_text(1, name), encode_text(2, kind), *map(_parameter, parameters), encode_nested(4, default)
+    )
 
 
 def _parameter(parameter: Typed, field: int = 3) -> bytes:
-    return nested(field, message(text(1, parameter.name), text(2, parameter.type)))
+    return encode_nested(field, encode_message(encode_text(1, parameter.name), encode_text(2, parameter.type)))
 
 
 def _action(index: int, flat: FlatAction, objects: Mapping[str, str], domain: PlanningDomain) -> bytes:
     types = {**objects, **{each.name: each.type for each in flat.parameters}}
     seconds = _duration(flat.action.cost, types, domain)
     idle = tuple(_state(IDLE, (each,), types) for each in flat.action.uses)
-    return message(
-        text(1, action_name(index)),
+    return encode_message(
+        encode_text(1, action_name(index)),
         *(_parameter(each, 2) for each in flat.parameters),
-        nested(3, nested(1, message(nested(2, seconds), nested(4, seconds)))),
+        encode_nested(3, encode_nested(1, encode_message(encode_nested(2, seconds), encode_nested(4, seconds)))),
         *(_condition(each, _START, _START) for each in idle),
         *(_condition(_literal(each, types), _START, _START) for each in flat.start),
         *(_condition(_literal(each, types), _START, _END) for each in flat.over_all),
@@ -94,8 +99,14 @@ def _duration(cost: Cost, types: Mapping[str, str], domain: PlanningDomain) -> b
 
 def _condition(expression: bytes, first: int, last: int) -> bytes:
     """Return a condition at a point in time, or between two without them."""
-    between = number(1, 1) + number(3, 1) if first != last else b""
-    return nested(4, message(nested(1, expression), nested(2, between + nested(2, _at(first)) + nested(4, _at(last)))))
+    between = encode_number(1, 1) + encode_number(3, 1) if first != last else b""
+    return encode_nested(
+        4,
+        encode_message(
+            encode_nested(1, expression),
+            encode_nested(2, between + encode_nested(2, _at(first)) + encode_nested(4, _at(last))),
+        ),
+    )
 
 
 def _changed(change: Change, when: int, types: Mapping[str, str]) -> bytes:
@@ -103,28 +114,30 @@ def _changed(change: Change, when: int, types: Mapping[str, str]) -> bytes:
 
 
 def _effect(state: bytes, value: bool, when: int) -> bytes:
-    effect = message(nested(2, state), nested(3, _truth(value)), nested(4, _truth(True)))
-    return nested(5, message(nested(1, effect), nested(2, _at(when))))
+    effect = encode_message(encode_nested(2, state), encode_nested(3, _truth(value)), encode_nested(4, _truth(True)))
+    return encode_nested(5, encode_message(encode_nested(1, effect), encode_nested(2, _at(when))))
 
 
 def _at(when: int) -> bytes:
     """Return a point in time, without delay."""
-    return message(nested(1, number(1, when)), nested(2, number(2, 1)))
+    return encode_message(encode_nested(1, encode_number(1, when)), encode_nested(2, encode_number(2, 1)))
 
 
 def _initial(problem: Problem, types: Mapping[str, str]) -> Iterator[bytes]:
     for atom in problem.init:
-        yield message(nested(1, _state(atom.predicate, atom.terms, types)), nested(2, _truth(True)))
-    for device in devices(problem):
-        yield message(nested(1, _state(IDLE, (device,), types)), nested(2, _truth(True)))
+        yield encode_message(
+            encode_nested(1, _state(atom.predicate, atom.terms, types)), encode_nested(2, _truth(True))
+        )
+    for device in list_devices(problem):
+        yield encode_message(encode_nested(1, _state(IDLE, (device,), types)), encode_nested(2, _truth(True)))
     for cost in problem.costs:
-        yield message(
-            nested(1, _state(cost.function, cost.arguments, types, _INT)),
-            nested(2, _integer(problem.domain.units(cost.seconds))),
+        yield encode_message(
+            encode_nested(1, _state(cost.function, cost.arguments, types, _INT)),
+            encode_nested(2, _integer(problem.domain.units(cost.seconds))),
         )
 
 
-def devices(problem: Problem) -> tuple[str, ...]:
+def list_devices(problem: Problem) -> tuple[str, ...]:
     """Return the objects that some action may lock."""
     locks = {each.type for action in problem.domain.actions for each in action.parameters if each.name in action.uses}
     return tuple(each.name for each in problem.objects if any(problem.domain.is_a(each.type, lock) for lock in locks))
@@ -144,12 +157,16 @@ def _literal(literal: Literal, types: Mapping[str, str]) -> bytes:
 
 def _applied(operator: str, *arguments: bytes) -> bytes:
     parts = (_symbol(operator, _OPERATOR, _FUNCTION), *arguments)
-    return message(*(nested(2, each) for each in parts), text(3, _BOOL), number(4, _APPLICATION))
+    return encode_message(
+        *(encode_nested(2, each) for each in parts), encode_text(3, _BOOL), encode_number(4, _APPLICATION)
+    )
 
 
 def _state(fluent: str, terms: Iterable[str], types: Mapping[str, str], kind: str = _BOOL) -> bytes:
     parts = (_symbol(fluent, kind, _FLUENT), *(_term(each, types) for each in terms))
-    return message(*(nested(2, each) for each in parts), text(3, kind), number(4, _STATE_VARIABLE))
+    return encode_message(
+        *(encode_nested(2, each) for each in parts), encode_text(3, kind), encode_number(4, _STATE_VARIABLE)
+    )
 
 
 def _term(term: str, types: Mapping[str, str]) -> bytes:
@@ -157,12 +174,12 @@ def _term(term: str, types: Mapping[str, str]) -> bytes:
 
 
 def _symbol(symbol: str, kind: str, role: int) -> bytes:
-    return message(nested(1, text(1, symbol)), text(3, kind), number(4, role))
+    return encode_message(encode_nested(1, encode_text(1, symbol)), encode_text(3, kind), encode_number(4, role))
 
 
 def _truth(value: bool) -> bytes:
-    return message(nested(1, number(4, value)), text(3, _BOOL), number(4, _CONSTANT))
+    return encode_message(encode_nested(1, encode_number(4, value)), encode_text(3, _BOOL), encode_number(4, _CONSTANT))
 
 
 def _integer(value: int) -> bytes:
-    return message(nested(1, number(2, value)), text(3, _INT), number(4, _CONSTANT))
+    return encode_message(encode_nested(1, encode_number(2, value)), encode_text(3, _INT), encode_number(4, _CONSTANT))

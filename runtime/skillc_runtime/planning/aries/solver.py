@@ -12,22 +12,22 @@ from pathlib import Path
 
 from skillc_compiler.library.pddl.costs import MOST_UNITS
 from skillc_compiler.library.pddl.problem import Problem, durations
-from skillc_runtime.planning.aries.flat import FlatProblem, NotTemporal, flattened
-from skillc_runtime.planning.aries.messages import action_name, problem_message
+from skillc_runtime.planning.aries.flat import FlatProblem, NotTemporal, flatten_problem
+from skillc_runtime.planning.aries.messages import action_name, encode_problem
 from skillc_runtime.planning.plan import GaveUp
+from skillc_runtime.planning.plan_text import PlanTextError, read_step
 from skillc_runtime.planning.process import (
-    Ended,
     Limits,
-    NotStarted,
-    OutOfTime,
+    ProcessEnded,
+    ProcessNotStarted,
+    ProcessTimedOut,
     Run,
-    Running,
+    RunningProcess,
     machine_limits,
-    wait,
-    workplace,
+    make_workplace,
+    wait_for_end,
 )
 from skillc_runtime.planning.schedule import Schedule, TimedStep
-from skillc_runtime.planning.steps import PlanTextError, step_of
 
 PROGRAMS = {
     ("Linux", "x86_64"): "up-aries_linux_amd64",
@@ -44,7 +44,7 @@ _NOTHING = "NO PLAN"
 _LINE = re.compile(r"^ *(\d+\.?\d*): \((\S+)((?: [^\s()]+)*)\) \[(\d+\.?\d*)\]$", re.MULTILINE)
 
 
-def installed() -> str | None:
+def find_aries() -> str | None:
     """Return the program in the installed package, None where there is none; nothing of it is imported."""
     package, name = find_spec("up_aries"), PROGRAMS.get((platform.system(), platform.machine()))
     if package is None or package.origin is None or name is None:
@@ -71,9 +71,9 @@ class Aries:
         """Return the best schedule found within so many seconds; searching ends when one more instance is no help."""
         end = time.monotonic() + deadline_s
         try:
-            flat = flattened(_with_finer_units(problem))
-            with workplace() as folder:
-                (Path(folder) / "problem.upp").write_bytes(problem_message(flat))
+            flat = flatten_problem(_with_finer_units(problem))
+            with make_workplace() as folder:
+                (Path(folder) / "problem.upp").write_bytes(encode_problem(flat))
                 return self._deeper_and_deeper(flat, Path(folder), end)
         except NotTemporal as why:
             return GaveUp(f"aries does not take the problem: {why}; the planners for --minimise work do")
@@ -98,8 +98,8 @@ class Aries:
             return GaveUp("aries gave up: its time was up")
         searching = ("solve", "--optimal", "--min-depth", str(depth), "--max-depth", str(depth))
         command = (self._program, "--log-level", "error", *searching, "--timeout", str(seconds), "problem.upp")
-        with Running(command, folder, "said.txt", self._limits, environment=_ENVIRONMENT) as search:
-            wait((search,), end + GRACE_S)
+        with RunningProcess(command, folder, "said.txt", self._limits, environment=_ENVIRONMENT) as search:
+            wait_for_end((search,), end + GRACE_S)
             return _understood(search.outcome(), flat)
 
 
@@ -113,17 +113,17 @@ def _with_finer_units(problem: Problem) -> Problem:
 
 def _understood(outcome: Run, flat: FlatProblem) -> Schedule | _Nothing | GaveUp:
     match outcome:
-        case Ended(0, said) if _LINE.search(said):
+        case ProcessEnded(0, said) if _LINE.search(said):
             return _schedule(said, flat)
-        case Ended(0, said) if _NOTHING in said:
+        case ProcessEnded(0, said) if _NOTHING in said:
             return _Nothing()
-        case Ended(code, said):
+        case ProcessEnded(code, said):
             panic = next((line for line in said.splitlines() if "panicked" in line), outcome.last_line)
             how = f"was ended by signal {-code}" if code < 0 else f"ended with code {code}, saying: {panic}"
             return GaveUp(f"aries gave up: it {how}")
-        case NotStarted(why):
+        case ProcessNotStarted(why):
             return GaveUp(f"aries cannot be started ({why})")
-        case OutOfTime():
+        case ProcessTimedOut():
             return GaveUp("aries gave up: its time was up")
 
 
@@ -136,7 +136,7 @@ def _schedule(said: str, flat: FlatProblem) -> Schedule | GaveUp:
             return GaveUp(f"aries wrote something that is no plan: `{name}` is no action of the problem")
         action, scale = actions[name], float(flat.problem.domain.scale)
         try:
-            step = step_of(flat.problem, (action.name, *words.split()[: len(action.parameters)]))
+            step = read_step(flat.problem, (action.name, *words.split()[: len(action.parameters)]))
         except PlanTextError as error:
             return GaveUp(f"aries wrote something that is no plan: {error}")
         if step is not None:

@@ -5,22 +5,22 @@ from __future__ import annotations
 _VARINT, _LENGTH_DELIMITED = 0, 2
 
 
-def message(*fields: bytes) -> bytes:
+def encode_message(*fields: bytes) -> bytes:
     """Return a message made of fields."""
     return b"".join(fields)
 
 
-def number(field: int, value: int) -> bytes:
+def encode_number(field: int, value: int) -> bytes:
     """Return a field with a number that is not negative, a truth value or a member of an enumeration."""
     return _varint(field << 3 | _VARINT) + _varint(value)
 
 
-def text(field: int, value: str) -> bytes:
+def encode_text(field: int, value: str) -> bytes:
     """Return a field with a text."""
-    return nested(field, value.encode())
+    return encode_nested(field, value.encode())
 
 
-def nested(field: int, value: bytes) -> bytes:
+def encode_nested(field: int, value: bytes) -> bytes:
     """Return a field with a message."""
     return _varint(field << 3 | _LENGTH_DELIMITED) + _varint(len(value)) + value
 

@@ -1,0 +1,220 @@
+"""Fast Downward, a program of its own: A*, which proves the optimum, and LAMA, which finds plans, race."""
+
+from __future__ import annotations
+
+import re
+import signal
+import sys
+import time
+from collections.abc import Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+
+from skillc_compiler.library.pddl.complement import complemented
+from skillc_compiler.library.pddl.formulas import FALSE
+from skillc_compiler.library.pddl.prepare import prepared
+from skillc_compiler.library.pddl.problem import Problem
+from skillc_compiler.library.pddl.text import domain_text, problem_text
+from skillc_runtime.planning.fast_downward.heuristics import Heuristic, choose_heuristics, read_task_features
+from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
+from skillc_runtime.planning.plan_text import PlanTextError, cost_plan
+from skillc_runtime.planning.process import (
+    Limits,
+    ProcessEnded,
+    ProcessNotStarted,
+    ProcessTimedOut,
+    Run,
+    RunningProcess,
+    machine_limits,
+    make_workplace,
+    wait_for_end,
+)
+
+HEAD_START_S = 0.2
+"""LAMA starts so much later than A*: most tasks are solved by then."""
+
+MOST_COST = 2**30
+"""A plan that costs more may have been compared with costs that no longer fit into the planner's 32-bit integers."""
+
+_COST = re.compile(r"^; cost = (\d+)", re.MULTILINE)
+_PROVED = re.compile(r"\bf = (\d+)")
+_UNSOLVABLE = (10, 11)
+_ALL_EXPLORED = "Completely explored state space"
+_CODES = {
+    12: "it searched everything it could without an answer",
+    20: "it ran out of memory while translating",
+    21: "it ran out of time while translating",
+    22: "it ran out of memory",
+    23: "it ran out of time",
+    24: "it ran out of memory and time",
+    34: "the problem has a feature that its heuristic does not support",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Programs:
+    """The programs of Fast Downward: translator and driver as commands, the search component as a file."""
+
+    translate: tuple[str, ...]
+    search: str
+    driver: tuple[str, ...]
+
+
+def find_fast_downward() -> Programs | None:
+    """Return the programs of the installed package, None where there is none; nothing of it is imported."""
+    package, translator = find_spec("up_fast_downward"), find_spec("fast_downward")
+    if package is None or package.origin is None or translator is None:
+        return None
+    folder = Path(package.origin).parent / "downward"
+    search = folder / "builds/release/bin/downward"
+    if not search.is_file():
+        return None
+    translate = (sys.executable, "-m", "fast_downward.translate")
+    return Programs(translate, str(search), (sys.executable, str(folder / "fast-downward.py")))
+
+
+class FastDownward:
+    """Solves a problem in a temporary folder; only plan files count, whatever the program's exit code says."""
+
+    name = "Fast Downward"
+
+    def __init__(self, programs: Programs, limits: Limits | None = None) -> None:
+        self._programs = programs
+        self._limits = limits or machine_limits()
+
+    def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
+        """Solve a problem; `best found` when the time was too short for a proof."""
+        if problem.goal == FALSE:
+            return Unsolvable("no skill can change what the goal asks for")
+        end = time.monotonic() + deadline_s
+        try:
+            with make_workplace() as folder:
+                return self._plan(prepared(complemented(problem)), Path(folder), end)
+        except OSError as error:
+            return GaveUp(f"Fast Downward has no place to work in: {error.filename}: {error.strerror}")
+
+    def _plan(self, problem: Problem, folder: Path, end: float) -> PlanResult:
+        (folder / "domain.pddl").write_text(domain_text(problem.domain), "utf-8")
+        (folder / "problem.pddl").write_text(problem_text(problem), "utf-8")
+        command = (*self._programs.translate, "--sas-file", "task.sas", "domain.pddl", "problem.pddl")
+        with RunningProcess(command, folder, "translated.txt", self._limits) as translator:
+            wait_for_end((translator,), end)
+            translated = translator.outcome()
+        if not isinstance(translated, ProcessEnded) or not (folder / "task.sas").is_file():
+            return GaveUp(f"Fast Downward did not take the problem: {_reason(translated)}")
+        try:
+            chosen = choose_heuristics(read_task_features(folder / "task.sas"))
+        except ValueError:
+            return GaveUp("Fast Downward did not take the problem: what its translator wrote is no task")
+        return self._race(problem, folder, end, chosen)
+
+    def _race(self, problem: Problem, folder: Path, end: float, chosen: Sequence[Heuristic]) -> PlanResult:
+        """Return what A* proves with one heuristic after the other, or the best that LAMA finds meanwhile."""
+        searched: list[Run] = []
+        finding = ("--alias", "seq-sat-lama-2011", "--plan-file", "found", "task.sas")
+        with ExitStack() as beside:
+            finder: RunningProcess | None = None
+            for index, heuristic in enumerate(chosen):
+                command = (
+                    self._programs.search,
+                    "--internal-plan-file",
+                    "proved",
+                    "--search",
+                    f"astar({heuristic.text})",
+                )
+                with RunningProcess(command, folder, f"proving{index}.txt", self._limits, folder / "task.sas") as proof:
+                    if finder is None:
+                        wait_for_end((proof,), min(end, time.monotonic() + HEAD_START_S))
+                        if not _has_proved(proof.outcome()) and time.monotonic() < end:
+                            finder = beside.enter_context(
+                                RunningProcess((*self._programs.driver, *finding), folder, "finding.txt", self._limits)
+                            )
+                    wait_for_end((proof,), _turn(heuristic, end))
+                    searched.append(proof.outcome())
+                if _has_proved(searched[-1]) or time.monotonic() >= end:
+                    break
+            answer = _proved(problem, folder, searched[-1])
+            if answer is None and finder is not None:
+                wait_for_end((finder,), end)
+        return answer or _best(problem, folder, searched)
+
+
+def _turn(heuristic: Heuristic, end: float) -> float:
+    """Return until when a search may take, by the monotonic clock."""
+    now = time.monotonic()
+    return now + heuristic.share * max(end - now, 0.0)
+
+
+def _has_proved(searched: Run) -> bool:
+    if not isinstance(searched, ProcessEnded):
+        return False
+    explored = searched.code == 12 and _ALL_EXPLORED in searched.output
+    return searched.code == 0 or searched.code in _UNSOLVABLE or explored
+
+
+def _proved(problem: Problem, folder: Path, searched: Run) -> PlanResult | None:
+    """Return what A* has proved, None where it has proved nothing."""
+    if not isinstance(searched, ProcessEnded) or not _has_proved(searched):
+        return None
+    if searched.code != 0:
+        return Unsolvable("no sequence of skills reaches the goal")
+    return _solved(problem, folder / "proved", None) if (folder / "proved").is_file() else None
+
+
+def _best(problem: Problem, folder: Path, searched: Sequence[Run]) -> PlanResult:
+    """Return the last whole plan that LAMA wrote, each is better than the one before; with the bound that A* proved."""
+    at_least = max(map(_bound, searched))
+    plans = sorted(folder.glob("found*"), key=_number)
+    whole = [path for path in plans if _COST.search(path.read_text("utf-8", "replace"))]
+    if plans:
+        return _solved(problem, (whole or plans)[-1], at_least)
+    known = f"; any plan takes at least {float(at_least / problem.domain.scale):g} s" if at_least else ""
+    return GaveUp(f"Fast Downward gave up: {_reason(searched[-1])}{known}")
+
+
+def _solved(problem: Problem, file: Path, at_least: int | None) -> PlanResult:
+    """Return the plan in a file, proved to cost the least unless only a bound on the cost is known, in units."""
+    try:
+        text = file.read_text("utf-8")
+        actions = [tuple(line.strip("() ").split()) for line in text.splitlines() if line.strip().startswith("(")]
+        found = cost_plan(problem, actions)
+    except (UnicodeDecodeError, PlanTextError) as error:
+        return GaveUp(f"Fast Downward wrote something that is no plan: {error}")
+    told = _COST.search(text)
+    if told is None or int(told.group(1)) != found.units:
+        said = f"costs {told.group(1)}" if told else "has no cost"
+        return GaveUp(f"Fast Downward wrote something that is no plan: it {said}, but its steps cost {found.units}")
+    bound = found.units if at_least is None else at_least
+    if bound < found.units or found.units > MOST_COST:
+        known = float(bound / problem.domain.scale) if found.units <= MOST_COST else None
+        return Solved(found.plan, "best found", FastDownward.name, at_least_s=known or None)
+    if found.exact:
+        return Solved(found.plan, "proven", FastDownward.name)
+    least_s = found.at_least_s(problem)
+    return Solved(found.plan, "optimal for approximate durations", FastDownward.name, at_least_s=least_s)
+
+
+def _number(file: Path) -> int:
+    return int(file.suffix[1:]) if file.suffix[1:].isdigit() else 0
+
+
+def _bound(searched: Run) -> int:
+    """Return the least cost that any plan can have, as far as A* had come; in units."""
+    said = "" if isinstance(searched, ProcessNotStarted) else searched.output
+    return max(map(int, _PROVED.findall(said)), default=0)
+
+
+def _reason(outcome: Run) -> str:
+    match outcome:
+        case ProcessTimedOut():
+            return "its time was up"
+        case ProcessNotStarted(why):
+            return f"it cannot be started ({why})"
+        case ProcessEnded(code, _):
+            if code == -signal.SIGXFSZ:
+                return "it wrote more into a file than it may"
+            if code < 0:
+                return f"it was ended by signal {-code}"
+            return _CODES.get(code, f"it ended with code {code}, saying: {outcome.last_line}")

@@ -1,0 +1,142 @@
+"""What is true at first, and what things cost: facts of the index, static conditions settled for every tuple."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from fractions import Fraction
+from itertools import product
+from math import prod
+from typing import assert_never
+
+from skillc_compiler.library.conditions import Expression
+from skillc_compiler.library.pddl.costs import ASSUMED_SECONDS, exact_seconds
+from skillc_compiler.library.pddl.domain import (
+    ClassFact,
+    CostFunction,
+    GoalFact,
+    GuardFact,
+    PlanningDomain,
+    Predicate,
+    PropertyFact,
+    RelationFact,
+)
+from skillc_compiler.library.pddl.formulas import Atom, Typed
+from skillc_compiler.library.pddl.problem import CostValue
+from skillc_compiler.library.pddl.relations import Relations
+from skillc_runtime.world.conditions import evaluate
+from skillc_runtime.world.expressions import EvaluationError, property_of, value_of
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.values import Value, has
+
+MOST_VALUES = 1_000_000
+
+
+class TooManyValues(Exception):
+    """A condition or a duration reads so many things that it cannot be worked out for all of them."""
+
+
+class InitialState:
+    """Reads a version of the world for a planner; `undecided` collects what had no value for some individuals.
+
+    `untimed` says why costs have no value, by function and arguments; they are taken for a second.
+    """
+
+    def __init__(self, domain: PlanningDomain, state: WorldState, objects: Sequence[Typed], names: dict[str, str]):
+        self._domain, self._state = domain, state
+        self._iris = names
+        self._names = {iri: name for name, iri in names.items()}
+        self._relations = Relations(state.vocabulary)
+        self._members = {type_: domain.of_type(objects, type_) for type_ in _types(domain)}
+        self.undecided: dict[str, None] = {}
+        self.untimed: dict[tuple[str, tuple[str, ...]], str] = {}
+
+    def atoms(self) -> Iterator[Atom]:
+        """Yield what is true at first, sorted within each predicate."""
+        for predicate in self._domain.predicates:
+            yield from (Atom(predicate.name, terms) for terms in sorted(self._tuples(predicate)))
+
+    def costs(self) -> Iterator[CostValue]:
+        """Yield the value of each cost function for all tuples of its types."""
+        for function in self._domain.costs:
+            for names in self._choices(function.parameters, f"the duration of {function.skill}"):
+                yield CostValue(function.name, names, self._seconds(function, names))
+
+    def _tuples(self, predicate: Predicate) -> Iterable[tuple[str, ...]]:
+        match predicate.meaning:
+            case RelationFact(relation, narrower):
+                return self._relation(relation, narrower)
+            case PropertyFact(property_, value):
+                return ((self._names[iri],) for iri in self._with_value(property_, value))
+            case ClassFact(cls):
+                return ((name,) for iri, name in self._names.items() if self._state.is_a(iri, cls))
+            case GuardFact():
+                return self._guard(predicate, predicate.meaning)
+            case GoalFact():
+                return ()
+            case _:
+                assert_never(predicate.meaning)
+
+    def _relation(self, relation: str, narrower: tuple[tuple[str, bool], ...]) -> set[tuple[str, ...]]:
+        names, others = self._names, {each for each, _ in narrower}
+        pairs = self._state.pairs(relation) if self._relations.is_computed(relation) else self._said(relation, others)
+        return {(names[start], names[end]) for start, end in pairs if start in names and end in names}
+
+    def _said(self, relation: str, others: Set[str]) -> Iterator[tuple[str, str]]:
+        """Yield the pairs of which a relation holds by what was written of relations that are none of the others.
+
+        Facts that follow over several steps count where skills change none of these: no condition reads them elsewhere.
+        """
+        axioms = self._state.axioms
+        for source, flipped in axioms.sources[relation]:
+            deep = source in axioms.transitive and not any(
+                each.relation in others for each in self._relations.below(source)
+            )
+            if deep or self._relations.canonical(source).relation not in others:
+                links = (self._state.facts if deep else self._state.asserted)[source]
+                found = links.backward if flipped else links.forward
+                yield from ((start, end) for start in self._names for end in found.get(start))
+
+    def _with_value(self, property_: str, value: bool | str) -> Iterator[str]:
+        state, term = self._state, self._state.vocabulary.properties[property_]
+        computed = term.computed_by is not None
+        owners = (iri for iri in self._names if not computed or any(state.is_a(iri, each) for each in term.domains))
+        return (iri for iri in owners if has(property_of(state, iri, property_), value))
+
+    def _guard(self, predicate: Predicate, fact: GuardFact) -> Iterator[tuple[str, ...]]:
+        for names in self._choices(predicate.parameters, f"condition `{fact.label}` of {fact.skill}"):
+            bindings = {variable: self._iris[name] for variable, name in zip(fact.variables, names, strict=True)}
+            try:
+                if evaluate(fact.condition, self._state, bindings):
+                    yield names
+            except EvaluationError as error:
+                self.undecided[f"condition `{fact.label}` of {fact.skill}: {error}"] = None
+
+    def _choices(self, parameters: Sequence[Typed], reader: str) -> Iterator[tuple[str, ...]]:
+        members = [self._members[each.type] for each in parameters]
+        if prod(map(len, members)) > MOST_VALUES:
+            sizes = " x ".join(str(len(each)) for each in members if len(each) > 1)
+            raise TooManyValues(f"{reader} would have to be worked out for {sizes} things")
+        return product(*members)
+
+    def _seconds(self, function: CostFunction, names: tuple[str, ...]) -> Fraction:
+        bindings = {variable: self._iris[name] for variable, name in zip(function.variables, names, strict=True)}
+        seconds = evaluate_duration_s(function.expression, self._state, bindings)
+        if isinstance(seconds, Fraction):
+            return seconds
+        self.untimed[function.name, names] = f"duration of {function.skill}: {seconds}"
+        return ASSUMED_SECONDS
+
+
+def evaluate_duration_s(
+    expression: Expression, state: WorldState, bindings: Mapping[str, Value | None]
+) -> Fraction | str:
+    """Return a duration in seconds, or why there is none; then it is taken for `ASSUMED_SECONDS`."""
+    try:
+        return exact_seconds(value_of(expression, state, bindings))
+    except (EvaluationError, ValueError) as reason:
+        return str(reason)
+
+
+def _types(domain: PlanningDomain) -> set[str]:
+    typed = [each for predicate in domain.predicates for each in predicate.parameters]
+    return {each.type for each in (*typed, *(each for function in domain.costs for each in function.parameters))}

@@ -1,0 +1,123 @@
+"""Leaves out the actions that cannot help to reach a goal. The cheapest plan stays the cheapest plan.
+
+A literal (an atom's predicate with a sign) is *needed* when the goal or a condition of a
+helpful action reads it with that sign; an action is *helpful* when it makes a needed literal true. Take the unhelpful
+steps out of a plan: by induction every needed literal that was true before a step is still true, because what was taken
+out made none of them true. So the rest is a plan, and no dearer.
+
+A conditional effect may fire in one of the two runs only, so both signs of what its condition reads are needed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Set
+from dataclasses import dataclass, replace
+from typing import TypeAlias, assert_never
+
+from skillc_compiler.library.pddl.domain import Action, PlanningDomain
+from skillc_compiler.library.pddl.formulas import (
+    Atom,
+    Change,
+    Conjunction,
+    Disjunction,
+    Equal,
+    Existential,
+    Formula,
+    Negation,
+    Universal,
+    conjunction,
+)
+from skillc_compiler.library.pddl.typed import action_terms
+
+Literal: TypeAlias = tuple[str, bool]
+
+
+@dataclass(frozen=True, slots=True)
+class RelevantDomain:
+    """The domain without what cannot help, and the skills that were left out for that."""
+
+    domain: PlanningDomain
+    unhelpful: tuple[str, ...]
+
+
+def keep_relevant_actions(domain: PlanningDomain, goal: Formula) -> RelevantDomain:
+    """Return the domain with those actions alone that can help to reach the goal, and what these read and name."""
+    needed = _needed(domain, goal)
+    actions = tuple(each for each in domain.actions if _helps(each, needed))
+    used = {atom.predicate for action in actions for atom in list_action_atoms(action)} | {name for name, _ in needed}
+    functions = {each.name for each in domain.costs} & {name for action in actions for name in _functions(action)}
+    named = {name for action in actions for name in action_terms(action)}
+    return RelevantDomain(
+        replace(
+            domain,
+            actions=actions,
+            predicates=tuple(each for each in domain.predicates if each.name in used),
+            costs=tuple(each for each in domain.costs if each.name in functions),
+            constants=tuple(each for each in domain.constants if each.name in named),
+        ),
+        tuple(sorted(_skills(domain.actions) - _skills(actions))),
+    )
+
+
+def _skills(actions: Iterable[Action]) -> Set[str]:
+    return {each.skill for each in actions if each.skill is not None}
+
+
+def list_action_atoms(action: Action) -> Iterator[Atom]:
+    """Yield the atoms of an action's conditions and effects."""
+    yield from (atom for _, atom in list_literals(conjunction((action.precondition, action.hold))))
+    for change in action.effects:
+        yield change.atom
+        yield from (atom for _, atom in list_literals(change.condition))
+
+
+def _needed(domain: PlanningDomain, goal: Formula) -> Set[Literal]:
+    needed = {(atom.predicate, sign) for sign, atom in list_literals(goal)}
+    while True:
+        more = {each for action in domain.actions if _helps(action, needed) for each in _needs(action, needed)}
+        if more <= needed:
+            return needed
+        needed |= more
+
+
+def _helps(action: Action, needed: Set[Literal]) -> bool:
+    return any((each.atom.predicate, each.positive) in needed for each in action.effects)
+
+
+def _needs(action: Action, needed: Set[Literal]) -> Iterator[Literal]:
+    for sign, atom in list_literals(conjunction((action.precondition, action.hold))):
+        yield atom.predicate, sign
+    for change in action.effects:
+        touches = any((change.atom.predicate, sign) in needed for sign in (True, False))
+        if touches and not _clears(change):
+            yield from ((atom.predicate, sign) for _, atom in list_literals(change.condition) for sign in (True, False))
+
+
+def _clears(change: Change) -> bool:
+    """Whether the effect amounts to deleting its atom whatever holds."""
+    return not change.positive and change.apart is not None
+
+
+def _functions(action: Action) -> Iterator[str]:
+    function = getattr(action.cost, "function", None)
+    if function is not None:
+        yield function
+
+
+def list_literals(formula: Formula) -> Iterator[tuple[bool, Atom]]:
+    """Yield the atoms of a formula, each with its sign."""
+    match formula:
+        case Atom():
+            yield True, formula
+        case Negation(body):
+            if isinstance(body, Atom):
+                yield False, body
+        case Equal():
+            pass
+        case Conjunction(parts) | Disjunction(parts):
+            for part in parts:
+                yield from list_literals(part)
+        case Existential(_, body) | Universal(_, body):
+            yield from list_literals(body)
+        case _:
+            assert_never(formula)

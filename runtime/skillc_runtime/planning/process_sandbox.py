@@ -1,0 +1,127 @@
+"""A small program that runs another one within limits, and ends all it started when that ends, or when its parent does.
+
+Called as a file, without the package: `python -I -S process_sandbox.py PARENT MEMORY FILE FOLDER COMMAND ..`. PARENT
+is the process that must live on, MEMORY and FILE the most bytes of address space and of a file, FOLDER what is removed
+when the parent is gone, or nothing. It ends as the command ended, by the same signal or with the same code, or with
+NOT_STARTED and the reason as its last line.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import resource
+import signal
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from types import FrameType
+
+NOT_STARTED = 127
+LOOK_S = 0.1
+"""How often it looks whether its parent lives."""
+
+_PR_SET_PDEATHSIG, _PR_SET_CHILD_SUBREAPER = 1, 36
+
+
+def main(parent: int, memory: int, file: int, folder: str, command: list[str]) -> None:
+    """Run the command; does not return."""
+    _stop_when_orphaned(parent, folder)
+    if sys.platform == "linux":
+        _prctl(_PR_SET_CHILD_SUBREAPER, 1)
+    pid = os.fork()
+    if not pid:
+        _become(command, memory, file)
+    _, status = os.waitpid(pid, 0)
+    _end_descendants()
+    _end_as(status)
+
+
+def _stop_when_orphaned(parent: int, folder: str) -> None:
+    def look(_number: int, _frame: FrameType | None) -> None:
+        if os.getppid() != parent:
+            _end_descendants()
+            if folder:
+                _remove(folder)
+            _stop(_number, _frame)
+
+    signal.signal(signal.SIGTERM, _stop)
+    signal.signal(signal.SIGALRM, look)
+    signal.setitimer(signal.ITIMER_REAL, LOOK_S, LOOK_S)
+
+
+def _stop(_number: int, _frame: FrameType | None) -> None:
+    _end_descendants()
+    os.killpg(0, signal.SIGKILL)
+
+
+def _remove(folder: str) -> None:
+    import shutil
+
+    shutil.rmtree(folder, ignore_errors=True)
+
+
+def _become(command: list[str], memory: int, file: int) -> None:
+    """Turn this process into the command; if the sandbox itself is killed, the kernel ends the command."""
+    signal.setitimer(signal.ITIMER_REAL, 0.0)
+    for number in (signal.SIGTERM, signal.SIGALRM):
+        signal.signal(number, signal.SIG_DFL)
+    signal.signal(signal.SIGXFSZ, signal.SIG_DFL)  # Python ignores it, and what is ignored stays so in a new program
+    _limit(resource.RLIMIT_AS, memory)
+    _limit(resource.RLIMIT_FSIZE, file)
+    _limit(resource.RLIMIT_CORE, 0)
+    if sys.platform == "linux":
+        _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    try:
+        os.execvp(command[0], command)
+    except OSError as error:
+        os.write(2, f"{command[0]}: {error.strerror}\n".encode())
+        os._exit(NOT_STARTED)
+
+
+def _limit(kind: int, most: int) -> None:
+    _, hard = resource.getrlimit(kind)
+    most = most if hard == resource.RLIM_INFINITY else min(most, hard)
+    with contextlib.suppress(OSError, ValueError):  # a system without this limit
+        resource.setrlimit(kind, (most, most))
+
+
+def _prctl(option: int, value: int) -> None:
+    import ctypes
+
+    ctypes.CDLL(None).prctl(option, value, 0, 0, 0)
+
+
+def _end_descendants() -> None:
+    """Kill all children until there are none; as a subreaper this process is given the children of those that end."""
+    while children := tuple(_children()):
+        for pid in children:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+            with contextlib.suppress(ChildProcessError):
+                os.waitpid(pid, 0)
+
+
+def _children() -> Iterator[int]:
+    """Yield the processes that this one is the parent of, where the system tells."""
+    own = str(os.getpid())
+    for folder in Path("/proc").glob("[0-9]*"):
+        with contextlib.suppress(OSError):
+            _state, parent, *_ = (folder / "stat").read_text().rpartition(")")[2].split()
+            if parent == own:
+                yield int(folder.name)
+
+
+def _end_as(status: int) -> None:
+    code = os.waitstatus_to_exitcode(status)
+    if code < 0:
+        signal.signal(signal.SIGALRM, signal.SIG_IGN)
+        _limit(resource.RLIMIT_CORE, 0)
+        with contextlib.suppress(OSError):
+            signal.signal(-code, signal.SIG_DFL)  # those that cannot be caught need no handler
+        os.kill(os.getpid(), -code)
+    os._exit(code)
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3]), sys.argv[4], sys.argv[5:])

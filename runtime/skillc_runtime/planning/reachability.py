@@ -1,0 +1,57 @@
+"""Whether a goal can be reached at all from a world, without searching for a plan."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+
+from skillc_compiler.library.conditions import Condition
+from skillc_compiler.library.pddl.formulas import FALSE, conjuncts
+from skillc_compiler.library.pddl.problem import Problem
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.planning.abstraction.lower_bound import relax_scene
+from skillc_runtime.planning.problem.initial_state import TooManyValues
+from skillc_runtime.planning.problem.neighbourhood import AT_ONCE
+from skillc_runtime.planning.problem.pose import GoalError, already_holds, pose_problem
+from skillc_runtime.planning.search.grounding import Grounding, GroundingTimeout
+from skillc_runtime.planning.unsolvability import LONGEST_S, explain_unsolvable
+from skillc_runtime.world.state import WorldState
+
+
+@dataclass(frozen=True, slots=True)
+class UnreachableGoal:
+    """Why no plan reaches a goal; `proved` unless a skill or the goal itself cannot be planned with."""
+
+    why: str
+    proved: bool = True
+
+
+def explain_unreachable(library: SkillLibrary, state: WorldState, goal: Condition) -> UnreachableGoal | None:
+    """Return why no plan can reach the goal even if nothing once true were ever lost; None if one may.
+
+    Of a large scene the part near the goal is looked at, the rest stood in for. None also where that cannot be told.
+    """
+    try:
+        if already_holds(goal, state):
+            return None
+        posed = pose_problem(library, state, goal, (), AT_ONCE)
+    except GoalError as error:
+        return UnreachableGoal(str(error), proved=False)
+    except TooManyValues:
+        return None
+    problem = relax_scene(posed, state) if posed.narrowed else posed.problem
+    if problem is None or _is_reachable(problem):
+        return None
+    why = explain_unsolvable(replace(posed, problem=problem), goal, state)
+    return UnreachableGoal(why, proved=not posed.restricted)
+
+
+def _is_reachable(problem: Problem) -> bool:
+    """Whether all parts of the goal are reachable, or there is no time to find out."""
+    grounding = Grounding(problem, time.monotonic() + LONGEST_S)
+    try:
+        grounding.explore()
+        wanted = grounding.goal()
+    except GroundingTimeout:
+        return True
+    return wanted != FALSE and all(grounding.possible(part) for part in conjuncts(wanted))

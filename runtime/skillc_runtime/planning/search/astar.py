@@ -1,0 +1,176 @@
+"""The built-in planner: A* over the ground problem. Proves the optimum of small scenes, needs nothing installed."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from heapq import heappop, heappush
+from itertools import count
+from typing import TypeAlias, assert_never
+
+from skillc_compiler.library.pddl.formulas import (
+    Atom,
+    Conjunction,
+    Disjunction,
+    Equal,
+    Existential,
+    Formula,
+    Negation,
+    Universal,
+)
+from skillc_compiler.library.pddl.problem import Problem
+from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
+from skillc_runtime.planning.plan_text import cost_plan
+from skillc_runtime.planning.search.grounding import GroundAction, Grounding, GroundingTimeout
+from skillc_runtime.planning.search.h_max import HMax
+
+Test: TypeAlias = Callable[[int], bool]
+
+
+class AStar:
+    """A* with the admissible estimate h-max."""
+
+    name = "built-in A*"
+
+    def __init__(self, advice: str = "") -> None:
+        """Give advice to who gets no answer."""
+        self._advice = f"; {advice}" if advice else ""
+
+    def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
+        """Solve a problem; a plan it returns is proven to be the shortest."""
+        end = time.monotonic() + deadline_s
+        grounding = Grounding(problem, end)
+        try:
+            actions, goal = grounding.actions, grounding.goal()
+        except GroundingTimeout:
+            return self._gave_up("its time was up before it knew all actions")
+        if not grounding.possible(goal):
+            return Unsolvable("the goal cannot be reached even if nothing were ever undone")
+        numbers = {atom: number for number, atom in enumerate(sorted(grounding.reachable, key=_order))}
+        task = _Task(
+            start=sum(1 << numbers[atom] for atom in grounding.init),
+            operators=tuple(_operator(action, numbers) for action in actions),
+            goal=_test(goal, numbers),
+            estimate=HMax(actions, goal, numbers),
+        )
+        found = _search(task, end)
+        if isinstance(found, _Exhausted):
+            return Unsolvable("no sequence of skills reaches the goal")
+        if isinstance(found, _TimeUp):
+            return self._gave_up(f"its time was up after {found.states} states")
+        answer = cost_plan(problem, (actions[index].words for index in found))
+        if answer.exact:
+            return Solved(answer.plan, "proven", self.name)
+        return Solved(
+            answer.plan, "optimal for approximate durations", self.name, at_least_s=answer.at_least_s(problem)
+        )
+
+    def _gave_up(self, why: str) -> GaveUp:
+        return GaveUp(f"the built-in planner gave up: {why}{self._advice}")
+
+
+@dataclass(frozen=True, slots=True)
+class _Operator:
+    """An action on states: bit n of a state says that atom n is true."""
+
+    applies: Test
+    effects: tuple[tuple[Test | None, int, int], ...]
+    units: int
+
+    def after(self, state: int) -> int:
+        """Return the next state; what is both deleted and added is true."""
+        deleted = added = 0
+        for condition, adds, deletes in self.effects:
+            if condition is None or condition(state):
+                added |= adds
+                deleted |= deletes
+        return state & ~deleted | added
+
+
+@dataclass(frozen=True, slots=True)
+class _Task:
+    start: int
+    operators: tuple[_Operator, ...]
+    goal: Test
+    estimate: HMax
+
+
+@dataclass(frozen=True, slots=True)
+class _Exhausted:
+    """All states were seen."""
+
+
+@dataclass(frozen=True, slots=True)
+class _TimeUp:
+    states: int
+
+
+def _search(task: _Task, end: float) -> tuple[int, ...] | _Exhausted | _TimeUp:
+    """Return the operators of a cheapest way to the goal. The estimate is consistent: no state is opened twice."""
+    ticket = count()
+    costs = {task.start: 0}
+    parents: dict[int, tuple[int, int]] = {}
+    closed: set[int] = set()
+    queue = [(task.estimate(task.start), next(ticket), task.start)]
+    while queue:
+        _, _, state = heappop(queue)
+        if state in closed:
+            continue
+        if task.goal(state):
+            return tuple(_way(state, parents))[::-1]
+        if time.monotonic() > end:
+            return _TimeUp(len(closed))
+        closed.add(state)
+        for index, operator in enumerate(task.operators):
+            if not operator.applies(state):
+                continue
+            after, cost = operator.after(state), costs[state] + operator.units
+            if after in closed or cost >= costs.get(after, cost + 1):
+                continue
+            estimate = task.estimate(after)
+            if estimate < float("inf"):
+                costs[after], parents[after] = cost, (state, index)
+                heappush(queue, (cost + estimate, next(ticket), after))
+    return _Exhausted()
+
+
+def _way(state: int, parents: Mapping[int, tuple[int, int]]) -> Iterator[int]:
+    while state in parents:
+        state, index = parents[state]
+        yield index
+
+
+def _operator(action: GroundAction, numbers: Mapping[Atom, int]) -> _Operator:
+    effects = []
+    for effect in action.effects:
+        if effect.atom in numbers:
+            bit = 1 << numbers[effect.atom]
+            condition = None if effect.condition == Conjunction(()) else _test(effect.condition, numbers)
+            effects.append((condition, bit if effect.positive else 0, 0 if effect.positive else bit))
+    return _Operator(_test(action.precondition, numbers), tuple(effects), action.units)
+
+
+def _test(formula: Formula, numbers: Mapping[Atom, int]) -> Test:
+    """Return the test of a ground formula on states; an atom that was never reached is false."""
+    match formula:
+        case Atom():
+            bit = 1 << numbers[formula] if formula in numbers else 0
+            return lambda state: bool(state & bit)
+        case Negation(body):
+            inner = _test(body, numbers)
+            return lambda state: not inner(state)
+        case Conjunction(parts):
+            tests = tuple(_test(part, numbers) for part in parts)
+            return lambda state: all(test(state) for test in tests)
+        case Disjunction(parts):
+            tests = tuple(_test(part, numbers) for part in parts)
+            return lambda state: any(test(state) for test in tests)
+        case Equal() | Existential() | Universal():
+            raise AssertionError(f"{formula} is not ground")
+        case _:
+            assert_never(formula)
+
+
+def _order(atom: Atom) -> tuple[str, tuple[str, ...]]:
+    return atom.predicate, atom.terms

@@ -1,0 +1,243 @@
+"""A problem without variables: the actions that may ever apply, their conditions reduced to what can change.
+
+Which atoms can ever be true is found by ignoring what actions delete.
+"""
+
+from __future__ import annotations
+
+import time
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+from typing import TypeAlias, assert_never
+
+from skillc_compiler.library.pddl.domain import Action, ComputedCost, FixedCost
+from skillc_compiler.library.pddl.formulas import (
+    FALSE,
+    TRUE,
+    Atom,
+    Change,
+    Conjunction,
+    Disjunction,
+    Equal,
+    Existential,
+    Formula,
+    Negation,
+    Universal,
+    conjunction,
+    conjuncts,
+    disjunction,
+)
+from skillc_compiler.library.pddl.problem import Problem
+from skillc_runtime.planning.typed_variables import list_typed_variables
+
+Values: TypeAlias = Mapping[str, str]
+
+
+class GroundingTimeout(Exception):
+    """A problem has so many actions that finding them takes longer than there is time."""
+
+
+@dataclass(frozen=True, slots=True)
+class GroundEffect:
+    """The atom becomes true or false where the condition held before."""
+
+    atom: Atom
+    positive: bool
+    condition: Formula
+
+
+@dataclass(frozen=True, slots=True)
+class GroundAction:
+    """An action for particular objects; formulas have neither variables nor static atoms."""
+
+    words: tuple[str, ...]
+    precondition: Formula
+    effects: tuple[GroundEffect, ...]
+    units: int
+
+
+class Grounding:
+    """A problem's actions for its objects, as far as relaxed reachability lets them apply.
+
+    TimeIsUp when the monotonic clock reaches `end` before they are found.
+    """
+
+    def __init__(self, problem: Problem, end: float = float("inf")) -> None:
+        self._problem, self._end = problem, end
+        types = {each.type for each in list_typed_variables(problem.domain)}
+        self._members = {type_: problem.domain.of_type(problem.objects, type_) for type_ in types}
+        self._costs = {(each.function, each.arguments): each.seconds for each in problem.costs}
+        self._changing = {each.atom.predicate for action in problem.domain.actions for each in action.effects}
+        self._static = frozenset(each for each in problem.init if each.predicate not in self._changing)
+        self.init = frozenset(each for each in problem.init if each.predicate in self._changing)
+        self.reachable: set[Atom] = set(self.init)
+        self._facts: dict[str, list[tuple[str, ...]]] = defaultdict(list)
+        for atom in problem.init:
+            self._facts[atom.predicate].append(atom.terms)
+
+    @cached_property
+    def actions(self) -> tuple[GroundAction, ...]:
+        """All actions that may apply at some time; computing them fills `reachable`."""
+        found: dict[tuple[str, ...], GroundAction] = {}
+        grown = True
+        while grown:
+            grown = False
+            for action in self._problem.domain.actions:
+                for ground in tuple(self._instances(action, found)):
+                    found[ground.words] = ground
+                    grown |= self._reach(ground)
+        return tuple(found[words] for words in sorted(found))
+
+    def explore(self) -> None:
+        """Find out what is reachable."""
+        self.reachable.update(each.atom for action in self.actions for each in action.effects if each.positive)
+
+    def goal(self) -> Formula:
+        """Return the goal with its static atoms decided; FALSE when it can never be."""
+        return self.reduced(self._problem.goal, {})
+
+    def reduced(self, formula: Formula, values: Values) -> Formula:
+        """Return a formula for particular objects: quantifiers written out, what cannot change decided."""
+        match formula:
+            case Atom(predicate, terms):
+                atom = Atom(predicate, tuple(values.get(term, term) for term in terms))
+                return self._atom(atom)
+            case Equal(left, right):
+                return TRUE if values.get(left, left) == values.get(right, right) else FALSE
+            case Negation(body):
+                return _negated(self.reduced(body, values))
+            case Conjunction(parts):
+                return conjunction(self.reduced(part, values) for part in parts)
+            case Disjunction(parts):
+                return disjunction(self.reduced(part, values) for part in parts)
+            case Existential(variable, body):
+                names = self._members[variable.type]
+                return disjunction(self.reduced(body, {**values, variable.name: name}) for name in names)
+            case Universal(variable, body):
+                names = self._members[variable.type]
+                return conjunction(self.reduced(body, {**values, variable.name: name}) for name in names)
+            case _:
+                assert_never(formula)
+
+    def fitting(self, action: Action, conditions: Sequence[Formula], start: Values) -> Iterator[dict[str, str]]:
+        """Yield the ways to bind an action's parameters, beginning with `start`, for which conditions are reachable."""
+        whole = conjunction(conditions)
+        bindings = self._bindings(action, conjuncts(whole), start)
+        yield from (values for values in bindings if self.possible(self.reduced(whole, values)))
+
+    def _bindings(self, action: Action, conditions: Iterable[Formula], start: Values) -> Iterator[dict[str, str]]:
+        """Yield the ways to bind an action's parameters that make the positive atoms among conditions reachable."""
+        yield from self._bound(action, [each for each in conditions if isinstance(each, Atom)], dict(start))
+
+    def _bound(self, action: Action, atoms: list[Atom], values: dict[str, str]) -> Iterator[dict[str, str]]:
+        """Bind by the atom with the most bound terms first, then what is left by type."""
+        open_ = [each for each in action.parameters if each.name not in values]
+        linked = [atom for atom in atoms if any(each.name in atom.terms for each in open_)]
+        if not linked:
+            for names in product(*(self._members[each.type] for each in open_)):
+                yield {**values, **dict(zip((each.name for each in open_), names, strict=True))}
+            return
+        atom = max(linked, key=lambda each: sum(not term.startswith("?") or term in values for term in each.terms))
+        rest = [each for each in atoms if each is not atom]
+        types = {each.name: each.type for each in action.parameters}
+        for terms in tuple(self._facts[atom.predicate]):
+            matched = self._matched(atom, terms, values, types)
+            if matched is not None:
+                yield from self._bound(action, rest, matched)
+
+    def _matched(
+        self, atom: Atom, terms: tuple[str, ...], values: dict[str, str], types: dict[str, str]
+    ) -> dict[str, str] | None:
+        matched = dict(values)
+        for term, name in zip(atom.terms, terms, strict=True):
+            if term in types and term not in matched:
+                if name not in self._sets[types[term]]:
+                    return None
+                matched[term] = name
+            elif matched.get(term, term) != name:
+                return None
+        return matched
+
+    @cached_property
+    def _sets(self) -> dict[str, frozenset[str]]:
+        return {type_: frozenset(names) for type_, names in self._members.items()}
+
+    def _atom(self, atom: Atom) -> Formula:
+        if atom.predicate not in self._changing:
+            return TRUE if atom in self._static else FALSE
+        return atom
+
+    def _instances(self, action: Action, known: Mapping[tuple[str, ...], GroundAction]) -> Iterator[GroundAction]:
+        condition = conjunction((action.precondition, action.hold))
+        for values in self._bindings(action, conjuncts(condition), {}):
+            if time.monotonic() > self._end:
+                raise GroundingTimeout
+            words = (action.name, *(values[each.name] for each in action.parameters))
+            if words in known:
+                yield known[words]
+                continue
+            precondition = self.reduced(condition, values)
+            if self.possible(precondition):
+                effects = tuple(each for change in action.effects for each in self._effects(change, values))
+                yield GroundAction(words, precondition, effects, self._units(action, values))
+
+    def possible(self, formula: Formula) -> bool:
+        """Whether a reduced formula can be true of reachable atoms, deletions ignored."""
+        match formula:
+            case Atom():
+                return formula in self.reachable
+            case Conjunction(parts):
+                return all(self.possible(part) for part in parts)
+            case Disjunction(parts):
+                return any(self.possible(part) for part in parts)
+            case Negation(body):
+                return body not in self.init or self._deletable(body)
+            case Equal() | Existential() | Universal():
+                raise AssertionError(f"{formula} is not reduced")
+            case _:
+                assert_never(formula)
+
+    def _deletable(self, atom: Atom | Equal) -> bool:
+        """Whether some action can ever delete the atom, as far as the domain's effects tell."""
+        return isinstance(atom, Atom) and atom.predicate in self._deleting
+
+    @cached_property
+    def _deleting(self) -> frozenset[str]:
+        effects = (each for action in self._problem.domain.actions for each in action.effects)
+        return frozenset(each.atom.predicate for each in effects if not each.positive)
+
+    def _effects(self, change: Change, values: Values) -> Iterator[GroundEffect]:
+        for names in product(*(self._members[each.type] for each in change.variables)):
+            bound = {**values, **dict(zip((each.name for each in change.variables), names, strict=True))}
+            condition = self.reduced(change.condition, bound)
+            atom = Atom(change.atom.predicate, tuple(bound.get(term, term) for term in change.atom.terms))
+            if condition != FALSE:
+                yield GroundEffect(atom, change.positive, condition)
+
+    def _reach(self, ground: GroundAction) -> bool:
+        """Take in what an action makes true; whether anything was new."""
+        new = {
+            each.atom
+            for each in ground.effects
+            if each.positive and each.atom not in self.reachable and self.possible(each.condition)
+        }
+        self.reachable |= new
+        for atom in sorted(new, key=lambda each: each.terms):
+            self._facts[atom.predicate].append(atom.terms)
+        return bool(new)
+
+    def _units(self, action: Action, values: Values) -> int:
+        match action.cost:
+            case FixedCost(seconds):
+                return self._problem.domain.units(seconds)
+            case ComputedCost(function, arguments):
+                return self._problem.domain.units(self._costs[function, tuple(values[each] for each in arguments)])
+
+
+def _negated(formula: Formula) -> Formula:
+    if isinstance(formula, Atom | Equal):
+        return Negation(formula)
+    return FALSE if formula == TRUE else TRUE

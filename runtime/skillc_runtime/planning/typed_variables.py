@@ -1,0 +1,43 @@
+"""The typed variables of a domain. Objects of other types cannot change what is reachable."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import assert_never
+
+from skillc_compiler.library.pddl.domain import PlanningDomain
+from skillc_compiler.library.pddl.formulas import (
+    Atom,
+    Conjunction,
+    Disjunction,
+    Equal,
+    Existential,
+    Formula,
+    Negation,
+    Typed,
+    Universal,
+)
+
+
+def list_typed_variables(domain: PlanningDomain) -> Iterator[Typed]:
+    """Yield all parameters and quantified variables of the actions."""
+    for action in domain.actions:
+        yield from action.parameters
+        for formula in (action.precondition, action.hold, *(change.condition for change in action.effects)):
+            yield from _quantified(formula)
+        for change in action.effects:
+            yield from change.variables
+
+
+def _quantified(formula: Formula) -> Iterator[Typed]:
+    match formula:
+        case Existential(variable, body) | Universal(variable, body):
+            yield variable
+            yield from _quantified(body)
+        case Conjunction(parts) | Disjunction(parts):
+            for part in parts:
+                yield from _quantified(part)
+        case Atom() | Equal() | Negation():
+            return
+        case _:
+            assert_never(formula)
