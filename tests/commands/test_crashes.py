@@ -46,7 +46,7 @@ def test_a_failure_is_one_message_with_a_report(
 ) -> None:
     fail = raising(KeyError("nobody\nthought of it"))
     monkeypatch.setattr(_library, "compile_library", fail)
-    monkeypatch.setattr(_formatting, "formatted", fail)
+    monkeypatch.setattr(_formatting, "format_source", fail)
     monkeypatch.setattr(sys, "argv", ["skillc", *COMMANDS[name]])
     with pytest.raises(SystemExit) as ended:
         main(COMMANDS[name])
