@@ -16,13 +16,13 @@ import numpy as np
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
-from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare
 from skillc_runtime.commands import _library
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
+from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.motion.path import path
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.task import execute
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
 
@@ -121,11 +121,11 @@ def whole(library_name: str, task: str) -> tuple[float, float]:
     assert goal is not None
     assert scene is not None
     state = load_scene(catalogue.scene(scene), library.vocabulary)
-    prepared = prepare(Assignment(task, state, Reach(goal)), library)
-    assert isinstance(prepared, Prepared), prepared
+    prepared = prepare_task(Assignment(task, state, AchieveGoal(goal)), library)
+    assert isinstance(prepared, PreparedTask), prepared
     cell = TimedCell(WorldModel(state), seed=0)
     began = perf_counter()
-    execute(prepared, library, cell)
+    execute_task(prepared, library, cell)
     per_step = (perf_counter() - began - cell.comparing_s) / (cell.now / cell.period_s)
     return cell.period_s / per_step, per_step / (cell.physics_s / cell.steps)
 

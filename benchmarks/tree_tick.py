@@ -14,9 +14,9 @@ from types import SimpleNamespace
 import py_trees
 
 from skillc_compiler.library import tree
+from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Primitive, Status
 from skillc_runtime.trace.outcome import Outcome
-from skillc_runtime.tree.run import Run
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 from tree.stage import FLAGS, Library, Stage, act, call, par, seq, world
@@ -115,7 +115,7 @@ def shape(
 ) -> SimpleNamespace:
     """Start both trees; `nodes` are those of ours that run, a call and its primitive each counting for themselves."""
     library = library or Library(LEAF)
-    run = Run(body, library.build(), Stage(world()))
+    run = TreeRun(body, library.build(), Stage(world()))
     for _ in range(3):
         assert run.tick() is Status.RUNNING
         other.tick_once()

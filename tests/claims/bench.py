@@ -11,12 +11,12 @@ from msgspec import structs
 
 from skillc_compiler.goals import parse_call, parse_goal
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, prepare
 from skillc_runtime.commands import _library
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
+from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Primitive, Status
 from skillc_runtime.robots.watchdog import Watchdog
-from skillc_runtime.task import Execution, execute
 from skillc_runtime.trace.events import Event
 from skillc_runtime.world.changes import AddIndividual, AddRelation, SetProperty
 from skillc_runtime.world.model import WorldModel
@@ -181,10 +181,10 @@ def run(aim: str, bench: Bench, events: list[Event] | None = None) -> Execution:
     if aim.startswith("goal "):
         asked = parse_goal(aim.removeprefix("goal "), lib.vocabulary, individuals, prefixes)
         assert asked.value is not None, asked.diagnostics
-        prepared = prepare(Assignment("task", state, Reach(asked.value)), lib)
+        prepared = prepare_task(Assignment("task", state, AchieveGoal(asked.value)), lib)
     else:
         called = parse_call(aim, lib, individuals, prefixes)
         assert called.value is not None, called.diagnostics
-        prepared = prepare(Assignment("task", state, Perform(called.value)), lib)
-    assert isinstance(prepared, Prepared), prepared
-    return execute(prepared, lib, bench, [] if events is None else [events.append])  # type: ignore[arg-type]
+        prepared = prepare_task(Assignment("task", state, ExecuteBody(called.value)), lib)
+    assert isinstance(prepared, PreparedTask), prepared
+    return execute_task(prepared, lib, bench, [] if events is None else [events.append])  # type: ignore[arg-type]

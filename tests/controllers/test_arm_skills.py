@@ -7,11 +7,11 @@ from rig import HOMES, moved_by
 
 from skillc_runtime.motion.pose import Pose, exp, log, quaternion_of
 from skillc_runtime.primitives.compliance import Align, Push, ReleaseAxis
-from skillc_runtime.primitives.localise import touched
 from skillc_runtime.primitives.move import MoveJoints, MoveLinear, TakePosture
 from skillc_runtime.primitives.overlay import OverlayCircle
 from skillc_runtime.primitives.path import FollowPath
 from skillc_runtime.primitives.primitive import SkillFailure, Status
+from skillc_runtime.primitives.surface_location import correct_pose
 from skillc_runtime.world.changes import SetProperty
 from skillc_runtime.world.terms import (
     BASE_FRAME_ID,
@@ -215,12 +215,12 @@ def test_touching_corrects_what_it_can_tell():
     believed = Pose(np.array([0.5, 0.1, 0.7]), exp(np.array([0.0, 0.0, 0.3])))
     tilt = exp(np.array([0.05, -0.03, 0.0]))
     tool = Pose(np.array([0.45, 0.2, 0.72]), tilt @ np.diag([1.0, -1.0, -1.0]))
-    found = touched(believed, tool)
+    found = correct_pose(believed, tool)
     normal = tilt[:, 2]
     assert np.allclose(found.rotation[:, 2], normal)
     assert normal @ (found.position - tool.position) == pytest.approx(0.0)
     assert np.linalg.norm(np.cross(found.position - believed.position, normal)) == pytest.approx(0.0)
-    assert touched(found, tool).position == pytest.approx(found.position)
+    assert correct_pose(found, tool).position == pytest.approx(found.position)
     assert np.degrees(np.linalg.norm(log(found.rotation @ believed.rotation.T))) < 3.5
 
 

@@ -8,8 +8,8 @@ from types import ModuleType
 
 import pytest
 
-from skillc_runtime.assignment import Reach
 from skillc_runtime.commands._mission import Mission, of_task
+from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.plan import Plan, Solved
 from skillc_runtime.planning.problem.pose import Posed, pose_problem
 from skillc_runtime.planning.search.astar import AStar
@@ -33,16 +33,16 @@ def mission(task: str) -> Mission:
 
 @cache
 def posed(task: str) -> Posed:
-    aim = mission(task).assignment.aim
-    assert isinstance(aim, Reach)
+    aim = mission(task).assignment.objective
+    assert isinstance(aim, AchieveGoal)
     return pose_problem(mission(task).library, mission(task).assignment.state, aim.goal)
 
 
 @cache
 def plan(task: str) -> Plan:
     assignment = mission(task).assignment
-    assert isinstance(assignment.aim, Reach)
-    solved = solve(mission(task).library, assignment.state, assignment.aim.goal, (AStar(),))
+    assert isinstance(assignment.objective, AchieveGoal)
+    solved = solve(mission(task).library, assignment.state, assignment.objective.goal, (AStar(),))
     assert isinstance(solved, Solved)
     return solved.plan
 

@@ -14,10 +14,10 @@ from skillc_compiler.library.reading import walk
 from skillc_compiler.library.skills import Compound, Implementation, Primitive, SkillLibrary
 from skillc_compiler.library.tree import Call, Check, ForEach, If, Timeout, Wait, WaitUntil, While
 from skillc_compiler.library.vocabulary import ClassType
+from skillc_runtime.execution.selection.binding import BoundImplementation, bind_implementation
+from skillc_runtime.execution.selection.python_targets import import_primitive
 from skillc_runtime.primitives.primitive import Primitive as Running
 from skillc_runtime.primitives.primitive import SkillFailure, Status
-from skillc_runtime.selection.fit import Fitted, fit
-from skillc_runtime.selection.python import primitive_class
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.effects import changes_of
 from skillc_runtime.world.expressions import value_of
@@ -81,15 +81,15 @@ class LibraryLeaves(Leaves):
     def _inferred(self, skill: str, bindings: Bindings) -> Blackboard | None:
         parameters = self.library.skills[skill].parameters
         for each in self.library.implementations_of(skill):
-            fitted = fit(each, bindings, self.stage.world.snapshot())
-            if isinstance(fitted, Fitted):
+            fitted = bind_implementation(each, bindings, self.stage.world.snapshot())
+            if isinstance(fitted, BoundImplementation):
                 names = [each.name for each in parameters if each.direction == "infer"]
                 return {name: fitted.bindings[name] for name in names}
         return None
 
-    def _fitted(self, skill: str, bindings: Bindings) -> Fitted:
-        fitted = fit(self.library.implementations_of(skill)[0], bindings, self.stage.world.snapshot())
-        assert isinstance(fitted, Fitted)
+    def _fitted(self, skill: str, bindings: Bindings) -> BoundImplementation:
+        fitted = bind_implementation(self.library.implementations_of(skill)[0], bindings, self.stage.world.snapshot())
+        assert isinstance(fitted, BoundImplementation)
         return fitted
 
     def _value(self, path: Path, bindings: Bindings) -> Blackboard:
@@ -107,7 +107,7 @@ class LibraryLeaves(Leaves):
     ) -> Callable[[], Outcome | None]:
         assert isinstance(implementation.body, Primitive)
         inputs = {each.name: bindings.get(each.name) for each in implementation.parameters if each.direction != "out"}
-        running = primitive_class(implementation.body.python)(self.stage, **inputs)  # type: ignore[arg-type]
+        running = import_primitive(implementation.body.python)(self.stage, **inputs)  # type: ignore[arg-type]
         running.start()
         self.running[id(bindings)] = running
         if self.library.skills[implementation.skill].scoped:

@@ -20,9 +20,9 @@ from skillc_compiler.library.conditions import And
 from skillc_compiler.library.pddl.planning import planning_domain
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.tree import Node
+from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.tree.run import Run
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.state import WorldState
 from tree.stage import PERIOD_S, Stage
@@ -100,7 +100,7 @@ def executed(library: SkillLibrary) -> Mapping[str, str]:
 
 def _by_engine(body: Node, library: SkillLibrary) -> tuple[History, str]:
     stage = Stage(WorldModel(scene(library)), SCRIPTS)
-    run = Run(body, library, stage)  # type: ignore[arg-type]
+    run = TreeRun(body, library, stage)  # type: ignore[arg-type]
     for number in range(TICKS):
         stage.now = number * PERIOD_S
         if run.tick() is not Status.RUNNING:

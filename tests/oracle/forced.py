@@ -11,9 +11,9 @@ from typing import TypeAlias
 from skillc_compiler.library.conditions import And, Condition
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import ClassType
+from skillc_runtime.execution.selection.binding import BoundImplementation, bind_implementation
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.planning.validation import PlanError, validate
-from skillc_runtime.selection.fit import Fitted, fit
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.expressions import EvaluationError, value_of
 from skillc_runtime.world.state import WorldState
@@ -93,8 +93,10 @@ def seconds(step: Step, skills: SkillLibrary, state: WorldState, start: WorldSta
     nearest such number to a float is what was meant.
     """
     for each in skills.implementations_of(step.skill):
-        fitted = fit(each, step.arguments, state)
-        if isinstance(fitted, Fitted) and all(evaluate(one.condition, state, fitted.bindings) for one in each.hold):
+        fitted = bind_implementation(each, step.arguments, state)
+        if isinstance(fitted, BoundImplementation) and all(
+            evaluate(one.condition, state, fitted.bindings) for one in each.hold
+        ):
             if each.duration is None:
                 return Fraction(1)
             try:

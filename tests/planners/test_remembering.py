@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from planners.test_rehearsal import BOTH, GOOD, WORLD
+from planners.test_schedule_simulation import BOTH, GOOD, WORLD
 from plans import depot
 from skillc_compiler.library.pddl.problem import Problem
 from skillc_runtime.commands import _shelf

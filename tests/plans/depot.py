@@ -10,11 +10,11 @@ from pathlib import Path
 from skillc_compiler.goals import parse_goal
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare
 from skillc_runtime.commands import _library
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
+from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.robots.watchdog import Watchdog
-from skillc_runtime.task import Execution, execute
 from skillc_runtime.trace.events import Event
 from skillc_runtime.world.changes import AddIndividual, AddRelation
 from skillc_runtime.world.model import WorldModel
@@ -106,7 +106,7 @@ class Scripted(Primitive):
 
 def carried_out(text: str, state: WorldState, depot: Depot, events: list[Event] | None = None) -> Execution:
     """Plan for a goal and carry it out."""
-    prepared = prepare(Assignment("carry", state, Reach(goal(text, state))), library())
-    assert isinstance(prepared, Prepared), prepared
+    prepared = prepare_task(Assignment("carry", state, AchieveGoal(goal(text, state))), library())
+    assert isinstance(prepared, PreparedTask), prepared
     listeners = [] if events is None else [events.append]
-    return execute(prepared, library(), depot, listeners)  # type: ignore[arg-type]
+    return execute_task(prepared, library(), depot, listeners)  # type: ignore[arg-type]

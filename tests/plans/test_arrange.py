@@ -10,10 +10,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plans.depot import goal, library, world
+from skillc_runtime.planning.arrangement import (
+    Arrangement,
+    InParallel,
+    InSeries,
+    arrange_partial_order,
+    arrange_plan,
+    step_numbers,
+)
 from skillc_runtime.planning.plan import Plan, Solved
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import validate
-from skillc_runtime.plans.order import Arrangement, InOrder, Together, arrange, arranged, numbers
 
 PAIRS = st.integers(2, 9).flatmap(
     lambda count: st.tuples(st.just(count), st.sets(st.sampled_from([(a, b) for b in range(count) for a in range(b)])))
@@ -25,9 +32,9 @@ def in_order(arrangement: Arrangement) -> set[tuple[int, int]]:
     if isinstance(arrangement, int):
         return set()
     within = set().union(*(in_order(part) for part in arrangement.parts)) if arrangement.parts else set()
-    if isinstance(arrangement, Together):
+    if isinstance(arrangement, InParallel):
         return within
-    parts = [numbers(part) for part in arrangement.parts]
+    parts = [step_numbers(part) for part in arrangement.parts]
     return within | {(a, b) for i, one in enumerate(parts) for other in parts[i + 1 :] for a in one for b in other}
 
 
@@ -40,17 +47,19 @@ def closed(pairs: set[tuple[int, int]]) -> set[tuple[int, int]]:
 @given(PAIRS)
 def test_an_arrangement_has_every_step_once_and_keeps_the_order(drawn: tuple[int, set[tuple[int, int]]]) -> None:
     count, pairs = drawn[0], closed(drawn[1])
-    found = arrange(range(count), lambda one, other: (one, other) in pairs)
-    assert sorted(numbers(found)) == list(range(count))
+    found = arrange_partial_order(range(count), lambda one, other: (one, other) in pairs)
+    assert sorted(step_numbers(found)) == list(range(count))
     assert pairs <= in_order(found)
 
 
 def test_series_and_parallel_parts_are_found_exactly() -> None:
     chains = {(0, 1), (2, 3), (3, 4), (2, 4)}
-    assert arrange(range(5), lambda a, b: (a, b) in chains) == Together((InOrder((0, 1)), InOrder((2, 3, 4))))
+    assert arrange_partial_order(range(5), lambda a, b: (a, b) in chains) == InParallel(
+        (InSeries((0, 1)), InSeries((2, 3, 4)))
+    )
     diamond = closed({(0, 1), (0, 2), (1, 3), (2, 3)})
-    assert arrange(range(4), lambda a, b: (a, b) in diamond) == InOrder((0, Together((1, 2)), 3))
-    assert arrange((), lambda a, b: False) == InOrder(())
+    assert arrange_partial_order(range(4), lambda a, b: (a, b) in diamond) == InSeries((0, InParallel((1, 2)), 3))
+    assert arrange_partial_order((), lambda a, b: False) == InSeries(())
 
 
 def a_sequence(arrangement: Arrangement, random: Random) -> list[int]:
@@ -58,7 +67,7 @@ def a_sequence(arrangement: Arrangement, random: Random) -> list[int]:
     if isinstance(arrangement, int):
         return [arrangement]
     parts = [a_sequence(part, random) for part in arrangement.parts]
-    if isinstance(arrangement, InOrder):
+    if isinstance(arrangement, InSeries):
         return [number for part in parts for number in part]
     merged: list[int] = []
     while any(parts):
@@ -76,7 +85,7 @@ def test_every_sequence_that_an_arrangement_allows_leaves_the_same_world(seed: i
     aim = goal(wanted, state)
     answer = solve(library(), state, aim)
     assert isinstance(answer, Solved), answer
-    arrangement = arranged(answer.plan, library(), state)
+    arrangement = arrange_plan(answer.plan, library(), state)
     first = validate(answer.plan, library(), state, aim)
     for _ in range(20):
         steps = tuple(answer.plan.steps[number] for number in a_sequence(arrangement, random))

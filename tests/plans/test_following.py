@@ -34,7 +34,7 @@ def test_a_thing_that_is_moved_away_meanwhile_is_looked_for_where_it_is_now() ->
     assert execution.status is Status.SUCCESS
     assert len(execution.attempts) == 2 and execution.attempts[0].status is Status.HALTED
     (replanned,) = [event for event in events if isinstance(event, Replanned)]
-    assert "Load can no longer follow" in replanned.reason and "contain" in replanned.reason
+    assert "Load is no longer possible" in replanned.reason and "contain" in replanned.reason
     assert depot.now < 2.0 + 5.0 + 2.0 + 5.0 + 2.0 + 0.2, "it does not drive on to the old place first"
 
 
@@ -83,8 +83,9 @@ def test_a_step_that_can_only_fail_again_is_not_repeated() -> None:
     assert depot.log == ["carl c a", "carl crate a"]
     assert execution.failure is not None and execution.failure.kind == "plan"
     assert execution.failure.message.replace(LAB, "lab:") == (
-        "carl crate a failed; no other way was found: what is left has failed, and nothing that it depends on has "
-        "changed: Load[forks](robot: lab:carl, crate: lab:crate, from: lab:a): carl crate a failed"
+        "carl crate a failed; no other plan was found: all remaining alternatives have failed, and nothing "
+        "that they depend on has changed: Load[forks](robot: lab:carl, crate: lab:crate, from: lab:a): "
+        "carl crate a failed"
     )
 
 

@@ -8,13 +8,13 @@ import pytest
 
 from plans.depot import SKIROS, Depot, contain, goal, iri, library, world
 from skillc_compiler.library.pddl.problem import Problem
-from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
+from skillc_runtime.execution.task_run import execute_task
+from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.plan import Plan, PlanResult, Solved, Step
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.schedule import Scheduled
-from skillc_runtime.plans.quickest import quickest
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.task import execute
 from skillc_runtime.world.changes import AddIndividual
 from skillc_runtime.world.model import WorldModel
 
@@ -62,11 +62,11 @@ def test_a_plan_is_over_when_its_times_say(name: str) -> None:
     aim = goal(text, state)
     plan = Plan(steps, sum(5.0 if each.skill == "Go" else 2.0 for each in steps))
     planners = Planners((Always(plan),), None)
-    answer = quickest(library(), state, aim, planners)
+    answer = minimise_makespan(library(), state, aim, planners)
     assert isinstance(answer, Scheduled) and answer.schedule.makespan_s == expected_s, answer
-    prepared = prepare(Assignment("hand over", state, Reach(aim, "makespan")), library(), planners=planners)
-    assert isinstance(prepared, Prepared), prepared
+    prepared = prepare_task(Assignment("hand over", state, AchieveGoal(aim, "makespan")), library(), planners=planners)
+    assert isinstance(prepared, PreparedTask), prepared
     depot = Depot(WorldModel(state))
-    execution = execute(prepared, library(), depot, [])  # type: ignore[arg-type]
+    execution = execute_task(prepared, library(), depot, [])  # type: ignore[arg-type]
     assert execution.status is Status.SUCCESS, execution.failure
     assert depot.now == pytest.approx(expected_s, abs=0.2), "as long as it was said to take"

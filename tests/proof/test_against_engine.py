@@ -32,10 +32,10 @@ from skillc_compiler.resolve.files import read
 from skillc_compiler.resolve.program import resolve
 from skillc_compiler.walk import within
 from skillc_dsl.source import Source
+from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.trace.events import Event, ImplementationChosen, NodeEnded, NodeStarted
 from skillc_runtime.trace.failure import Failure
-from skillc_runtime.tree.run import Run
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.state import WorldState
 
@@ -127,7 +127,7 @@ def played(library: SkillLibrary, claims: list[Claims], claim: Claims, random: R
     call = tree.Call(name, None, arguments, None, Position("test", 1, 1))  # type: ignore[arg-type]
     cell = Chance(world(library.vocabulary, random), random)
     seen = Seen(cell)
-    engine = Run(call, library, cell, [seen])  # type: ignore[arg-type]
+    engine = TreeRun(call, library, cell, [seen])  # type: ignore[arg-type]
     for tick in range(TICKS):
         cell.now = tick * 0.05
         if engine.tick() is not Status.RUNNING:

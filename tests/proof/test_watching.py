@@ -12,8 +12,8 @@ from skillc_compiler.library.conditions import Compare, Literal, Variable
 from skillc_compiler.library.properties import Event, Is, Measures, Property
 from skillc_compiler.library.skills import Compound, Parameter, Skill, SkillLibrary
 from skillc_compiler.library.vocabulary import ClassTerm, ClassType, Vocabulary
+from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.tree.run import Run
 from skillc_runtime.world.changes import SetProperty
 from skillc_runtime.world.terms import ARM_DEVICE
 from tree.stage import DEVICE, DEVICES, FLAGS, ON, THE_FLAG, Library, Script, Stage, act, call, here, is_on, world
@@ -60,11 +60,11 @@ def library(event: Event) -> SkillLibrary:
     return SkillLibrary(**values | {"implementations": implementations, "vocabulary": vocabulary})
 
 
-def started(event: Event, force_n: float = 0.0) -> tuple[Cell, Run]:
+def started(event: Event, force_n: float = 0.0) -> tuple[Cell, TreeRun]:
     """Start the skill, in a `try`."""
     cell = Cell(world(), {"a": [Script("success", 3)]}, force_n=force_n)
     body = tree.Try(child=call("Careful", flag=FLAGS[0], arm=DEVICES[0]), source=here())
-    run = Run(body, library(event), cell)  # type: ignore[arg-type]
+    run = TreeRun(body, library(event), cell)  # type: ignore[arg-type]
     assert run.tick() is Status.RUNNING
     return cell, run
 
@@ -86,4 +86,4 @@ def test_the_force_is_measured_in_every_tick(force_n: float, status: Status) -> 
     run.tick()
     assert run.tick() is status
     if run.failure is not None:
-        assert run.failure.message == "`verify never that` is violated: stage:device0 feels 26.0 N"
+        assert run.failure.message == "`verify never that` is violated: stage:device0 measures 26.0 N"

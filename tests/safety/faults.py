@@ -14,7 +14,8 @@ from simulation.cells import world
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Compare, Individual, Literal, PropertyOf
 from skillc_runtime import primitives
-from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask
+from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.compliance import ReleaseAxis
@@ -22,7 +23,6 @@ from skillc_runtime.primitives.overlay import AddedMotion
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.robots.cell import Cell
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.task import execute
 from skillc_runtime.trace.events import Event, NodeEnded, Note, TaskEnded
 from skillc_runtime.world.terms import (
     ARM_DEVICE,
@@ -188,25 +188,25 @@ def run(cell: SimulatedCell, scene: str, kind: str, phase: str) -> tuple[list[Ev
         ticks += 1
         return phase in ("halt", "release") and ticks > TICKS
 
-    execution = execute(
+    execution = execute_task(
         prepared(cell, scene, f"{scene} {kind} {phase}"), LIBRARY, cell, (told.append,), interrupted=interrupted
     )
     return told, execution.status.value
 
 
-def prepared(cell: SimulatedCell, scene: str, name: str) -> Prepared:
+def prepared(cell: SimulatedCell, scene: str, name: str) -> PreparedTask:
     """Return what runs a primitive that may break while the arm yields, pushes and circles."""
     body = _body(scene, name)
-    return Prepared(Assignment("safety", cell.world.snapshot(), Perform(body)), body, None)
+    return PreparedTask(Assignment("safety", cell.world.snapshot(), ExecuteBody(body)), body, None)
 
 
-def reaching(cell: SimulatedCell, scene: str, name: str) -> Prepared:
+def reaching(cell: SimulatedCell, scene: str, name: str) -> PreparedTask:
     """Return the same for a goal that is not reached by it, so that a new plan is wanted."""
     body, goal = (
         _body(scene, name),
         Compare(PropertyOf(Individual(things(scene)["object"]), WEIGHT), "==", Literal(9.0)),
     )
-    return Prepared(Assignment("safety", cell.world.snapshot(), Reach(goal)), body, None)
+    return PreparedTask(Assignment("safety", cell.world.snapshot(), AchieveGoal(goal)), body, None)
 
 
 def _body(scene: str, name: str) -> tree.Node:

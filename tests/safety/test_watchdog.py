@@ -8,20 +8,20 @@ import pytest
 from safety import faults
 from safety.test_faults import is_safe
 from simulation.cells import ARM, SCENES, cell
-from skillc_runtime import task
-from skillc_runtime.assignment import Refused
+from skillc_runtime.execution import task_run
+from skillc_runtime.execution.assignment import NotStarted
+from skillc_runtime.execution.task_run import execute_task
+from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.robots.watchdog import PATIENCE_S, Watchdog
-from skillc_runtime.task import execute
 from skillc_runtime.trace.events import Event
-from skillc_runtime.tree.run import Run
 from tree.stage import call
 
 
-def moving(scene: str) -> tuple[object, Run, list[Event]]:
+def moving(scene: str) -> tuple[object, TreeRun, list[Event]]:
     """Return a cell whose arm circles on behalf of a run."""
     there, told = cell(scene), []
-    run = Run(call("Act", name=f"{scene} OverlayCircle"), faults.LIBRARY, there, (told.append,))
+    run = TreeRun(call("Act", name=f"{scene} OverlayCircle"), faults.LIBRARY, there, (told.append,))
     for _ in range(20):
         run.tick()
         there.advance(0.01)
@@ -80,7 +80,7 @@ def test_a_program_that_ends_leaves_the_arm_safe() -> None:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        execute(faults.prepared(there, scene, f"{scene} MoveLinear"), faults.LIBRARY, there, (told.append,), watch)
+        execute_task(faults.prepared(there, scene, f"{scene} MoveLinear"), faults.LIBRARY, there, (told.append,), watch)
     assert "the program ends" in faults.reasons(told)
     is_safe(there, scene)
 
@@ -88,10 +88,10 @@ def test_a_program_that_ends_leaves_the_arm_safe() -> None:
 def test_a_planner_that_is_gone_when_a_new_plan_is_wanted_ends_the_task(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = "ur5e_whiteboard"
     there, told = cell(scene), []
-    monkeypatch.setattr(task, "prepare", lambda *_: Refused("the planner does not start"))
+    monkeypatch.setattr(task_run, "prepare_task", lambda *_: NotStarted("the planner does not start"))
     prepared = faults.reaching(there, scene, f"{scene} MoveLinear tick")
-    execution = execute(prepared, faults.LIBRARY, there, (told.append,))
+    execution = execute_task(prepared, faults.LIBRARY, there, (told.append,))
     assert execution.status is Status.FAILURE
     assert "broke at tick" in faults.reasons(told)
-    assert "no other way was found: the planner does not start" in faults.reasons(told)
+    assert "no other plan was found: the planner does not start" in faults.reasons(told)
     is_safe(there, scene)

@@ -20,7 +20,7 @@ from skillc_compiler.library.conditions import (
     Variable,
 )
 from skillc_compiler.library.skills import Compound, Implementation, Let, Post, Primitive
-from skillc_runtime.selection.preflight import preflight
+from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.world.changes import Change, RemoveRelation
 from world.lab import assign, fact, individual, iri, parameter
 
@@ -92,7 +92,7 @@ def test_a_number_out_of_range_is_found() -> None:
     [
         ("nothing.here:Class", "cannot be imported"),
         ("selection.library:Missing", "has no class Missing"),
-        ("selection.library:scene", "is no subclass of"),
+        ("selection.library:scene", "is not a subclass of"),
         ("selection.library:Moves", "needs the parameter force"),
     ],
 )
@@ -172,7 +172,7 @@ WEIGHED = Post(
 )
 def test_a_fact_that_no_skill_supplies_is_missed_before_anything_moves(force: Expression) -> None:
     body = call("Actuate", gripper=Individual(iri("gripper")), force=force)
-    assert refusals(body) == [f"work.skill:20: Actuate: `force` cannot be had: {NO_WEIGHT}"]
+    assert refusals(body) == [f"work.skill:20: Actuate: `force` has no value: {NO_WEIGHT}"]
     assert refusals(body, assign("eraser", "weight", 9.0)) == []
     weigh = impl("Weigh", "only", post=(WEIGHED,), body=Compound(seq()))
     assert refusals(body, more=(weigh,)) == []
@@ -183,7 +183,7 @@ def test_what_fails_for_good_is_missed() -> None:
     (refusal,) = refusals(
         call("Actuate", gripper=Individual(iri("gripper")), force=nothing), assign("eraser", "weight", 0.0)
     )
-    assert "Actuate: `force` cannot be had: division of 1.0 by zero" in refusal
+    assert "Actuate: `force` has no value: division of 1.0 by zero" in refusal
 
 
 def test_a_let_and_the_items_of_a_loop_are_missed() -> None:
@@ -191,14 +191,14 @@ def test_a_let_and_the_items_of_a_loop_are_missed() -> None:
     lets = (Let(name="heavy", value=WEIGHT),)
     again = msgspec.structs.replace(impl("Again", "only", body=Compound(loop)), lets=lets)
     assert refusals(call("Again"), more=(again,)) == [
-        f"work.skill:5: Again: `heavy` cannot be had: {NO_WEIGHT} (in Again[only])",
-        f"work.skill:46: for: `each` cannot be had: {NO_WEIGHT} (in Again[only])",
+        f"work.skill:5: Again: `heavy` has no value: {NO_WEIGHT} (in Again[only])",
+        f"work.skill:46: for: `each` has no value: {NO_WEIGHT} (in Again[only])",
     ]
 
 
 def test_a_default_is_missed_where_it_is_needed() -> None:
     lift = impl("Lift", "strong", gripper("Gripper"), force(default=WEIGHT))
     assert refusals(call("Lift", gripper=Individual(iri("gripper"))), more=(lift,)) == [
-        f"work.skill:20: Lift: `force` cannot be had: {NO_WEIGHT}"
+        f"work.skill:20: Lift: `force` has no value: {NO_WEIGHT}"
     ]
     assert refusals(call("Lift", gripper=Individual(iri("gripper")), force=Literal(1.0)), more=(lift,)) == []

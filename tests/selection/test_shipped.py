@@ -13,9 +13,9 @@ from skillc_compiler.library.skills import Primitive, SkillLibrary
 from skillc_compiler.library.vocabulary import Position
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
-from skillc_runtime.selection.preflight import preflight
-from skillc_runtime.selection.python import fitting_class
-from skillc_runtime.selection.select import NoneFits, Selection, select
+from skillc_runtime.execution.selection.preflight import preflight
+from skillc_runtime.execution.selection.python_targets import import_matching_primitive
+from skillc_runtime.execution.selection.select import NoneSelected, SelectedImplementation, select_implementation
 from skillc_runtime.world.changes import Change, ClearProperty
 from skillc_runtime.world.scene import load_scene
 from skillc_runtime.world.state import WorldState
@@ -69,7 +69,7 @@ def test_the_whole_scene_lets_both_skills_run() -> None:
 def test_a_missing_fact_is_named(body: tree.Node, thing: str, property_: str, what: str) -> None:
     found = refusals(body, ClearProperty(LAB + thing, property_))
     short = library().vocabulary.short
-    lacking = f"{what} cannot be had: {short(LAB + thing)} has no {short(property_)} in the world model"
+    lacking = f"{what} has no value: {short(LAB + thing)} has no {short(property_)} in the world model"
     assert any(lacking in refusal for refusal in found), found
 
 
@@ -79,10 +79,10 @@ def test_a_place_that_measuring_may_supply_is_no_reason() -> None:
 
 def test_the_three_finger_gripper_takes_what_its_sheet_says() -> None:
     hand = {"gripper": LAB + "Robotiq-1", "opening": 0.05}
-    choice = select(library(), "ActuateGripper", hand, scene())
-    assert isinstance(choice, Selection) and choice.bindings["force"] == 30.0
-    weak = select(library(), "ActuateGripper", hand | {"force": 29.0}, scene(), fixed="robotiq")
-    assert isinstance(weak, NoneFits) and "29 N is below 30 N" in weak.rejected[0].reason
+    choice = select_implementation(library(), "ActuateGripper", hand, scene())
+    assert isinstance(choice, SelectedImplementation) and choice.bindings["force"] == 30.0
+    weak = select_implementation(library(), "ActuateGripper", hand | {"force": 29.0}, scene(), fixed="robotiq")
+    assert isinstance(weak, NoneSelected) and "29 N is below 30 N" in weak.rejected[0].reason
 
 
 @pytest.mark.parametrize("skill", ["ActuateGripper", "Grasp", "Release"])
@@ -95,5 +95,5 @@ def test_every_primitive_names_the_parameters_that_its_skill_gives() -> None:
     primitives = [(body.python, parameters) for body, parameters in bodies if isinstance(body, Primitive)]
     assert len(primitives) > 10
     for python, parameters in primitives:
-        _, *taken = inspect.signature(fitting_class(python, parameters)).parameters.values()
+        _, *taken = inspect.signature(import_matching_primitive(python, parameters)).parameters.values()
         assert all(each.kind is each.KEYWORD_ONLY for each in taken), python

@@ -10,11 +10,11 @@ import numpy as np
 
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
-from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, prepare
 from skillc_runtime.commands import _library
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
+from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.task import Execution, execute
 from skillc_runtime.world.changes import SetProperty
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
@@ -67,14 +67,14 @@ def run(
     assert task.scene is not None
     assert task.goal is not None
     state = load_scene(catalogue.scene(task.scene), library().vocabulary)
-    prepared = prepare(Assignment(name, state, Reach(task.goal)), library())
-    assert isinstance(prepared, Prepared), prepared
+    prepared = prepare_task(Assignment(name, state, AchieveGoal(task.goal)), library())
+    assert isinstance(prepared, PreparedTask), prepared
     if once:
-        prepared = prepare(Assignment(name, state, Perform(prepared.body)), library())
-        assert isinstance(prepared, Prepared), prepared
+        prepared = prepare_task(Assignment(name, state, ExecuteBody(prepared.body)), library())
+        assert isinstance(prepared, PreparedTask), prepared
     cell = SimulatedCell(WorldModel(state), seed)
     change(cell)
-    return Outcome(execute(prepared, library(), cell, watch=lambda: watch(cell)), cell)
+    return Outcome(execute_task(prepared, library(), cell, after_tick=lambda: watch(cell)), cell)
 
 
 def at_rest(cell: SimulatedCell) -> bool:

@@ -11,13 +11,13 @@ import pytest
 from skillc_compiler.goals import parse_call
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
-from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, prepare
 from skillc_runtime.commands import _library
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
+from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.facts import SceneFacts
 from skillc_runtime.simulation.variation import Variation, draw, with_obstacles
-from skillc_runtime.task import Execution, execute
 from skillc_runtime.trials.disturbance import reality
 from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.model import WorldModel
@@ -61,11 +61,11 @@ def wiped(task: str, real: Reality = draw) -> Execution:
     """Run the plan of a task once; it is not made again when it fails."""
     goal = library().tasks[task].goal
     assert goal is not None
-    planned = prepare(Assignment(task, scene(task), Reach(goal)), library())
-    assert isinstance(planned, Prepared), planned
-    once = prepare(Assignment(task, scene(task), Perform(planned.body)), library())
-    assert isinstance(once, Prepared), once
-    return execute(once, library(), SimulatedCell(WorldModel(scene(task)), 1, reality=real))
+    planned = prepare_task(Assignment(task, scene(task), AchieveGoal(goal)), library())
+    assert isinstance(planned, PreparedTask), planned
+    once = prepare_task(Assignment(task, scene(task), ExecuteBody(planned.body)), library())
+    assert isinstance(once, PreparedTask), once
+    return execute_task(once, library(), SimulatedCell(WorldModel(scene(task)), 1, reality=real))
 
 
 def stiff(facts: SceneFacts, seed: int) -> Variation:
@@ -113,9 +113,9 @@ def moved(calls: tuple[str, ...], changes: tuple[Change, ...]) -> list[Execution
         individuals = {each: sorted(now.types(each)) for each in now.individuals}
         call = parse_call(text, library(), individuals, now.vocabulary.prefixes)
         assert call.value is not None, call.diagnostics
-        prepared = prepare(Assignment("move", now, Perform(call.value)), library())
-        assert isinstance(prepared, Prepared), prepared
-        executions.append(execute(prepared, library(), cell))
+        prepared = prepare_task(Assignment("move", now, ExecuteBody(call.value)), library())
+        assert isinstance(prepared, PreparedTask), prepared
+        executions.append(execute_task(prepared, library(), cell))
     return executions
 
 

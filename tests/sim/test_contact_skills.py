@@ -147,6 +147,6 @@ def test_an_arm_that_nobody_leads_says_so_and_stays() -> None:
 
     done = run("teach_pose", change=alone, once=True)
     assert not done.succeeded
-    assert "nobody led the tool of lab:Iiwa-1 to a place within 30 s: it is 0 mm away" in done.why
+    assert "nobody guided the tool of lab:Iiwa-1 to a pose within 30 s: it is 0 mm from its start" in done.why
     assert done.value("Taught-1", "isTaught") is False
     assert at_rest(done.cell)

@@ -10,13 +10,13 @@ from msgspec import structs
 from skillc_compiler.library.conditions import Literal
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
-from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare
 from skillc_runtime.commands import _library
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
+from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.report.result import WipingResult
 from skillc_runtime.report.summary import Choices, summarise
 from skillc_runtime.report.wiping import find_wipings
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.task import execute
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
 
@@ -44,10 +44,10 @@ def wiped(name: str) -> WipingResult:
     task = library.tasks[name]
     assert task.scene is not None and task.goal is not None
     state = load_scene(catalogue.scene(task.scene), library.vocabulary)
-    prepared = prepare(Assignment(name, state, Reach(task.goal)), library)
-    assert isinstance(prepared, Prepared), prepared
+    prepared = prepare_task(Assignment(name, state, AchieveGoal(task.goal)), library)
+    assert isinstance(prepared, PreparedTask), prepared
     cell, choices = SimulatedCell(WorldModel(state), seed=1), Choices()
-    execution = execute(prepared, library, cell, [choices])
+    execution = execute_task(prepared, library, cell, [choices])
     result = summarise(execution, choices, library, find_wipings([execution.last.tree], choices, cell))
     assert result.wiping is not None, result.failure
     return result.wiping

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from skillc_ontology import catalogue
-from skillc_runtime.assignment import Assignment, Perform, Prepared, prepare
 from skillc_runtime.commands import _library
+from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask, prepare_task
+from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.task import execute
 from skillc_runtime.world.frames import pose
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
@@ -52,10 +52,10 @@ def test_pick_and_place_moves_the_object_and_the_world_model_knows(tmp_path: Pat
     state = load_scene(scene, outcome.value.vocabulary)
     body = outcome.value.tasks["tidy_up"].body
     assert body is not None
-    prepared = prepare(Assignment("tidy_up", state, Perform(body)), outcome.value)
-    assert isinstance(prepared, Prepared), prepared
+    prepared = prepare_task(Assignment("tidy_up", state, ExecuteBody(body)), outcome.value)
+    assert isinstance(prepared, PreparedTask), prepared
     cell = SimulatedCell(WorldModel(state))
-    execution = execute(prepared, outcome.value, cell)
+    execution = execute_task(prepared, outcome.value, cell)
     assert execution.status is Status.SUCCESS, execution.failure
     after = cell.world.snapshot()
     assert after.holds(LAB + "Cell", CONTAIN, LAB + "Eraser-1")

@@ -9,13 +9,13 @@ import pytest
 
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
-from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare
 from skillc_runtime.commands import _library
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
+from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.report.summary import Choices, summarise
 from skillc_runtime.report.wiping import find_wipings
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.task import execute
 from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.frames import placed
 from skillc_runtime.world.model import WorldModel
@@ -59,10 +59,10 @@ def test_all_that_is_to_be_wiped_is_wiped_and_no_hole_is_touched(changes: list[C
     assert task.scene is not None
     assert task.goal is not None
     state = load_scene(catalogue.scene(task.scene), library().vocabulary).changed(changes)
-    prepared = prepare(Assignment("clean_around", state, Reach(task.goal)), library())
-    assert isinstance(prepared, Prepared), prepared
+    prepared = prepare_task(Assignment("clean_around", state, AchieveGoal(task.goal)), library())
+    assert isinstance(prepared, PreparedTask), prepared
     cell, choices = SimulatedCell(WorldModel(state), seed), Choices()
-    execution = execute(prepared, library(), cell, [choices])
+    execution = execute_task(prepared, library(), cell, [choices])
     wipings = find_wipings([execution.last.tree], choices, cell)
     result = summarise(execution, choices, library(), wipings)
     assert result.status == "success", result.failure

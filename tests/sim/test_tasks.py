@@ -14,13 +14,13 @@ import pytest
 
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
-from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare
 from skillc_runtime.commands import _library
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
+from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.report.summary import Choices, summarise
 from skillc_runtime.report.wiping import find_wipings
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.task import Execution, execute
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
 
@@ -38,13 +38,13 @@ def library() -> SkillLibrary:
     return outcome.value
 
 
-def start(name: str, seed: int) -> tuple[Prepared, SimulatedCell]:
+def start(name: str, seed: int) -> tuple[PreparedTask, SimulatedCell]:
     task = library().tasks[name]
     assert task.scene is not None
     assert task.goal is not None
     state = load_scene(catalogue.scene(task.scene), library().vocabulary)
-    prepared = prepare(Assignment(name, state, Reach(task.goal)), library())
-    assert isinstance(prepared, Prepared), prepared
+    prepared = prepare_task(Assignment(name, state, AchieveGoal(task.goal)), library())
+    assert isinstance(prepared, PreparedTask), prepared
     return prepared, SimulatedCell(WorldModel(state), seed)
 
 
@@ -60,7 +60,7 @@ def at_rest(execution: Execution, arm: str) -> bool:
 def test_the_goal_is_reached_and_the_surface_is_wiped_well(name: str, seed: int) -> None:
     prepared, cell = start(name, seed)
     choices = Choices()
-    execution = execute(prepared, library(), cell, [choices])
+    execution = execute_task(prepared, library(), cell, [choices])
     result = summarise(execution, choices, library(), find_wipings([execution.last.tree], choices, cell))
     assert result.status == "success", result.failure
     assert result.plan_optimal
@@ -84,7 +84,7 @@ def test_interrupted_while_wiping_it_lets_go_and_is_stiff_again(name: str) -> No
             return True
         return False
 
-    execution = execute(prepared, library(), cell, [choices], interrupted=interrupted)
+    execution = execute_task(prepared, library(), cell, [choices], interrupted=interrupted)
     assert pushed == [True]
     assert execution.status is Status.HALTED
     assert at_rest(execution, ARMS[name])
@@ -100,7 +100,7 @@ def test_interrupted_while_driving_the_base_comes_to_rest() -> None:
             return True
         return False
 
-    execution = execute(prepared, library(), cell, interrupted=interrupted)
+    execution = execute_task(prepared, library(), cell, interrupted=interrupted)
     assert moving == [False]
     assert execution.status is Status.HALTED
     assert cell.at_rest
@@ -110,7 +110,7 @@ def test_the_same_seed_gives_the_same_run() -> None:
     recordings = []
     for _ in range(2):
         prepared, cell = start("clean_table", 3)
-        execute(prepared, library(), cell, interrupted=lambda now=cell: now.now > 8.0)  # type: ignore[misc]
+        execute_task(prepared, library(), cell, interrupted=lambda now=cell: now.now > 8.0)  # type: ignore[misc]
         recordings.append(cell.recording("http://example.org/lab#Eraser-1").rows.tobytes())
     assert recordings[0] == recordings[1]
     assert recordings[0]

@@ -11,10 +11,10 @@ from skillc_compiler.library.conditions import Individual
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.commands import _library
+from skillc_runtime.execution.selection.select import NoneSelected, select_implementation
+from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.selection.select import NoneFits, select
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.tree.run import Run
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.terms import AT
 
@@ -35,7 +35,7 @@ def test_a_drive_halted_half_way_has_left_and_not_arrived() -> None:
         out=None,
         source=Position("task.skill", 3, 1),
     )
-    run = Run(drive, library(), cell)
+    run = TreeRun(drive, library(), cell)
     started = cell.base(ROBOT).pose.position
     while abs(cell.base(ROBOT).pose.position - started).max() < 0.05:
         assert run.tick() is Status.RUNNING
@@ -45,6 +45,6 @@ def test_a_drive_halted_half_way_has_left_and_not_arrived() -> None:
 
 
 def test_nobody_drives_to_where_the_robot_is() -> None:
-    result = select(library(), "Drive", {"robot": ROBOT, "to": DOCK}, world("ur5e_whiteboard"))
-    assert isinstance(result, NoneFits)
+    result = select_implementation(library(), "Drive", {"robot": ROBOT, "to": DOCK}, world("ur5e_whiteboard"))
+    assert isinstance(result, NoneSelected)
     assert "not from == to" in result.rejected[0].reason, result.rejected[0].reason

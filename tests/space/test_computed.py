@@ -23,11 +23,11 @@ from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
+from skillc_runtime.execution.selection.reads import is_fixed
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
-from skillc_runtime.plans.touched import EVERYTHING, Fact, read_by
-from skillc_runtime.selection.reads import is_fixed
+from skillc_runtime.planning.touched import EVERYTHING, Fact, read_by
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.explain import explain
 from skillc_runtime.world.foreign import EvaluationError

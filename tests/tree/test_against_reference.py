@@ -6,9 +6,9 @@ import os
 
 from hypothesis import HealthCheck, event, given, settings
 
+from skillc_runtime.execution.tree.locks import DeviceLocks
+from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.tree.locks import Locks
-from skillc_runtime.tree.run import Run
 from skillc_runtime.world.changes import SetProperty
 from tree.reference import run, unwind
 from tree.reference_model import Model, Result, Scope
@@ -27,8 +27,8 @@ EXAMPLES = int(os.environ.get("SKILLC_TREES", "50"))
 def test_the_engine_agrees_with_the_reference(play: Play) -> None:
     statuses, log, failure = by_reference(play)
     stage = Stage(world(), play.scripts)
-    locks = Locks()
-    engine = Run(play.body, play.library, stage, locks=locks)
+    locks = DeviceLocks()
+    engine = TreeRun(play.body, play.library, stage, locks=locks)
     assert by_engine(play, stage, engine) == statuses
     assert stage.log == log
     assert (engine.failure.kind if engine.failure else "") == failure
@@ -37,7 +37,7 @@ def test_the_engine_agrees_with_the_reference(play: Play) -> None:
     event(f"ended {statuses[-1]} {failure}")
 
 
-def by_engine(play: Play, stage: Stage, engine: Run) -> list[str]:
+def by_engine(play: Play, stage: Stage, engine: TreeRun) -> list[str]:
     """Return the status after each tick."""
     statuses: list[str] = []
     for number in range(TICKS):

@@ -12,8 +12,8 @@ from skillc_compiler.library.conditions import Literal as Constant
 from skillc_compiler.library.skills import Compound, Let, Parameter, Post, Skill
 from skillc_compiler.library.skills import Primitive as PrimitiveBody
 from skillc_compiler.library.vocabulary import ClassType
+from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Primitive, Status
-from skillc_runtime.tree.run import Run
 from skillc_runtime.world.changes import SetProperty
 from tree.stage import (
     FLAG,
@@ -64,9 +64,9 @@ class Measures(Primitive):
         return Status.SUCCESS
 
 
-def run(body: tree.Node, library: Library, cell: Stage) -> Run:
+def run(body: tree.Node, library: Library, cell: Stage) -> TreeRun:
     """Run a body to its end."""
-    result = Run(body, library.build(), cell)
+    result = TreeRun(body, library.build(), cell)
     for _ in range(30):
         if result.tick() is not Status.RUNNING:
             return result

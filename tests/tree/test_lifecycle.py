@@ -9,9 +9,9 @@ import pytest
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Literal
 from skillc_compiler.library.skills import Compound, Skill
+from skillc_runtime.execution.tree.locks import DeviceLocks
+from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import SkillFailure, Status
-from skillc_runtime.tree.locks import Locks
-from skillc_runtime.tree.run import Run
 from skillc_runtime.world.changes import SetProperty
 from tree.stage import (
     DEVICES,
@@ -39,7 +39,7 @@ def stage(**scripts: Script) -> Stage:
     return Stage(world(), {name: [script] for name, script in scripts.items()})
 
 
-def finish(run: Run, stage: Stage, ticks: int = 20) -> Status:
+def finish(run: TreeRun, stage: Stage, ticks: int = 20) -> Status:
     """Tick until the run ends."""
     for _ in range(ticks):
         if run.tick() is not Status.RUNNING:
@@ -50,7 +50,7 @@ def finish(run: Run, stage: Stage, ticks: int = 20) -> Status:
 
 def test_halts_come_once_and_in_reverse_order_of_start() -> None:
     cell = stage(a=LONG, b=LONG, c=LONG)
-    run = Run(par("all", act("a"), seq(act("x"), act("b")), act("c")), Library().build(), cell)
+    run = TreeRun(par("all", act("a"), seq(act("x"), act("b")), act("c")), Library().build(), cell)
     run.tick()
     run.halt("enough")
     run.halt("enough, really")
@@ -61,7 +61,7 @@ def test_halts_come_once_and_in_reverse_order_of_start() -> None:
 
 def test_an_exception_halts_the_siblings_and_the_one_that_raised() -> None:
     cell = stage(a=LONG, b=Script("crash", 2), c=LONG)
-    run = Run(par("all", act("a"), act("b"), act("c")), Library().build(), cell)
+    run = TreeRun(par("all", act("a"), act("b"), act("c")), Library().build(), cell)
     assert finish(run, cell) is Status.FAILURE
     assert cell.said("halt") == ["halt b", "halt c", "halt a"]
     assert run.failure is not None and run.failure.kind == "error"
@@ -70,14 +70,14 @@ def test_an_exception_halts_the_siblings_and_the_one_that_raised() -> None:
 
 def test_what_succeeded_or_refused_to_start_is_not_halted() -> None:
     cell = stage(a=Script("success", 2), b=Script("refuse"))
-    run = Run(seq(act("a"), act("b")), Library().build(), cell)
+    run = TreeRun(seq(act("a"), act("b")), Library().build(), cell)
     assert finish(run, cell) is Status.FAILURE
     assert cell.said("halt") == []
 
 
 def test_what_failed_by_itself_is_halted_then_undone() -> None:
     cell = stage(a=Script("success", 2), b=Script("fail", 3))
-    run = Run(par("all", act("a"), call("Setup", name="b")), Library().build(), cell)
+    run = TreeRun(par("all", act("a"), call("Setup", name="b")), Library().build(), cell)
     assert finish(run, cell) is Status.FAILURE
     assert cell.said("halt", "release") == ["halt b", "release b"]
 
@@ -85,7 +85,7 @@ def test_what_failed_by_itself_is_halted_then_undone() -> None:
 def test_pause_and_resume_reach_what_runs_and_time_stands_still() -> None:
     cell = stage(a=Script(ticks=2), b=LONG)
     timed = tree.Timeout(seconds=Literal(1.0), child=act("b"), source=here())
-    run = Run(par("all", act("a"), timed), Library().build(), cell)
+    run = TreeRun(par("all", act("a"), timed), Library().build(), cell)
     run.tick()
     run.tick()
     run.pause()
@@ -103,7 +103,7 @@ def test_pause_and_resume_reach_what_runs_and_time_stands_still() -> None:
 
 def test_a_paused_run_can_be_halted() -> None:
     cell = stage(a=LONG)
-    run = Run(act("a"), Library().build(), cell)
+    run = TreeRun(act("a"), Library().build(), cell)
     run.tick()
     run.pause()
     run.halt("enough")
@@ -152,9 +152,9 @@ def test_scopes_are_undone_whatever_raises(where: str, kind: str, exit_by: str, 
     """Everything that was set up is released once, the last first, and nothing stays locked or running."""
     names = {"outer": "outer", "inner": "inner", "body": "body"} | {faulty: f"{where} {kind}"}
     ending = Script("fail" if exit_by == "fail" else "success", 3)
-    cell, locks = Stage(world(), {names["body"]: [ending]}), Locks()
+    cell, locks = Stage(world(), {names["body"]: [ending]}), DeviceLocks()
     body = with_(names["inner"], call("Use", name=names["body"], device=DEVICES[0]))
-    run = Run(with_(names["outer"], body), Library("tree.test_lifecycle:Faulty").build(), cell, locks=locks)
+    run = TreeRun(with_(names["outer"], body), Library("tree.test_lifecycle:Faulty").build(), cell, locks=locks)
     run.tick()
     if where in ("pause", "resume"):
         run.pause()
@@ -173,7 +173,7 @@ def test_scopes_are_undone_whatever_raises(where: str, kind: str, exit_by: str, 
 def test_an_undo_that_raises_fails_the_scope_and_the_others_are_undone() -> None:
     cell = stage()
     library = Library("tree.test_lifecycle:Faulty").build()
-    run = Run(with_("outer", with_("release RuntimeError", act("body"))), library, cell)
+    run = TreeRun(with_("outer", with_("release RuntimeError", act("body"))), library, cell)
     assert finish(run, cell) is Status.FAILURE
     assert run.failure is not None and "could not be undone: RuntimeError: fault in release" in run.failure.message
     assert cell.said("release") == ["release release RuntimeError", "release outer"]
@@ -188,8 +188,8 @@ class Interrupting(Scripted):
 
 
 def test_an_interrupt_leaves_everything_to_be_halted() -> None:
-    cell, locks = stage(), Locks()
-    run = Run(
+    cell, locks = stage(), DeviceLocks()
+    run = TreeRun(
         call("Use", name="a", device=DEVICES[0]), Library("tree.test_lifecycle:Interrupting").build(), cell, (), locks
     )
     with pytest.raises(KeyboardInterrupt):
@@ -201,7 +201,7 @@ def test_an_interrupt_leaves_everything_to_be_halted() -> None:
 
 def test_what_is_set_up_outside_a_scope_lasts_until_the_run_ends() -> None:
     cell = stage()
-    run = Run(seq(call("Setup", name="a"), call("Setup", name="b"), act("c")), Library().build(), cell)
+    run = TreeRun(seq(call("Setup", name="a"), call("Setup", name="b"), act("c")), Library().build(), cell)
     assert finish(run, cell) is Status.SUCCESS
     assert cell.said("start", "release") == ["start a", "start b", "start c", "release b", "release a"]
 
@@ -210,7 +210,7 @@ def test_a_scoped_compound_is_undone_as_a_whole_when_its_scope_ends() -> None:
     cell, library = stage(), Library()
     both = seq(call("Setup", name="a"), call("Setup", name="b"))
     library.add(Skill(name="Both", scoped=True, source=here()), Compound(both))
-    run = Run(seq(tree.With(call=call("Both"), child=act("c"), source=here()), act("d")), library.build(), cell)
+    run = TreeRun(seq(tree.With(call=call("Both"), child=act("c"), source=here()), act("d")), library.build(), cell)
     assert finish(run, cell) is Status.SUCCESS
     assert cell.said("start", "release") == ["start a", "start b", "start c", "release b", "release a", "start d"]
 
@@ -219,7 +219,7 @@ def test_a_lock_is_refused_to_a_sibling_and_given_to_a_nested_call() -> None:
     cell, library = stage(a=LONG), Library()
     using = library.using(call("Use", name="a", device=DEVICES[0]))
     first, second = call(using, device=DEVICES[0]), call("Use", name="b", device=DEVICES[0])
-    run = Run(par("all", first, second), library.build(), cell)
+    run = TreeRun(par("all", first, second), library.build(), cell)
     assert finish(run, cell) is Status.FAILURE
     assert run.failure is not None and run.failure.kind == "lock"
     assert run.failure.message == "stage:device0 is in use by another skill"
@@ -227,19 +227,19 @@ def test_a_lock_is_refused_to_a_sibling_and_given_to_a_nested_call() -> None:
 
 
 def test_runs_share_devices_by_sharing_locks() -> None:
-    cell, locks, library = stage(a=LONG), Locks(), Library().build()
-    one = Run(call("Use", name="a", device=DEVICES[0]), library, cell, locks=locks)
-    two = Run(call("Use", name="b", device=DEVICES[0]), library, cell, locks=locks)
+    cell, locks, library = stage(a=LONG), DeviceLocks(), Library().build()
+    one = TreeRun(call("Use", name="a", device=DEVICES[0]), library, cell, locks=locks)
+    two = TreeRun(call("Use", name="b", device=DEVICES[0]), library, cell, locks=locks)
     assert (one.tick(), two.tick()) == (Status.RUNNING, Status.FAILURE)
     one.halt("enough")
-    three = Run(call("Use", name="b", device=DEVICES[0]), library, cell, locks=locks)
+    three = TreeRun(call("Use", name="b", device=DEVICES[0]), library, cell, locks=locks)
     assert three.tick() is Status.SUCCESS
 
 
 def test_a_broken_hold_is_not_hidden_and_names_the_facts() -> None:
     cell = stage(a=LONG)
     kept = call("Kept", name="a", flag=FLAGS[1])
-    run = Run(tree.Try(child=kept, source=here()), Library().build(), cell)
+    run = TreeRun(tree.Try(child=kept, source=here()), Library().build(), cell)
     run.tick()
     cell.world.commit([SetProperty(FLAGS[1], ON, False)])
     assert run.tick() is Status.FAILURE

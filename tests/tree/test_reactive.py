@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Individual
+from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.tree.run import Run
 from skillc_runtime.world.changes import SetProperty
 from tree.stage import FLAGS, ON, Library, Script, Stage, act, call, check, here, is_on, par, sel, seq, world
 
@@ -13,9 +13,9 @@ IS_ON = is_on(Individual(FLAGS[0]))
 LONG = Script(ticks=1000)
 
 
-def switched(body: tree.Node, cell: Stage, on: bool) -> Run:
+def switched(body: tree.Node, cell: Stage, on: bool) -> TreeRun:
     """Tick twice, switch the first flag, tick again."""
-    run = Run(body, Library().build(), cell)
+    run = TreeRun(body, Library().build(), cell)
     run.tick()
     run.tick()
     cell.world.commit([SetProperty(FLAGS[0], ON, on)])
@@ -69,7 +69,7 @@ def test_what_an_earlier_start_left_behind_does_not_count() -> None:
     cell = Stage(world(), {"a": [Script(ticks=2), Script()], "c": [LONG]})
     turn_off = call("Set", name="b", flag=FLAGS[0], value=False)
     fetch = par("any", act("a"), tree.If(condition=IS_ON, text="on", then=turn_off, orelse=None, source=here()))
-    run = Run(seq(fetch, act("c"), reactive=True), Library().build(), cell)
+    run = TreeRun(seq(fetch, act("c"), reactive=True), Library().build(), cell)
     for _ in range(4):
         run.tick()
     assert cell.said("start") == ["start a", "start b", "start c", "start a"]

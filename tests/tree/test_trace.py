@@ -8,21 +8,21 @@ import msgspec
 import pytest
 
 from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.trace import events
 from skillc_runtime.trace.events import Event, ImplementationChosen, NodeEnded, NodeStarted, Note, WorldChanged
 from skillc_runtime.trace.outcome import Outcome
 from skillc_runtime.trace.reader import TraceReader
 from skillc_runtime.trace.writer import TraceWriter
-from skillc_runtime.tree.run import Run
 from skillc_runtime.world.changes import SetProperty
 from tree.stage import FLAGS, ON, Library, Script, Stage, act, call, sel, seq, world
 
 
-def heard(body: object, cell: Stage) -> tuple[Run, list[Event]]:
+def heard(body: object, cell: Stage) -> tuple[TreeRun, list[Event]]:
     """Run a body to its end and return what was told."""
     told: list[Event] = []
-    run = Run(body, Library().build(), cell, (told.append,))  # type: ignore[arg-type]
+    run = TreeRun(body, Library().build(), cell, (told.append,))  # type: ignore[arg-type]
     while run.tick() is Status.RUNNING:
         cell.now += 0.1
     return run, told
@@ -72,16 +72,16 @@ def test_a_listener_that_fails_is_told_no_more() -> None:
         raise OSError("no space")
 
     told: list[Event] = []
-    run = Run(act("a"), Library().build(), Stage(world()), (failing, told.append))
+    run = TreeRun(act("a"), Library().build(), Stage(world()), (failing, told.append))
     assert run.tick() is Status.SUCCESS
     assert len(calls) == 1 and len(told) > 1
-    assert len(run.problems) == 1 and "OSError: no space" in run.problems[0]
+    assert len(run.listener_problems) == 1 and "OSError: no space" in run.listener_problems[0]
 
 
 def test_the_file_holds_what_was_told(tmp_path: Path) -> None:
     told: list[Event] = []
     with TraceWriter(tmp_path / "events.jsonl") as writer:
-        run = Run(
+        run = TreeRun(
             sel(call("Kept", name="a", flag=FLAGS[0]), act("b")),
             Library().build(),
             Stage(world()),
@@ -125,10 +125,10 @@ def test_a_last_line_cut_short_is_left_out(tmp_path: Path) -> None:
 
 def test_a_full_disk_does_not_stop_the_run() -> None:
     writer = TraceWriter(Path("/dev/full"))
-    run = Run(seq(act("a"), act("b")), Library().build(), Stage(world()), (writer,))
+    run = TreeRun(seq(act("a"), act("b")), Library().build(), Stage(world()), (writer,))
     assert run.tick() is Status.SUCCESS
     writer.close()
-    assert writer.problem is not None and "No space left" in writer.problem and run.problems == ()
+    assert writer.problem is not None and "No space left" in writer.problem and run.listener_problems == ()
 
 
 def test_the_outcome_is_the_tree_with_what_became_of_each_node() -> None:

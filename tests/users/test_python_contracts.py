@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from skillc_compiler.library.skills import Parameter
 from skillc_compiler.library.vocabulary import PlainType, Position
 from skillc_runtime.commands.main import skillc
-from skillc_runtime.selection.python import PrimitiveError, fitting_class, function_problem
+from skillc_runtime.execution.selection.python_targets import PrimitiveError, check_function, import_matching_primitive
 
 HEAD = """\
 import dataclasses, functools
@@ -123,7 +123,7 @@ def module(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.M
 def test_what_fits_is_not_reported(text: str, way: str, module: str, tmp_path: Path) -> None:
     name = written(tmp_path, module, text, way)
     assert told(tmp_path, SKILL.replace("NAME", name)) == []
-    assert fitting_class(name, PARAMETERS)
+    assert import_matching_primitive(name, PARAMETERS)
 
 
 @pytest.mark.parametrize("way", ["itself", "from", "star"])
@@ -136,7 +136,7 @@ def test_what_does_not_fit_is_reported_and_refused(
     if way == "itself" or words not in ("has no `It`", "is no Python"):
         assert any(words in message for message in messages), messages
     with pytest.raises(PrimitiveError):
-        fitting_class(name, PARAMETERS)
+        import_matching_primitive(name, PARAMETERS)
 
 
 @pytest.mark.parametrize("text", UNTOLD.values(), ids=UNTOLD)
@@ -144,7 +144,7 @@ def test_what_the_text_does_not_tell_is_refused_when_it_is_prepared(text: str, m
     name = written(tmp_path, module, text, "itself")
     assert told(tmp_path, SKILL.replace("NAME", name)) == []
     with pytest.raises(PrimitiveError, match=f"{module}:It"):
-        fitting_class(name, PARAMETERS)
+        import_matching_primitive(name, PARAMETERS)
 
 
 @pytest.mark.parametrize(
@@ -170,7 +170,7 @@ def test_functions_take_the_world_and_their_values_in_order(
     messages = told(tmp_path, f'function it(a: Number, b: Number) -> Number = python "{module}:it"\n')
     assert [words in message for message in messages] == ([] if words is None else [True]), messages
     in_order = words is None or "in this order" in words
-    assert (function_problem(f"{module}:it", 2) is None) == in_order
+    assert (check_function(f"{module}:it", 2) is None) == in_order
 
 
 @pytest.mark.sim

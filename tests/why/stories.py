@@ -7,12 +7,12 @@ from pathlib import Path
 
 from skillc_compiler.library import tree
 from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.trace.events import FORMAT, Event, TaskEnded, TaskStarted
 from skillc_runtime.trace.history import story_of
 from skillc_runtime.trace.story import Call, Story
 from skillc_runtime.trace.writer import TraceWriter
-from skillc_runtime.tree.run import Run
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.state import WorldState
 from tree.stage import PERIOD_S, Stage
@@ -23,7 +23,7 @@ BEGIN = TaskStarted(time=0.0, format=FORMAT, task="play", library="stage")
 def events_of(body: tree.Node, library: SkillLibrary, cell: Stage, ticks: int = 40) -> list[Event]:
     """Run a body and return what a recording of it says."""
     told: list[Event] = [BEGIN]
-    run = Run(body, library, cell, (told.append,))
+    run = TreeRun(body, library, cell, (told.append,))
     for _ in range(ticks):
         if run.tick() is not Status.RUNNING:
             break

@@ -89,7 +89,7 @@ def test_what_found_no_value_is_told_with_what_comes_nearest() -> None:
 
 def test_ambiguous_candidates_are_all_listed() -> None:
     lines = told(picked(individual("g-2", "Gripper"), fact("arm", "hasA", "g-2")), "gripper").splitlines()
-    assert "`gripper` may be t:g-2, t:gripper: pass it, or let any do with `infer any gripper`" in lines[2]
+    assert "`gripper` may be t:g-2, t:gripper: pass it, or accept any with `infer any gripper`" in lines[2]
 
 
 def test_a_failure_is_told_with_the_facts_at_that_moment() -> None:

@@ -10,6 +10,7 @@ from hypothesis import HealthCheck, event, given, settings
 
 from skillc_compiler.library import tree
 from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.trace.events import (
     Event,
@@ -26,7 +27,6 @@ from skillc_runtime.trace.history import story_of
 from skillc_runtime.trace.outcome import Outcome
 from skillc_runtime.trace.record import Body, Records
 from skillc_runtime.trace.story import Call, Story
-from skillc_runtime.tree.run import Run
 from skillc_runtime.world.changes import SetProperty
 from tree.stage import FLAGS, ON, PERIOD_S, Library, Script, Stage, act, check, here, par, seq, world
 from tree.strategies import Play, plays
@@ -43,7 +43,7 @@ EXAMPLES = int(os.environ.get("SKILLC_STORIES", "30"))
 def test_the_story_says_of_each_call_what_the_tree_says(play: Play) -> None:
     told: list[Event] = [BEGIN]
     stage = Stage(world(), play.scripts)
-    engine = Run(play.body, play.library, stage, (told.append,))
+    engine = TreeRun(play.body, play.library, stage, (told.append,))
     for number in range(12):
         stage.now = number * PERIOD_S
         stage.world.commit([SetProperty(flag, ON, on) for tick, flag, on in play.switches if tick == number])

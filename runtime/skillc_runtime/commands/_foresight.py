@@ -19,10 +19,10 @@ from skillc_runtime.commands import _diagnostics, _named_texts
 from skillc_runtime.commands._arm_sheets import unfit_sheets
 from skillc_runtime.commands._controllers import unknown_controllers
 from skillc_runtime.commands._scenes import Populated
+from skillc_runtime.execution.selection.initial_calls import initial_call_refusals
+from skillc_runtime.execution.selection.preflight import Origin, Refusal, preflight
+from skillc_runtime.execution.selection.unsupported import UnsupportedIndividual, unsupported_individuals
 from skillc_runtime.planning.reachability import UnreachableGoal, explain_unreachable
-from skillc_runtime.selection.first import first_refusals
-from skillc_runtime.selection.preflight import Origin, Refusal, preflight
-from skillc_runtime.selection.unfit import Unfit, unfit
 from skillc_runtime.world.individuals import iri_of
 from skillc_runtime.world.scene import Scene
 
@@ -80,16 +80,16 @@ def _of_task(
     if task.body is not None:
         refusals = preflight(task.body, library, scene.state)
         for refusal in refusals:
-            yield from told.misnamed(refusal, places) if refusal.misnamed else (told.refusal(refusal),)
+            yield from told.misnamed(refusal, places) if refusal.unknown_names else (told.refusal(refusal),)
         if not refusals:
-            yield from (told.cannot_start(each) for each in first_refusals(task.body, library, scene.state))
+            yield from (told.cannot_start(each) for each in initial_call_refusals(task.body, library, scene.state))
 
 
 def _of_individuals(library: SkillLibrary, scene: Scene, path: str) -> Iterator[Diagnostic]:
     """Yield the individuals of the scene file at `path` that no implementation of some skill fits."""
     own = {iri_of(each.subject): each for each in reversed(scene.said) if each.predicate == RDF_TYPE}
     here = {iri: each for iri, each in own.items() if each.lines.path == path}
-    for each in unfit(library, scene.state, frozenset(here)):
+    for each in unsupported_individuals(library, scene.state, frozenset(here)):
         statement = here[each.individual]
         span = _diagnostics.span_of(statement.object_place)
         yield Diagnostic("no-implementation-fits", span, _unfit(each, scene), _accepted(each, scene), "warning")
@@ -109,7 +109,7 @@ class _Teller:
 
     def misnamed(self, refusal: Refusal, places: Mapping[Origin, Span]) -> Iterator[Diagnostic]:
         """Tell of the texts for which a call can never start, where they are written or else at the call."""
-        for origin, wrong in refusal.misnamed.items():
+        for origin, wrong in refusal.unknown_names.items():
             message = wrong.message(self._scene.state.vocabulary)
             at_call = self.diagnostic("unknown-value", message, replace(refusal, rejected=()), "error")
             written = places.get(origin)
@@ -161,12 +161,12 @@ def _problem_name(refusal: Refusal, otherwise: str) -> str:
     return "several-answers" if any(" may be " in each.reason for each in refusal.rejected) else "no-answer"
 
 
-def _unfit(each: Unfit, scene: Scene) -> str:
+def _unfit(each: UnsupportedIndividual, scene: Scene) -> str:
     short = scene.state.vocabulary.short
     classes = " and a ".join(sorted(map(short, scene.state.types(each.individual))))
     return f"no implementation of {', '.join(sorted(each.skills))} fits {short(each.individual)}, a {classes}"
 
 
-def _accepted(each: Unfit, scene: Scene) -> str:
+def _accepted(each: UnsupportedIndividual, scene: Scene) -> str:
     classes = sorted({scene.state.vocabulary.short(cls) for accepted in each.skills.values() for cls in accepted})
     return f"there are implementations for {', '.join(classes)}; or add `impl .. of {min(each.skills)}`"

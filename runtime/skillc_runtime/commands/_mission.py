@@ -15,9 +15,9 @@ from skillc_compiler.library.skills import SkillLibrary, Task
 from skillc_compiler.turtle.problems import Problem
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
-from skillc_runtime.assignment import Assignment, Perform, Reach
 from skillc_runtime.commands import _diagnostics, _files, _library, _scenes, _telling
 from skillc_runtime.commands._keeping import NOT_KEPT, Keeping
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody
 from skillc_runtime.world.documents import SceneError
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
@@ -38,9 +38,9 @@ def of_task(reference: str, keeping: Keeping = NOT_KEPT) -> Mission:
     library, task, scene = in_scene(reference)
     world = world_for(keeping, scene, library)
     if task.goal is not None:
-        return Mission(library, Assignment(task.name, world.snapshot(), Reach(task.goal)), world)
+        return Mission(library, Assignment(task.name, world.snapshot(), AchieveGoal(task.goal)), world)
     assert task.body is not None
-    return Mission(library, Assignment(task.name, world.snapshot(), Perform(task.body)), world)
+    return Mission(library, Assignment(task.name, world.snapshot(), ExecuteBody(task.body)), world)
 
 
 def in_scene(reference: str) -> tuple[SkillLibrary, Task, Path]:
@@ -73,10 +73,10 @@ def of_scene(
     prefixes = state.vocabulary.prefixes
     if goal is not None:
         asked = parse_goal(goal, library.vocabulary, individuals, prefixes)
-        return Mission(library, Assignment(goal, state, Reach(_understood(asked, goal))), world)
+        return Mission(library, Assignment(goal, state, AchieveGoal(_understood(asked, goal))), world)
     assert skill is not None
     call = _understood(parse_call(skill, library, individuals, prefixes), skill)
-    return Mission(library, Assignment(call.skill, state, Perform(call)), world)
+    return Mission(library, Assignment(call.skill, state, ExecuteBody(call)), world)
 
 
 def compiled(files: _library.LibraryFiles) -> SkillLibrary:

@@ -18,7 +18,7 @@ from skillc_dsl.source import Span
 
 if TYPE_CHECKING:
     from skillc_runtime.commands._scenes import Populated
-    from skillc_runtime.selection.named import Misnamed
+    from skillc_runtime.execution.selection.text_names import UnknownName
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,8 +69,8 @@ def warned(
     errors = {each.span for each in told if each.name == "unknown-value"}
     # The world model is heavy to import.
     from skillc_runtime.commands._scenes import read
-    from skillc_runtime.selection.named import Misnamed, is_fixed_path, known_names
-    from skillc_runtime.selection.reads import changing_terms
+    from skillc_runtime.execution.selection.reads import changing_terms
+    from skillc_runtime.execution.selection.text_names import UnknownName, is_fixed_path, list_names
 
     changing = changing_terms(compiled.value)
     for each in given:
@@ -81,15 +81,15 @@ def warned(
         if not states:
             sheets = read(Path("sheets.ttl"), program.vocabulary, "").value
             states = [sheets.state] if sheets else []
-        known = {name for state in states for iri in properties for name in known_names(iri, state.individuals, state)}
+        known = {name for state in states for iri in properties for name in list_names(iri, state.individuals, state)}
         span = replace(each.span, path=shown(each.span.path))
         if known and each.text not in known and span not in errors:
-            wrong = Misnamed(each.text, min(properties), None, tuple(sorted(known)))
+            wrong = UnknownName(each.text, min(properties), None, tuple(sorted(known)))
             yield diagnostic(wrong, wrong.message(program.vocabulary), span, "warning")
 
 
 def diagnostic(
-    wrong: Misnamed, message: str, span: Span, severity: Severity, labels: tuple[Label, ...] = ()
+    wrong: UnknownName, message: str, span: Span, severity: Severity, labels: tuple[Label, ...] = ()
 ) -> Diagnostic:
     """Return what is reported at a text that names nothing."""
     near = get_close_matches(wrong.text, wrong.known, n=2, cutoff=0.75)
@@ -130,14 +130,14 @@ def _local(program: Program) -> Iterator[tuple[Valued, str, str, Implementation]
 
 
 def _paths(library: SkillLibrary, given: _Given) -> frozenset[tuple[str, ...]]:
-    from skillc_runtime.selection.named import naming_paths, paths_named_by
+    from skillc_runtime.execution.selection.text_names import find_name_paths, find_name_paths_in_body
 
     if given.implementation is None:
-        return naming_paths(library, given.skill, given.to)
+        return find_name_paths(library, given.skill, given.to)
     lowered = library.implementations.get(given.implementation.key)
     if lowered is None or not isinstance(lowered.body, Compound):
         return frozenset()
-    return paths_named_by(library, lowered.body.node, given.to)
+    return find_name_paths_in_body(library, lowered.body.node, given.to)
 
 
 def _own(program: Program) -> frozenset[str]:

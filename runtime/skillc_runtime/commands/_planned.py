@@ -9,8 +9,8 @@ from typing import assert_never
 import click
 
 from skillc_compiler.picture.boxes import Box
-from skillc_runtime.assignment import Reach
 from skillc_runtime.commands import _mission
+from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable, describe_quality
 from skillc_runtime.planning.solve import solve
 
@@ -25,8 +25,8 @@ def planned(path: Path, task: str) -> Box:
     NoPlan when there is none, UsageError when it is no task or has no goal.
     """
     mission = _mission.of_task(f"{path}:{task}")
-    aim, state = mission.assignment.aim, mission.assignment.state
-    if not isinstance(aim, Reach):
+    aim, state = mission.assignment.objective, mission.assignment.state
+    if not isinstance(aim, AchieveGoal):
         raise click.UsageError(f"the task `{task}` says itself what to do; draw it without --plan")
     answer = solve(mission.library, state, aim.goal)
     match answer:

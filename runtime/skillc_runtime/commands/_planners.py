@@ -58,11 +58,11 @@ def patience(deadline_s: float) -> Iterator[None]:
 
 def aimed(mission: Mission, minimise: str) -> Mission:
     """Return a mission whose plan is to have little of that; UsageError where there is nothing to plan."""
-    from skillc_runtime.assignment import Reach
+    from skillc_runtime.execution.assignment import AchieveGoal
 
     if minimise == "work":
         return mission
-    if not isinstance(mission.assignment.aim, Reach):
+    if not isinstance(mission.assignment.objective, AchieveGoal):
         raise click.UsageError(f"`{mission.assignment.name}` says itself what to do: there is no plan to minimise")
-    aim = Reach(mission.assignment.aim.goal, "makespan")
-    return replace(mission, assignment=replace(mission.assignment, aim=aim))
+    aim = AchieveGoal(mission.assignment.objective.goal, "makespan")
+    return replace(mission, assignment=replace(mission.assignment, objective=aim))

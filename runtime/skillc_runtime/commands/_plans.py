@@ -8,11 +8,11 @@ from typing import Literal, TypeAlias, assert_never
 
 from skillc_compiler.library.conditions import Condition
 from skillc_runtime.commands._mission import Mission
+from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Step, Unsolvable, describe_quality
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import solve
-from skillc_runtime.plans.quickest import quickest
 
 Answer: TypeAlias = PlanResult | Scheduled
 Measure: TypeAlias = Literal["work", "proven work", "makespan"]
@@ -25,7 +25,7 @@ def answer(mission: Mission, goal: Condition, measure: Measure, planners: Planne
     """Plan for a goal: with little work, also proven to be the least of the whole scene, or to be over early."""
     library, state = mission.library, mission.assignment.state
     if measure == "makespan":
-        return quickest(library, state, goal, planners, deadline_s)
+        return minimise_makespan(library, state, goal, planners, deadline_s)
     return solve(library, state, goal, planners.for_work, deadline_s, prove=measure == "proven work")
 
 

@@ -13,11 +13,12 @@ from types import FrameType
 
 import click
 
-from skillc_runtime.assignment import Prepared, prepare
 from skillc_runtime.commands import _looks
 from skillc_runtime.commands._following import Follower
 from skillc_runtime.commands._live import Live
 from skillc_runtime.commands._mission import Mission
+from skillc_runtime.execution.assignment import PreparedTask, prepare_task
+from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.report.drawing import Drawing, drawing
 from skillc_runtime.report.moments import moments
@@ -29,7 +30,6 @@ from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.film import Film, Filmed, Moment
 from skillc_runtime.simulation.pictures import FilmError
 from skillc_runtime.simulation.rendering import RenderingError
-from skillc_runtime.task import execute
 from skillc_runtime.trace.events import Listener
 from skillc_runtime.trace.writer import TraceWriter
 from skillc_runtime.world.frames import FrameError
@@ -68,9 +68,9 @@ def run(mission: Mission, options: Options) -> Ran:
     name = mission.assignment.name
     with Live(name, options.quiet, options.real_time) as live:
         live.say("preparing")
-        prepared = prepare(mission.assignment, mission.library, planners=options.planners)
-        if not isinstance(prepared, Prepared):
-            return Ran(TaskResult(task=name, status="refused", seed=options.seed, failure=prepared.why))
+        prepared = prepare_task(mission.assignment, mission.library, planners=options.planners)
+        if not isinstance(prepared, PreparedTask):
+            return Ran(TaskResult(task=name, status="refused", seed=options.seed, failure=prepared.reason))
         live.say("building the simulation")
         try:
             cell = SimulatedCell(mission.world, options.seed)
@@ -84,7 +84,7 @@ def run(mission: Mission, options: Options) -> Ran:
 
 
 def _run(
-    prepared: Prepared, mission: Mission, cell: SimulatedCell, film: Film | None, options: Options, live: Live
+    prepared: PreparedTask, mission: Mission, cell: SimulatedCell, film: Film | None, options: Options, live: Live
 ) -> Ran:
     choices = Choices()
     listeners: list[Listener] = [choices, live]
@@ -100,7 +100,7 @@ def _run(
         with _trace(options.out) as trace:
             if trace is not None:
                 listeners.append(trace)
-            execution = execute(prepared, mission.library, cell, listeners, watch, lambda: interruption.wanted)
+            execution = execute_task(prepared, mission.library, cell, listeners, watch, lambda: interruption.wanted)
         trees = [attempt.tree for attempt in execution.attempts]
         wipings = find_wipings(trees, choices, cell)
         result = summarise(execution, choices, mission.library, wipings)

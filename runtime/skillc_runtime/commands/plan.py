@@ -42,8 +42,8 @@ def command(
     as_json: bool,
 ) -> None:
     """Plan for TASK (`LIBRARY:NAME`, or a shipped task), or for a goal in a scene."""
-    from skillc_runtime.assignment import Reach
     from skillc_runtime.commands import _mission, _plans
+    from skillc_runtime.execution.assignment import AchieveGoal
     from skillc_runtime.planning.plan import GaveUp, Unsolvable
 
     if task is not None and (scene or goal or library):
@@ -55,10 +55,10 @@ def command(
     keeping = _keeping.keeping(store, reset)
     mission = _mission.of_task(task, keeping) if task else _mission.of_scene(scene, goal, None, library, keeping)
     assignment = mission.assignment
-    if not isinstance(assignment.aim, Reach):
+    if not isinstance(assignment.objective, AchieveGoal):
         raise click.UsageError(f"the task `{assignment.name}` says itself what to do; run it with `skillc run`")
     measure: _plans.Measure = "makespan" if minimise == "makespan" else "proven work" if prove else "work"
     with _planners.patience(deadline):
-        answer = _plans.answer(mission, assignment.aim.goal, measure, _planners.planners(plan_cache), deadline)
+        answer = _plans.answer(mission, assignment.objective.goal, measure, _planners.planners(plan_cache), deadline)
     click.echo(_plans.as_json(answer, mission) if as_json else _plans.as_text(answer, mission))
     sys.exit(3 if isinstance(answer, Unsolvable | GaveUp) else 0)

@@ -1,1 +1,1 @@
-"""Primitive skills in Python: what the leaves of every tree do."""
+"""Primitive skills in Python, which the leaves of a tree run; `primitive` has their life cycle."""

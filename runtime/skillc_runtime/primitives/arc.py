@@ -1,4 +1,4 @@
-"""Moving the tool along a part of a circle."""
+"""Moves the tool along an arc."""
 
 from __future__ import annotations
 
@@ -8,27 +8,27 @@ from skillc_runtime.motion.arc import arc_through
 from skillc_runtime.motion.path import joined
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.arm_motion import ArmMotion
+from skillc_runtime.primitives.place_description import describe_place
 from skillc_runtime.primitives.primitive import SkillFailure
-from skillc_runtime.primitives.whereabouts import whereabouts
 
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
 
 
 class MoveArc(ArmMotion):
-    """Move the tool to `target` on the circle through the place of `via`, at `speed` m/s, turning on the way."""
+    """Moves the tool to `target` on the circle through the position of `via` at `speed` m/s, rotating on the way."""
 
     def __init__(self, cell: Cell, *, arm: str, via: Pose, target: Pose, speed: float) -> None:
         super().__init__(cell, arm)
         self._via, self._target, self._speed = via, target, speed
 
-    def go(self) -> None:
-        """Plan the arc from where the reference rests, and go; SkillFailure where the places make no circle."""
+    def start_motion(self) -> None:
+        """Start the arc from the stopping pose; SkillFailure if the positions define no circle."""
         start, limits = self.arm.anchor, self.limits(self._speed)
         try:
             piece = arc_through(start, self._via.position, self._target, limits)
         except ValueError as why:
             state = self.cell.world.snapshot()
-            places = (whereabouts(state, pose.position) for pose in (start, self._via, self._target))
+            places = (describe_place(state, pose.position) for pose in (start, self._via, self._target))
             raise SkillFailure("{}: start at {}; via at {}; target at {}".format(why, *places)) from why
         self.arm.move_along(joined([start, self._target], [piece], limits))

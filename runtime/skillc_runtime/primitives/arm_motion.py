@@ -1,24 +1,24 @@
-"""What all motions of an arm have in common: they end when the arm is there, and fail when it does not come."""
+"""The base class of arm motions: they succeed when the arm has arrived and fail if it does not arrive in time."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from skillc_runtime.motion.segments import MotionLimits
+from skillc_runtime.primitives.place_description import describe_place
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.primitives.whereabouts import whereabouts
 from skillc_runtime.robots.feasible import Infeasible
 
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
     from skillc_runtime.robots.driver import ArmDriver
 
-PATIENCE_S = 1.5
-"""How long after its reference an arm may come to rest."""
+MAX_SETTLING_S = 1.5
+"""How long after the end of its reference an arm may take to come to rest."""
 
 
 class ArmMotion(Primitive):
-    """A motion that `go` gives to the arm's driver; the rest of its life is alike for all."""
+    """A motion that `start_motion` gives to the driver of the arm."""
 
     def __init__(self, cell: Cell, arm: str) -> None:
         super().__init__(cell)
@@ -26,19 +26,19 @@ class ArmMotion(Primitive):
         self._ended: float | None = None
 
     def start(self) -> None:
-        """Go, unless the arm has a fault that nobody has been told of yet."""
+        """Start the motion; SkillFailure for a fault of the arm that was not reported yet."""
         raise_fault(self.arm)
         try:
-            self.go()
+            self.start_motion()
         except Infeasible as why:
-            raise unfit(self.cell, self.arm, why) from why
+            raise infeasible_motion(self.cell, self.arm, why) from why
 
-    def go(self) -> None:
+    def start_motion(self) -> None:
         """Give the motion to the arm; SkillFailure before anything moves."""
         raise NotImplementedError
 
     def tick(self) -> Status:
-        """Return SUCCESS once the arm is there."""
+        """Return SUCCESS when the arm has arrived."""
         raise_fault(self.arm)
         if not self.arm.done:
             return Status.RUNNING
@@ -46,37 +46,37 @@ class ArmMotion(Primitive):
         if behind is None:
             return Status.SUCCESS
         self._ended = self.cell.now if self._ended is None else self._ended
-        if self.cell.now - self._ended > PATIENCE_S:
+        if self.cell.now - self._ended > MAX_SETTLING_S:
             raise SkillFailure(behind)
         return Status.RUNNING
 
     def halt(self, reason: str) -> None:
-        """Come to rest."""
+        """Stop the arm."""
         self.arm.stop()
 
     def pause(self) -> None:
-        """Slow down to a standstill."""
+        """Slow down to standstill."""
         self.arm.pause()
 
     def resume(self) -> None:
-        """Go on."""
+        """Continue the motion."""
         self.arm.resume()
 
     def limits(self, speed: float) -> MotionLimits:
-        """Return the limits of a motion of the tool with a speed in m/s; SkillFailure where the arm allows less."""
+        """Return the limits of a tool motion at a speed in m/s; SkillFailure if the arm allows less."""
         if speed > self.arm.gains.speed_limit:
             raise SkillFailure(f"{speed:g} m/s is faster than the {self.arm.gains.speed_limit:g} m/s the arm allows")
         return MotionLimits(speed, self.arm.gains.acceleration_limit, jerk=self.arm.gains.jerk_limit)
 
 
-def unfit(cell: Cell, arm: ArmDriver, why: Infeasible) -> SkillFailure:
-    """Return the failure that says which motion does not fit the arm, and where."""
-    place = whereabouts(cell.world.snapshot(), arm.in_world(why.place))
+def infeasible_motion(cell: Cell, arm: ArmDriver, why: Infeasible) -> SkillFailure:
+    """Return the failure of a motion that the arm cannot follow, with the place in the world frame."""
+    place = describe_place(cell.world.snapshot(), arm.in_world(why.place))
     return SkillFailure(f"the motion does not fit the arm: {why.problem}, at {place}")
 
 
 def raise_fault(arm: ArmDriver) -> None:
-    """Fail with what made the driver stop, once."""
+    """Raise SkillFailure if the driver stopped because of a fault; each fault is reported once."""
     fault, arm.fault = arm.fault, None
     if fault is not None:
         raise SkillFailure(fault)

@@ -1,4 +1,4 @@
-"""Noticing that a button has switched."""
+"""Waits for a button to switch."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from skillc_runtime.world.terms import IS_ON, PRESSED_WITH
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
 
-HOLD_S = 0.2
-"""How long a button stays pressed once it has switched; the force is the mean over this time."""
+PRESS_HOLD_S = 0.2
+"""How long a button is held after it has switched; the force is the mean over this time."""
 
 
 class AwaitSwitch(Primitive):
-    """Wait up to `patience` s until a button, which the arm presses, has switched; note that, and the force in N."""
+    """Waits up to `patience` s until the button that the arm presses has switched; writes that and the force in N."""
 
     def __init__(self, cell: Cell, *, arm: str, button: str, patience: float) -> None:
         super().__init__(cell)
@@ -27,17 +27,17 @@ class AwaitSwitch(Primitive):
         self._forces: list[float] = []
 
     def start(self) -> None:
-        """Begin to wait."""
+        """Start waiting."""
         raise_fault(self.arm)
         self._began = self.cell.now
 
     def tick(self) -> Status:
-        """Return SUCCESS once the button has switched and was held."""
+        """Return SUCCESS when the button has switched and was held."""
         raise_fault(self.arm)
         if self._switched_at is None and self._switch.switched:
             self._switched_at, self._forces = self.cell.now, []
         self._forces.append(-float(self.arm.wrench[:3] @ self.arm.pose.rotation[:, 2]))
-        if self._switched_at is not None and self.cell.now - self._switched_at >= HOLD_S:
+        if self._switched_at is not None and self.cell.now - self._switched_at >= PRESS_HOLD_S:
             self._note()
             return Status.SUCCESS
         if self._switched_at is None and self.cell.now - self._began > self._patience:

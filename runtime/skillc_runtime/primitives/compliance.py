@@ -1,4 +1,4 @@
-"""Yielding, pushing, aligning."""
+"""Compliance of an arm: releasing an axis, pushing, aligning with a surface."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import numpy as np
 
 from skillc_runtime.motion.pose import Array, log
 from skillc_runtime.primitives.arm_motion import raise_fault
-from skillc_runtime.primitives.localise import localise
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.surface_location import write_surface_pose
 from skillc_runtime.robots.contact import FALL_SHARE, Approach, Pressed, advance, go_on
 
 if TYPE_CHECKING:
@@ -19,23 +19,23 @@ if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
 
 APPROACH_M_S = 0.05
-"""Speed of the approach to a surface whose place is not known well."""
+"""Speed of the approach to a surface whose position is uncertain."""
 
 RAMP_S = 0.4
-"""Time in which the push reaches its force and the tool comes to rest."""
+"""Time in which the push force is reached and the tool comes to rest."""
 
-REST_S = 0.3
+SETTLING_S = 0.3
 """Time after aligning in which springs and reference settle."""
 
 FLUSH_RAD, FLUSH_S = 0.0008, 2.0
-"""A tool that is turned, in one half of this time, by less than this from the other, lies flush; noise averages out."""
+"""A tool is flush if its mean orientations in the two halves of FLUSH_S differ by less than FLUSH_RAD."""
 
-LEAST_ALIGN_S = 2.5
-"""Before that, a tool that hardly turns may just be starting."""
+MIN_ALIGN_S = 2.5
+"""Before this time, a tool that hardly turns may only be starting to turn."""
 
 
 class ReleaseAxis(Primitive):
-    """Let the arm yield along `along` (3,), with `stiffness` N/m, until the scope ends."""
+    """Makes the arm compliant along `along` (3,) with `stiffness` N/m until the scope ends."""
 
     def __init__(self, cell: Cell, *, arm: str, along: Array, stiffness: float) -> None:
         super().__init__(cell)
@@ -43,7 +43,7 @@ class ReleaseAxis(Primitive):
         self._along, self._stiffness = along, stiffness
 
     def start(self) -> None:
-        """Release the axis; the tool stays where it is."""
+        """Release the axis; the tool does not move."""
         raise_fault(self.arm)
         try:
             self.arm.release(self._along, self._stiffness)
@@ -51,11 +51,11 @@ class ReleaseAxis(Primitive):
             raise SkillFailure(str(refusal)) from refusal
 
     def tick(self) -> Status:
-        """Succeed at once."""
+        """Return SUCCESS."""
         return Status.SUCCESS
 
     def release(self) -> None:
-        """Hold the axis where the tool is."""
+        """Make the axis stiff again at the current position."""
         self.arm.restore()
 
 
@@ -150,7 +150,7 @@ class Push(Primitive):
 
 
 class Align(Primitive):
-    """Let the pushed tool turn, for at most `settle` s, until it lies flush on `surface`; note where that really is."""
+    """Lets the pushed tool turn for at most `settle` s until it is flush with `surface`; writes the surface's pose."""
 
     def __init__(self, cell: Cell, *, arm: str, surface: str, settle: float) -> None:
         super().__init__(cell)
@@ -161,33 +161,33 @@ class Align(Primitive):
         self._turns: deque[tuple[float, Array]] = deque()
 
     def start(self) -> None:
-        """Let the tool turn."""
+        """Release the rotation of the tool."""
         raise_fault(self.arm)
         self._began, self._from = self.cell.now, self.arm.pose.rotation
         self.arm.release_rotation()
 
     def tick(self) -> Status:
-        """Return SUCCESS once the tool lies flush, is held so, and the surface's place is noted."""
+        """Return SUCCESS when the tool is flush, its rotation is stiff again, and the surface's pose is written."""
         raise_fault(self.arm)
         now = self.cell.now
-        if self._held_at == inf and (now - self._began >= self._settle or self._flush(now)):
+        if self._held_at == inf and (now - self._began >= self._settle or self._is_flush(now)):
             self._hold()
-        if now < self._held_at + REST_S:
+        if now < self._held_at + SETTLING_S:
             return Status.RUNNING
-        localise(self.cell.world, self._surface, self.arm.pose)
+        write_surface_pose(self.cell.world, self._surface, self.arm.pose)
         return Status.SUCCESS
 
     def halt(self, reason: str) -> None:
-        """Hold the tool as it is."""
+        """Make the rotation of the tool stiff again."""
         if self._held_at == inf:
             self._hold()
 
-    def _flush(self, now: float) -> bool:
-        """Tell whether the tool has come to rest on the surface: whether it hardly turned for a while."""
+    def _is_flush(self, now: float) -> bool:
+        """Whether the tool has come to rest on the surface: it has hardly turned for a while."""
         self._turns.append((now, log(self.arm.pose.rotation @ self._from.T)))
         while now - self._turns[0][0] > FLUSH_S:
             self._turns.popleft()
-        if now - self._began < LEAST_ALIGN_S:
+        if now - self._began < MIN_ALIGN_S:
             return False
         turns = np.array([turn for _, turn in self._turns])
         half = len(turns) // 2

@@ -1,4 +1,4 @@
-"""Driving a mobile base to where a workstation wants it to stand."""
+"""Drives a mobile base to a workstation."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from skillc_runtime.world.terms import AT
 
 
 class DriveBase(Primitive):
-    """Drives to a workstation and notes that the base reports to be there; the arms on it hold their posture."""
+    """Drives to a workstation and writes the place that the base reports; the arms on it hold their posture."""
 
     def __init__(self, cell: Cell, *, robot: str, to: str) -> None:
         super().__init__(cell)
         self._base, self._robot, self._to = cell.base(robot), robot, to
 
     def start(self) -> None:
-        """Begin to drive."""
+        """Start driving."""
         self._base.drive_to(pose(self.cell.world.snapshot(), self._to))
 
     def tick(self) -> Status:
-        """Wait until the base is there; SkillFailure where it reports another place."""
+        """Return SUCCESS when the base has arrived; SkillFailure if it reports another place."""
         if not self._base.done:
             return Status.RUNNING
         elsewhere = away(self.cell, self._robot, self._to, self.cell.world.snapshot())()
@@ -40,5 +40,5 @@ class DriveBase(Primitive):
         self._base.stop()
 
     def resume(self) -> None:
-        """Drive on from wherever the base stands."""
+        """Drive on from the current pose."""
         self.start()

@@ -1,4 +1,4 @@
-"""Taking hold of things and letting go of them."""
+"""Grasps and releases objects."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from skillc_runtime.world.changes import AddRelation, RemoveRelation
 from skillc_runtime.world.frames import placed, pose, size
 from skillc_runtime.world.terms import CONTAIN, FRAME_ID, GRASP_WIDTH
 
-FREE_BY_M = 0.005
-"""How much farther than they held a thing the fingers must stand open for it to be free."""
+FREE_CLEARANCE_M = 0.005
+"""How much farther than while holding it the fingers must be open for an object to be free."""
 
-OPEN_BY_M = 0.04
-"""How much farther than the thing's width the fingers open when they let go."""
+RELEASE_CLEARANCE_M = 0.04
+"""How much farther than the object's width the fingers open to release it."""
 
 
 class Grasp(Primitive):
-    """Takes hold of what the closed fingers touch from both sides; from then on the arm carries and works with it.
+    """Attaches the object that the closed fingers touch from both sides to the gripper.
 
-    The thing is believed to be in the hand as its grasping pose says. While it is held the world model has its pose
-    relative to the gripper, whose frame is its tool centre point.
+    The object's pose in the hand is assumed to be that of its grasping pose. While it is held, the world model has its
+    pose relative to the frame of the gripper, the tool centre point.
     """
 
     def __init__(self, cell: Cell, *, arm: str, gripper: str, object: str, grasp: str, place: str) -> None:
@@ -29,12 +29,12 @@ class Grasp(Primitive):
         self._gripper, self._object, self._grasp = gripper, object, grasp
 
     def start(self) -> None:
-        """Take hold; SkillFailure when the fingers do not touch the thing from both sides."""
+        """Attach the object; SkillFailure if the fingers do not touch it from both sides."""
         gripper, state = self.cell.gripper(self._gripper), self.cell.world.snapshot()
         hand, thing = map(state.vocabulary.short, (self._gripper, self._object))
         frame = state.value(self._gripper, FRAME_ID)
         if not isinstance(frame, str):
-            raise SkillFailure(f"{hand} has no skiros:FrameId in the world model, so nothing can be placed in it")
+            raise SkillFailure(f"{hand} has no skiros:FrameId in the world model, so no pose can be relative to it")
         if not gripper.touches(self._object):
             raise SkillFailure(
                 f"the fingers of {hand} do not touch {thing} from both sides: "
@@ -45,14 +45,14 @@ class Grasp(Primitive):
         gripper.attach(self._object, self._in_hand)
 
     def tick(self) -> Status:
-        """Note that the fingers hold the thing, and where it is believed to be in the hand; it happens at once."""
+        """Write that the gripper holds the object, and its assumed pose in the hand; return SUCCESS."""
         self.cell.world.commit([AddRelation(self._gripper, CONTAIN, self._object)], "Grasp", "sensed")
         self.cell.world.commit(placed(self._object, self._in_hand, self._frame), "Grasp", "assumed")
         return Status.SUCCESS
 
 
 class Release(Primitive):
-    """Opens the fingers; as soon as the thing is free, the world model says that it is where the arm had brought it."""
+    """Opens the fingers; as soon as the object is free, the world model has the pose to which the arm brought it."""
 
     def __init__(self, cell: Cell, *, arm: str, gripper: str, object: str, to: str) -> None:
         super().__init__(cell)
@@ -61,21 +61,21 @@ class Release(Primitive):
         self._free_at_m, self._face, self._freed = 0.0, Pose.of((0.0, 0.0, 0.0)), False
 
     def start(self) -> None:
-        """Begin to open; SkillFailure when something else or nothing is held."""
+        """Start opening; SkillFailure if another object or none is held."""
         state = self.cell.world.snapshot()
         held, short = self._gripper.holding, state.vocabulary.short
         if held != self._object:
             raise SkillFailure(f"the gripper holds {short(held) if held else 'nothing'}, not {short(self._object)}")
         self._face = working_face(size(state, self._object))
-        self._free_at_m = self._gripper.opening_m + FREE_BY_M
+        self._free_at_m = self._gripper.opening_m + FREE_CLEARANCE_M
         width = state.value(self._object, GRASP_WIDTH)
-        opening = OPEN_BY_M + (width if isinstance(width, float) else self._gripper.opening_m)
+        opening = RELEASE_CLEARANCE_M + (width if isinstance(width, float) else self._gripper.opening_m)
         self._gripper.move(min(opening, self._gripper.max_opening_m), self._gripper.max_force_n)
 
     def tick(self) -> Status:
-        """Let go once the thing is free, then wait until the fingers are open."""
+        """Detach the object once it is free; return SUCCESS when the fingers are open."""
         if not self._freed and self._gripper.opening_m >= self._free_at_m:
-            self._let_go()
+            self._detach()
         if self._gripper.moving:
             return Status.RUNNING
         if not self._freed:
@@ -87,13 +87,13 @@ class Release(Primitive):
         return Status.SUCCESS
 
     def halt(self, reason: str) -> None:
-        """Keep the fingers where they are."""
+        """Stop the fingers."""
         self._gripper.stop()
 
-    def _let_go(self) -> None:
-        """Count the thing as free, and say so: whatever happens from now on, the hand no longer has it.
+    def _detach(self) -> None:
+        """Detach the object and write it to the world model.
 
-        That is sensed, by the fingers. That the thing stays where the arm had brought it is not.
+        That the hand is empty is sensed by the fingers. That the object stays where the arm brought it is assumed.
         """
         left_at = self._arm.pose @ self._face.inverse()
         self._gripper.detach()

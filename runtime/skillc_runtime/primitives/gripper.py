@@ -1,4 +1,4 @@
-"""Moving the fingers of a gripper: one class for each kind of gripper, since they take their commands differently."""
+"""Moves the fingers of a gripper: one class for each kind, since their commands differ."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ TOLERANCE_M = 0.003
 
 
 class ParallelGripper(Primitive):
-    """Two parallel fingers: opening and force are taken as they are."""
+    """Two parallel fingers, commanded by opening in m and force in N."""
 
     def __init__(self, cell: Cell, *, gripper: str, opening: float, force: float) -> None:
         super().__init__(cell)
@@ -18,7 +18,7 @@ class ParallelGripper(Primitive):
         self._name, self._opening, self._force = gripper, opening, force
 
     def start(self) -> None:
-        """Begin to move; SkillFailure when the fingers cannot open so far."""
+        """Start moving; SkillFailure if the fingers cannot open so far."""
         if self._opening > self._gripper.max_opening_m + TOLERANCE_M:
             raise SkillFailure(
                 f"{self._name} opens to {1000 * self._gripper.max_opening_m:.0f} mm, "
@@ -27,11 +27,11 @@ class ParallelGripper(Primitive):
         self._gripper.move(*self.command())
 
     def command(self) -> tuple[float, float]:
-        """Return the opening in m and the force in N that the gripper is asked for."""
+        """Return the commanded opening in m and force in N."""
         return self._opening, self._force
 
     def tick(self) -> Status:
-        """Wait until the fingers rest; SkillFailure when they did not open as far as asked."""
+        """Return SUCCESS when the fingers are at rest; SkillFailure if they did not open as far as commanded."""
         if self._gripper.moving:
             return Status.RUNNING
         opening = self._gripper.opening_m
@@ -43,23 +43,23 @@ class ParallelGripper(Primitive):
         return Status.SUCCESS
 
     def halt(self, reason: str) -> None:
-        """Keep the fingers where they are."""
+        """Stop the fingers."""
         self._gripper.stop()
 
     def pause(self) -> None:
-        """Keep the fingers where they are."""
+        """Stop the fingers."""
         self._gripper.stop()
 
     def resume(self) -> None:
-        """Go on."""
+        """Continue the motion."""
         self._gripper.move(*self.command())
 
 
 class ThreeFingerGripper(ParallelGripper):
-    """Three coupled fingers, whose controller takes opening and force in equal steps up to their greatest values."""
+    """Three coupled fingers, whose controller takes opening and force in equal steps up to their maximum values."""
 
     def start(self) -> None:
-        """Look up the steps and begin to move; SkillFailure when the data sheet does not tell them."""
+        """Look up the number of steps and start moving; SkillFailure if the data sheet does not have it."""
         try:
             self._steps = sheet_of(self.cell.world.snapshot(), self._name).number("commandSteps")
         except SheetError as error:
@@ -67,9 +67,9 @@ class ThreeFingerGripper(ParallelGripper):
         super().start()
 
     def command(self) -> tuple[float, float]:
-        """Return what the nearest steps mean: opening in m, force in N."""
+        """Return opening in m and force in N, rounded to steps."""
         largest, strongest = self._gripper.max_opening_m, self._gripper.max_force_n
-        return self._stepped(self._opening, largest), self._stepped(self._force, strongest)
+        return self._round_to_step(self._opening, largest), self._round_to_step(self._force, strongest)
 
-    def _stepped(self, value: float, greatest: float) -> float:
-        return min(round(value / greatest * self._steps), self._steps) * greatest / self._steps
+    def _round_to_step(self, value: float, maximum: float) -> float:
+        return min(round(value / maximum * self._steps), self._steps) * maximum / self._steps

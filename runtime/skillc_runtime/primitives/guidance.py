@@ -1,4 +1,4 @@
-"""Waiting until somebody has led the tool to a place by hand."""
+"""Waits until a person has guided the tool to a pose by hand."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from skillc_runtime.world.terms import IS_TAUGHT
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
 
-LED_M = 0.005
-"""A tool that has come this far was led, not pushed by accident."""
+GUIDED_DISTANCE_M = 0.005
+"""A tool that moved this far was guided, not pushed by accident."""
 
-STILL_M_S = 0.005
-"""A tool slower than this stands still."""
+STANDSTILL_M_S = 0.005
+"""A tool that is slower than this stands still."""
 
 
 class AwaitGuidance(Primitive):
-    """Wait up to `patience` s until the tool was led somewhere and stood still for `still` s; note where that is."""
+    """Waits up to `patience` s until the tool was guided and then stood still for `still` s; writes its pose."""
 
     def __init__(self, cell: Cell, *, arm: str, pose: str, still: float, patience: float) -> None:
         super().__init__(cell)
@@ -32,16 +32,16 @@ class AwaitGuidance(Primitive):
         self._from = np.zeros(3)
 
     def start(self) -> None:
-        """Begin to wait."""
+        """Start waiting."""
         raise_fault(self.arm)
         self._began = self._moved_at = self.cell.now
         self._from = self.arm.pose.position
 
     def tick(self) -> Status:
-        """Return SUCCESS once the tool was led somewhere and stands there."""
+        """Return SUCCESS when the tool was guided to a pose and stands still."""
         raise_fault(self.arm)
         now, away = self.cell.now, float(np.linalg.norm(self.arm.pose.position - self._from))
-        if away < LED_M or float(np.linalg.norm(self.arm.velocity[:3])) > STILL_M_S:
+        if away < GUIDED_DISTANCE_M or float(np.linalg.norm(self.arm.velocity[:3])) > STANDSTILL_M_S:
             self._moved_at = now
         if now - self._moved_at >= self._still:
             taught = [*placed(self._pose, self.arm.pose), SetProperty(self._pose, IS_TAUGHT, True)]
@@ -50,6 +50,7 @@ class AwaitGuidance(Primitive):
         if now - self._began > self._patience:
             name = self.cell.world.snapshot().vocabulary.short(self._name)
             raise SkillFailure(
-                f"nobody led the tool of {name} to a place within {self._patience:g} s: it is {away * 1e3:.0f} mm away"
+                f"nobody guided the tool of {name} to a pose within {self._patience:g} s: "
+                f"it is {away * 1e3:.0f} mm from its start"
             )
         return Status.RUNNING

@@ -1,4 +1,4 @@
-"""Noticing how deep a pushed tool has sunk into something."""
+"""Measures how deep a pushed tool or peg is inserted."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from skillc_runtime.world.terms import DEPTH, INSERTED_DEPTH, IS_SEATED
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
 
-STILL_M, STILL_S = 0.0003, 0.3
-"""A tool that stays within this for that long rests; its speed is measured with too much noise to tell."""
+REST_RANGE_M, REST_TIME_S = 0.0003, 0.3
+"""A tool that stays within REST_RANGE_M for REST_TIME_S is at rest; its measured speed is too noisy."""
 
 SEATED_SHARE = 0.9
-"""A peg that is in by this share of the hole's depth is at its bottom, as is one that seems as much too deep: where the
-opening is, is not known better than that."""
+"""A peg is at the bottom of a hole if its depth differs from the hole's by at most the rest of this share: the position
+of the opening is not known better than that."""
 
 
 class SinkBelow(Primitive):
-    """Wait up to `patience` s until the tool is `depth` m below a target, against the unit direction `along` (3,)."""
+    """Waits up to `patience` s until the tool is `depth` m below a target, against the unit direction `along` (3,)."""
 
     def __init__(self, cell: Cell, *, arm: str, target: Pose, along: Array, depth: float, patience: float) -> None:
         super().__init__(cell)
@@ -34,12 +34,12 @@ class SinkBelow(Primitive):
         self._depth, self._patience, self._began, self._deepest = depth, patience, 0.0, -np.inf
 
     def start(self) -> None:
-        """Begin to wait."""
+        """Start waiting."""
         raise_fault(self.arm)
         self._began = self.cell.now
 
     def tick(self) -> Status:
-        """Return SUCCESS once the tool is deep enough."""
+        """Return SUCCESS when the tool is deep enough."""
         raise_fault(self.arm)
         depth = float(self._along @ (self._target - self.arm.pose.position))
         self._deepest = max(self._deepest, depth)
@@ -54,7 +54,7 @@ class SinkBelow(Primitive):
 
 
 class Seat(Primitive):
-    """Wait up to `patience` s until a pushed peg rests in a socket; note its depth, and whether it is at the bottom."""
+    """Waits up to `patience` s until a pushed peg rests in a socket; writes its depth and if it is at the bottom."""
 
     def __init__(self, cell: Cell, *, arm: str, object: str, socket: str, patience: float) -> None:
         super().__init__(cell)
@@ -63,7 +63,7 @@ class Seat(Primitive):
         self._opening, self._place = Pose.of((0.0, 0.0, 0.0)), np.zeros(3)
 
     def start(self) -> None:
-        """Look up where the opening is believed to be; SkillFailure when the hole's depth is not known."""
+        """Look up the assumed pose of the opening; SkillFailure if the depth of the hole is not known."""
         raise_fault(self.arm)
         state = self.cell.world.snapshot()
         try:
@@ -75,12 +75,12 @@ class Seat(Primitive):
         self._place = self.arm.pose.position
 
     def tick(self) -> Status:
-        """Return SUCCESS once the peg rests at the bottom."""
+        """Return SUCCESS when the peg rests at the bottom; SkillFailure if it rests elsewhere or time is up."""
         raise_fault(self.arm)
         place = self.arm.pose.position
-        if float(np.linalg.norm(place - self._place)) > STILL_M:
+        if float(np.linalg.norm(place - self._place)) > REST_RANGE_M:
             self._place, self._came_at = place, self.cell.now
-        resting = self.cell.now - self._came_at >= STILL_S
+        resting = self.cell.now - self._came_at >= REST_TIME_S
         if not resting and self.cell.now - self._began <= self._patience:
             return Status.RUNNING
         depth = -float(self._opening.inverse().at(self.arm.pose.position)[2])

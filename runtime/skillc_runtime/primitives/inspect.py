@@ -1,4 +1,4 @@
-"""Looking at a surface and noting what was seen."""
+"""Inspects how much of a surface is wiped."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from skillc_runtime.world.terms import CLEAN_THRESHOLD, COVERAGE, IS_CLEAN
 
 
 class Inspect(Primitive):
-    """Measures which share of a surface is wiped; it is clean when that share reaches the surface's threshold."""
+    """Measures the share of a surface that is wiped; it is clean if that reaches the surface's threshold."""
 
     def __init__(self, cell: Cell, *, surface: str) -> None:
         super().__init__(cell)
         self._surface = surface
 
     def start(self) -> None:
-        """SkillFailure when the world model does not say from which share on the surface is clean."""
+        """SkillFailure if the world model has no threshold for the surface."""
         short = self.cell.world.snapshot().vocabulary.short
         if not isinstance(self._threshold(), float):
             raise SkillFailure(f"the world model has no wiping:cleanThreshold for {short(self._surface)}")
 
     def tick(self) -> Status:
-        """Look, and note coverage and cleanness."""
+        """Measure, write coverage and cleanness, and return SUCCESS."""
         seen, threshold = self.cell.camera().inspect(self._surface), self._threshold()
         clean = isinstance(threshold, float) and seen >= threshold
         self.cell.world.commit(

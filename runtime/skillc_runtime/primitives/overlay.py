@@ -1,4 +1,4 @@
-"""Motions that are added to whatever the arm does, until halted."""
+"""Overlays: motions that are added to the motion of an arm until they are halted."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ import numpy as np
 from skillc_runtime.motion.overlays import Circle, Lissajous, Spiral
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import Overlay
-from skillc_runtime.primitives.arm_motion import unfit
+from skillc_runtime.primitives.arm_motion import infeasible_motion
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.robots.feasible import Infeasible
 
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
 
-FADE_S = 0.5
-"""In which an overlay grows, and fades."""
+FADE_TIME_S = 0.5
+"""Time in which an overlay fades in and out."""
 
-ACROSS = 0.1
-"""A direction of which so little lies in a plane is across it."""
+MIN_IN_PLANE_SHARE = 0.1
+"""A direction with a smaller share than this in a plane counts as normal to it."""
 
 
 class AddedMotion(Primitive):
-    """A motion that is added along `axes` (3, 3) of the world and runs until it is halted.
+    """A motion that is added along `axes` (3, 3) in the world frame until it is halted.
 
-    `name` says what it is, `speed` m/s how fast at most.
+    `name` describes it in messages; `speed` is its maximum speed in m/s.
     """
 
     def __init__(self, cell: Cell, arm: str, overlay: Overlay, axes: Array, name: str, speed: float) -> None:
@@ -37,19 +37,19 @@ class AddedMotion(Primitive):
         self._name, self._speed = name, speed
 
     def start(self) -> None:
-        """Begin, growing from nothing; SkillFailure where the motion is faster than the arm allows."""
+        """Fade in; SkillFailure if the motion is faster than the arm allows."""
         if self._speed > self.arm.gains.speed_limit:
             raise SkillFailure(
                 f"{self._name} runs with {self._speed:.2f} m/s, "
                 f"faster than the {self.arm.gains.speed_limit:g} m/s the arm allows"
             )
         try:
-            self._handle = self.arm.add_overlay(self._overlay, self._axes, FADE_S)
+            self._handle = self.arm.add_overlay(self._overlay, self._axes, FADE_TIME_S)
         except Infeasible as why:
-            raise unfit(self.cell, self.arm, why) from why
+            raise infeasible_motion(self.cell, self.arm, why) from why
 
     def tick(self) -> Status:
-        """Go on."""
+        """Return RUNNING."""
         return Status.RUNNING
 
     def halt(self, reason: str) -> None:
@@ -58,34 +58,33 @@ class AddedMotion(Primitive):
 
 
 class OverlayCircle(AddedMotion):
-    """Circle in the plane with the normal `plane` (3,): `radius` m, `rate` turns per s."""
+    """A circle in the plane with the normal `plane` (3,): `radius` m, `rate` turns per s."""
 
     def __init__(self, cell: Cell, *, arm: str, plane: Array, radius: float, rate: float) -> None:
         circle = Circle(radius, rate)
         name = f"a circle of {1000 * radius:g} mm at {rate:g} Hz"
-        super().__init__(cell, arm, circle, axes_across(plane), name, circle.speed)
+        super().__init__(cell, arm, circle, axes_with_normal(plane), name, circle.speed)
 
 
 class OverlaySine(AddedMotion):
-    """Swing along `along` (3,): `amplitude` m to either side, `rate` times per s."""
+    """A sine along `along` (3,): `amplitude` m to either side, `rate` periods per s."""
 
     def __init__(self, cell: Cell, *, arm: str, along: Array, amplitude: float, rate: float) -> None:
         sine = Lissajous(np.array([0.0, 0.0, amplitude]), np.full(3, rate), np.zeros(3))
         name = f"a swing of {1000 * amplitude:g} mm at {rate:g} Hz"
-        super().__init__(cell, arm, sine, axes_across(along), name, 2 * pi * rate * amplitude)
+        super().__init__(cell, arm, sine, axes_with_normal(along), name, 2 * pi * rate * amplitude)
 
 
 class OverlaySpiral(AddedMotion):
-    """Spiral outwards in the plane with the normal `plane` (3,): turns `pitch` m apart, `speed` m/s, to `radius` m."""
+    """A spiral in the plane with the normal `plane` (3,): turns `pitch` m apart, at `speed` m/s to `radius` m."""
 
     def __init__(self, cell: Cell, *, arm: str, plane: Array, pitch: float, speed: float, radius: float) -> None:
-        super().__init__(cell, arm, Spiral(pitch, speed, radius), axes_across(plane), "a spiral", speed)
+        super().__init__(cell, arm, Spiral(pitch, speed, radius), axes_with_normal(plane), "a spiral", speed)
 
 
 class OverlayLissajous(AddedMotion):
-    """Swing `width` m to either side along `along` (3,), `height` m across it in the plane, each at its own rate per s.
-
-    `phase` rad is how far the swing along `along` is ahead at the start.
+    """A Lissajous figure: `width` m to either side along `along` (3,) at `rate` periods per s, and `height` m across it
+    in the plane with the normal `plane` (3,) at `across_rate`; `phase` rad is that of the sine along `along`.
     """
 
     def __init__(
@@ -103,20 +102,20 @@ class OverlayLissajous(AddedMotion):
     ) -> None:
         figure = Lissajous(np.array([width, height, 0.0]), np.array([rate, across_rate, 0.0]), np.array([phase, 0, 0]))
         name = f"a figure of {1000 * width:g} mm at {rate:g} Hz by {1000 * height:g} mm at {across_rate:g} Hz"
-        super().__init__(cell, arm, figure, _axes_along(plane, along), name, figure.speed)
+        super().__init__(cell, arm, figure, _axes_in_plane(plane, along), name, figure.speed)
 
 
-def _axes_along(plane: Array, along: Array) -> Array:
-    """Return axes (3, 3): x along a direction as it lies in the plane, z the plane's normal; SkillFailure for none."""
+def _axes_in_plane(plane: Array, along: Array) -> Array:
+    """Return axes (3, 3): x the projection of `along` on the plane, z its normal; SkillFailure if they are parallel."""
     x = along - (along @ plane) * plane
-    if np.linalg.norm(x) < ACROSS * np.linalg.norm(along):
+    if np.linalg.norm(x) < MIN_IN_PLANE_SHARE * np.linalg.norm(along):
         raise SkillFailure("a figure needs a direction `along` that lies in its plane, not one across it")
     x /= np.linalg.norm(x)
     return np.column_stack([x, np.cross(plane, x), plane])
 
 
-def axes_across(normal: Array) -> Array:
-    """Return axes (3, 3) whose z is the unit normal."""
+def axes_with_normal(normal: Array) -> Array:
+    """Return axes (3, 3) whose z axis is the unit normal (3,)."""
     near = np.eye(3)[int(np.abs(normal).argmin())]
     x = np.cross(near, normal)
     x /= np.linalg.norm(x)

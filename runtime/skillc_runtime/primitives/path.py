@@ -1,4 +1,4 @@
-"""Following a path with the tool."""
+"""Moves the tool along a path."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ if TYPE_CHECKING:
 
 
 class FollowPath(ArmMotion):
-    """Move the tool through all poses of `path` at `speed` m/s; corners are cut by `blend` m at most."""
+    """Moves the tool through all poses of `path` at `speed` m/s; corners are blended by at most `blend` m."""
 
     def __init__(self, cell: Cell, *, arm: str, path: Sequence[Pose], speed: float, blend: float) -> None:
         super().__init__(cell, arm)
         self._poses, self._speed, self._blend = path, speed, blend
 
-    def go(self) -> None:
-        """Plan the path from where the reference rests, and go."""
+    def start_motion(self) -> None:
+        """Start the path from the stopping pose."""
         limits = self.limits(self._speed)
         self.arm.move_along(path_through([self.arm.anchor, *self._poses], limits, self._blend))

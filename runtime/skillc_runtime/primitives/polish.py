@@ -1,4 +1,4 @@
-"""Looking at a polished surface and noting what was seen."""
+"""Inspects how much of a surface is polished."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from skillc_runtime.world.terms import IS_POLISHED, POLISH_THRESHOLD, POLISH_TIM
 
 
 class InspectPolish(Primitive):
-    """Measures which share of a surface was rubbed long enough; it is polished when that share is large enough."""
+    """Measures the share of a surface that was rubbed long enough; it is polished if that reaches its threshold."""
 
     def __init__(self, cell: Cell, *, surface: str) -> None:
         super().__init__(cell)
         self._surface, self._time, self._threshold = surface, 0.0, 1.0
 
     def start(self) -> None:
-        """SkillFailure when the world model does not say when the surface counts as polished."""
+        """SkillFailure if the world model has no polishing time or threshold for the surface."""
         state = self.cell.world.snapshot()
         try:
             self._time, self._threshold = (number(state, self._surface, p) for p in (POLISH_TIME, POLISH_THRESHOLD))
@@ -25,7 +25,7 @@ class InspectPolish(Primitive):
             raise SkillFailure(str(error)) from error
 
     def tick(self) -> Status:
-        """Look, and note what was seen."""
+        """Measure, write the results, and return SUCCESS."""
         seen = self.cell.camera().rubbed(self._surface, self._time)
         polished = SetProperty(self._surface, IS_POLISHED, seen >= self._threshold)
         self.cell.world.commit([SetProperty(self._surface, POLISHED_SHARE, seen), polished], "Inspect", "sensed")

@@ -1,4 +1,4 @@
-"""The life cycle of a primitive skill and what it may touch."""
+"""The life cycle of a primitive skill."""
 
 from __future__ import annotations
 
@@ -22,18 +22,18 @@ class Status(Enum):
 
 
 class SkillFailure(Exception):
-    """A primitive cannot do what was asked; the message tells the user why, with numbers."""
+    """A primitive cannot do what it was called for; the message says why, with numbers."""
 
 
 class Primitive:
-    """One run of a primitive skill: made with its bound arguments when it starts, never used twice.
+    """One run of a primitive skill: created with its arguments when it starts, used once.
 
     A subclass takes the cell and its parameters by name: `__init__(self, cell, *, arm: str, speed: float)`.
-    Individuals come as IRIs, quantities in SI units, unset optional parameters as None. Any method may raise
-    SkillFailure; from `start` it means that another implementation may be tried.
+    Individuals are passed as IRIs, quantities in SI units, unset optional parameters as None. Any method may raise
+    SkillFailure; raised by `start` it means that another implementation may be tried.
 
-    `text_names` says which texts name something, so that a misspelt one is reported before anything runs: a parameter
-    with the parameter to start from, the relations to follow and the property whose values are the names, as IRIs.
+    `text_names` declares texts that name something, so that a misspelt one is reported before anything runs: for a
+    parameter, the parameter to start from, the relations to follow and the property with the names, as IRIs.
     """
 
     text_names: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType({})
@@ -43,20 +43,20 @@ class Primitive:
         self.outputs: dict[str, object] = {}
 
     def start(self) -> None:
-        """Begin; nothing may have moved when this raises."""
+        """Start; nothing may have moved if this raises."""
 
     def tick(self) -> Status:
-        """Go on for one tick and return RUNNING or SUCCESS."""
+        """Do the work of one tick and return RUNNING or SUCCESS."""
         raise NotImplementedError
 
     def halt(self, reason: str) -> None:
-        """Stop safely at once. Called exactly once, also after an error, unless `start` refused or `tick` succeeded."""
+        """Stop safely at once; called once after `start`, unless it raised SkillFailure or `tick` returned SUCCESS."""
 
     def pause(self) -> None:
-        """Hold still until `resume`."""
+        """Stop moving until `resume`."""
 
     def resume(self) -> None:
-        """Go on after `pause`."""
+        """Continue after `pause`."""
 
     def release(self) -> None:
-        """Undo what a scoped skill set up; called once when its scope ends, however it ends."""
+        """Undo what a scoped skill set up; called exactly once when its scope ends."""

@@ -1,4 +1,4 @@
-"""A primitive that stands in for code still to be written, so that skills can be checked, planned and tried before."""
+"""A placeholder for code that is not written yet, so that skills can be checked, planned and tried."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ if TYPE_CHECKING:
 
 
 class StandIn(Primitive):
-    """Succeeds at once and moves nothing, whatever the parameters; the skill's posts are applied as ever."""
+    """Succeeds at once without moving anything, with any parameters; the skill's posts are applied as usual."""
 
     def __init__(self, cell: Cell, **parameters: object) -> None:
         super().__init__(cell)
 
     def tick(self) -> Status:
-        """Be done."""
+        """Return SUCCESS."""
         return Status.SUCCESS

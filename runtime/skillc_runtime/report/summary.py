@@ -9,13 +9,13 @@ import numpy as np
 from msgspec import structs
 
 from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.execution.task_run import Execution
 from skillc_runtime.planning.plan import describe_quality
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.report.choices import Choices as Choices
 from skillc_runtime.report.result import ChoiceResult, StepResult, TaskResult
 from skillc_runtime.report.wiping import Wiping, judge
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.task import Execution
 from skillc_runtime.trace.events import ImplementationChosen
 from skillc_runtime.trace.outcome import Outcome
 from skillc_runtime.world.terms import COMPLIANT_CONTROLLER
@@ -28,7 +28,10 @@ ENDED: Mapping[Status, Literal["success", "failure", "halted"]] = {
 
 
 def summarise(
-    execution: Execution, choices: Mapping[int, ImplementationChosen], library: SkillLibrary, wipings: Sequence[Wiping]
+    execution: Execution[SimulatedCell],
+    choices: Mapping[int, ImplementationChosen],
+    library: SkillLibrary,
+    wipings: Sequence[Wiping],
 ) -> TaskResult:
     """Return everything that reports, tables and JSON say of a task that ran; `wipings` are those in it."""
     cell, last = execution.cell, execution.last
@@ -56,7 +59,7 @@ def summarise(
         variation=_variation(cell),
         wiping=judged[0] if judged else None,
         wipings=judged,
-        replanned=tuple(each.why for each in execution.attempts[:-1]),
+        replanned=tuple(each.reason for each in execution.attempts[:-1]),
         failure=_told(execution),
     )
 
@@ -122,7 +125,7 @@ def _variation(cell: SimulatedCell) -> str:
     return "; ".join((*surfaces, *fixtures, *people))
 
 
-def _told(execution: Execution) -> str | None:
+def _told(execution: Execution[SimulatedCell]) -> str | None:
     """Say why a task failed, with the calls that led there, outermost first; what stopped it when it was halted."""
     failure = execution.failure
     if failure is None or execution.status is Status.HALTED:

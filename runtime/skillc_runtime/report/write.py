@@ -7,19 +7,24 @@ from pathlib import Path
 
 import msgspec
 
+from skillc_runtime.execution.task_run import Execution
 from skillc_runtime.report import page
 from skillc_runtime.report.drawing import Drawing
 from skillc_runtime.report.figures import Drawn, wiping_figure
 from skillc_runtime.report.result import TaskResult
+from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.film import Filmed
-from skillc_runtime.task import Execution
 
 FIGURE = "wiping"
 """Name of the figure's files, but for their ending."""
 
 
 def write_report(
-    directory: Path, result: TaskResult, execution: Execution, drawings: Sequence[Drawing], filmed: Filmed | None
+    directory: Path,
+    result: TaskResult,
+    execution: Execution[SimulatedCell],
+    drawings: Sequence[Drawing],
+    filmed: Filmed | None,
 ) -> None:
     """Write report.html and result.json, and the figure of what was wiped; OSError where the folder refuses."""
     figure = write_figure(directory, drawings)

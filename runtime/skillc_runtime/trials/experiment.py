@@ -10,11 +10,18 @@ from pathlib import Path
 
 from skillc_compiler.library import codec
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, Refused, prepare
+from skillc_runtime.execution.assignment import (
+    AchieveGoal,
+    Assignment,
+    ExecuteBody,
+    NotStarted,
+    PreparedTask,
+    prepare_task,
+)
+from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.report.summary import Choices, summarise
 from skillc_runtime.report.wiping import find_wipings
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.task import execute
 from skillc_runtime.trace.events import Listener
 from skillc_runtime.trace.known import assumed
 from skillc_runtime.trials.disturbance import Person, reality
@@ -47,22 +54,22 @@ class Laboratory:
         self._library = codec.loads(experiment.library, "the library")
         self._state = load_scene(experiment.scene, self._library.vocabulary)
         self._disturbance = experiment.disturbance
-        self._prepared = prepare(_assignment(experiment.task, self._library, self._state), self._library)
+        self._prepared = prepare_task(_assignment(experiment.task, self._library, self._state), self._library)
 
     def run(self, seed: int) -> Trial:
         """Run the task once."""
-        if isinstance(self._prepared, Refused):
-            return Trial(seed=seed, status="refused", reason=self._prepared.why)
+        if isinstance(self._prepared, NotStarted):
+            return Trial(seed=seed, status="refused", reason=self._prepared.reason)
         try:
             cell = SimulatedCell(WorldModel(self._state), seed, reality=partial(reality, self._disturbance))
         except (SheetError, FrameError) as error:
             return Trial(seed=seed, status="refused", reason=f"the scene cannot be simulated: {error}")
         return self._run(self._prepared, cell)
 
-    def _run(self, prepared: Prepared, cell: SimulatedCell) -> Trial:
+    def _run(self, prepared: PreparedTask, cell: SimulatedCell) -> Trial:
         choices, person = Choices(), Person(cell)
         pushed: Sequence[Listener] = (person,) if self._disturbance == "push" else ()
-        execution = execute(prepared, self._library, cell, (choices, *pushed), person.watch)
+        execution = execute_task(prepared, self._library, cell, (choices, *pushed), person.watch)
         trees = tuple(attempt.tree for attempt in execution.attempts)
         wipings = find_wipings(trees, choices, cell)
         result = summarise(execution, choices, self._library, wipings)
@@ -88,9 +95,9 @@ class Laboratory:
 def _assignment(task: str, library: SkillLibrary, state: WorldState) -> Assignment:
     goal, body = library.tasks[task].goal, library.tasks[task].body
     if goal is not None:
-        return Assignment(task, state, Reach(goal))
+        return Assignment(task, state, AchieveGoal(goal))
     assert body is not None, "a task has a goal or a body"
-    return Assignment(task, state, Perform(body))
+    return Assignment(task, state, ExecuteBody(body))
 
 
 def _greatest_force(cell: SimulatedCell) -> float:

@@ -11,14 +11,14 @@ from fuzz.kinds._domains import Domains
 from oracle.forced import TooManyStates, cheapest, seconds
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.planning.makespan.minimise import minimise_makespan
+from skillc_runtime.planning.makespan.simulation import simulate_schedule
 from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.problem.pose import GoalError, pose_problem
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import apply_step, check_goal_reached
-from skillc_runtime.plans.quickest import quickest
-from skillc_runtime.plans.rehearsal import rehearse
 from skillc_runtime.world.state import WorldState
 
 SECONDS = 30.0
@@ -96,9 +96,9 @@ def _check(
 def _check_schedule(
     library: SkillLibrary, state: WorldState, goal: Condition, planner: Planner, least_s: float | None
 ) -> None:
-    answer = quickest(library, state, goal, Planners((planner,), None), DEADLINE_S)
+    answer = minimise_makespan(library, state, goal, Planners((planner,), None), DEADLINE_S)
     if isinstance(answer, Scheduled):
-        rehearse(answer.schedule, library, state, goal)
+        simulate_schedule(answer.schedule, library, state, goal)
         _work_s(answer.plan, library, state, goal)
         assert answer.schedule.makespan_s <= answer.plan.duration_s + SLACK_S
         assert (answer.at_least_s or 0.0) <= answer.schedule.makespan_s + SLACK_S

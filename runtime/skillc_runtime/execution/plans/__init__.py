@@ -1,0 +1,1 @@
+"""Executes plans: bodies that run their steps, progress, and which steps have failed."""

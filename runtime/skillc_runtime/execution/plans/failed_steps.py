@@ -1,0 +1,99 @@
+"""Steps of plans that failed, so that none is repeated in a way that can only fail again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.planning.plan import Step
+from skillc_runtime.planning.touched import Fact, changed_between, read_by
+from skillc_runtime.planning.validation import PlanError, apply_step, find_startable_implementations
+from skillc_runtime.world.expressions import EvaluationError
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.values import Value
+
+
+@dataclass(frozen=True, slots=True)
+class FailedStep:
+    """A call with the implementation that failed, the state of the world in which it started, and the reason."""
+
+    step: Step
+    implementation: str
+    state: WorldState
+    reason: str
+
+
+class FailedSteps:
+    """The steps that failed in the attempts at one goal.
+
+    An implementation that failed for some arguments is not tried for them again until a fact changes that the skill
+    reads, or that is about one of the arguments: a primitive may read anything about them.
+    """
+
+    def __init__(self, library: SkillLibrary) -> None:
+        self._library = library
+        self._failed: list[FailedStep] = []
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """The steps that failed, each once."""
+        found: list[Step] = []
+        for each in self._failed:
+            if each.step not in found:
+                found.append(each.step)
+        return tuple(found)
+
+    def add(
+        self, skill: str, arguments: Mapping[str, Value], implementation: str, state: WorldState, reason: str
+    ) -> None:
+        """Remember that an implementation failed for a call that started in `state`."""
+        named = {name: value for name, value in arguments.items() if isinstance(value, str)}
+        self._failed.append(FailedStep(Step(skill, named), implementation, state, reason))
+
+    def reason_to_skip(
+        self, skill: str, arguments: Mapping[str, Value], implementation: str, state: WorldState
+    ) -> str | None:
+        """Return why an implementation would fail again for these arguments, None if it may be tried."""
+        for each in self._failed:
+            same = each.step.skill == skill and each.implementation == implementation
+            if same and each.step.arguments == arguments and not self._has_changed(each, state):
+                return f"it has failed, and nothing that it depends on has changed since: {each.reason}"
+        return None
+
+    def find_repeated(self, steps: Sequence[Step], state: WorldState) -> tuple[Step, ...]:
+        """Return the steps of a plan, which starts in `state`, that can only fail again."""
+        found: list[Step] = []
+        for step in steps:
+            try:
+                possible = find_startable_implementations(step, self._library, state)
+                if all(self.reason_to_skip(step.skill, step.arguments, each.name, state) for each in possible):
+                    found.append(step)
+                state = apply_step(step, self._library, state)
+            except (PlanError, EvaluationError):
+                break
+        return tuple(found)
+
+    def describe(self) -> str:
+        """Return a list of all steps that failed, with the reasons."""
+        return "; ".join(dict.fromkeys(map(self._describe_step, self._failed)))
+
+    def _describe_step(self, failed: FailedStep) -> str:
+        short = failed.state.vocabulary.short
+        arguments = ", ".join(f"{name}: {short(iri)}" for name, iri in failed.step.arguments.items())
+        return f"{failed.step.skill}[{failed.implementation}]({arguments}): {failed.reason}"
+
+    def _has_changed(self, failed: FailedStep, state: WorldState) -> bool:
+        changed = tuple(changed_between(failed.state, state))
+        about = set(failed.step.arguments.values())
+        return any(
+            not about.isdisjoint((fact.subject, fact.object)) or any(fact.meets(read) for read in self._reads(failed))
+            for fact in changed
+        )
+
+    def _reads(self, failed: FailedStep) -> Iterator[Fact]:
+        step = failed.step
+        implementation = self._library.implementations[f"{step.skill}.{failed.implementation}"]
+        skill = self._library.skills[step.skill]
+        for requirement in (*skill.pre, *skill.hold, *implementation.pre, *implementation.hold):
+            yield from read_by(requirement.condition, step.arguments, failed.state)

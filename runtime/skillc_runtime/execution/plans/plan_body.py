@@ -1,0 +1,77 @@
+"""Turns a plan into a body: calls in the arrangement of its steps, each skipped if what it would achieve holds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TypeVar, assert_never
+
+import msgspec
+
+from skillc_compiler.library import tree
+from skillc_compiler.library.conditions import And, Condition, Expression, Individual, Not, Variable
+from skillc_compiler.library.reading import free_variables
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSeries
+from skillc_runtime.planning.plan import Plan, Step
+
+S = TypeVar("S", bound=msgspec.Struct)
+
+
+def build_plan_body(plan: Plan, arrangement: Arrangement, library: SkillLibrary) -> tree.Node:
+    """Return the body that runs the steps of a plan in the given arrangement."""
+    if not plan.steps:
+        return tree.Sequence(children=(), reactive=False, source=Position(path=library.name, line=1, column=1))
+    return _build_arrangement(arrangement, plan.steps, library)
+
+
+def achieved_condition(step: Step, library: SkillLibrary) -> Condition | None:
+    """Return the condition that a step is to achieve: all its posts; None if it has none, or if one is not ground."""
+    individuals = {name: Individual(iri) for name, iri in step.arguments.items()}
+    posts = library.skills[step.skill].post
+    if not posts or any(free_variables(post.condition) - individuals.keys() for post in posts):
+        return None
+    return And(tuple(_substitute(post.condition, individuals) for post in posts))
+
+
+def _build_arrangement(arrangement: Arrangement, steps: tuple[Step, ...], library: SkillLibrary) -> tree.Node:
+    match arrangement:
+        case int():
+            return _build_step(steps[arrangement], library)
+        case InSeries(parts):
+            children = tuple(_build_arrangement(part, steps, library) for part in parts)
+            return tree.Sequence(children=children, reactive=False, source=children[0].source)
+        case InParallel(parts):
+            children = tuple(_build_arrangement(part, steps, library) for part in parts)
+            return tree.Parallel(policy="all", children=children, source=children[0].source)
+        case _:
+            assert_never(arrangement)
+
+
+def _build_step(step: Step, library: SkillLibrary) -> tree.Node:
+    skill = library.skills[step.skill]
+    arguments: dict[str, Expression] = {name: Individual(iri) for name, iri in step.arguments.items()}
+    call = tree.Call(skill=skill.name, implementation=None, arguments=arguments, out=None, source=skill.source)
+    achieved = achieved_condition(step, library)
+    if achieved is None:
+        return call
+    text = " and ".join(post.text for post in skill.post)
+    return tree.If(condition=Not(achieved), text=f"not ({text})", then=call, orelse=None, source=skill.source)
+
+
+def _substitute(item: S, individuals: Mapping[str, Individual]) -> S:
+    """Return a condition or expression with variables replaced by individuals."""
+    fields = {name: _substitute_value(getattr(item, name), individuals) for name in item.__struct_fields__}
+    return msgspec.structs.replace(item, **fields)
+
+
+def _substitute_value(value: object, individuals: Mapping[str, Individual]) -> object:
+    match value:
+        case Variable(name=name):
+            return individuals.get(name, value)
+        case msgspec.Struct():
+            return _substitute(value, individuals)
+        case tuple():
+            return tuple(_substitute_value(each, individuals) for each in value)
+        case _:
+            return value

@@ -1,0 +1,70 @@
+"""The progress of a plan, and whether the rest of it still leads to the goal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from skillc_compiler.library.conditions import Condition
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.execution.plans.plan_body import achieved_condition
+from skillc_runtime.planning.plan import Step
+from skillc_runtime.planning.validation import PlanError, apply_effects, apply_step, check_goal_reached
+from skillc_runtime.trace.outcome import Outcome
+from skillc_runtime.world.conditions import evaluate
+from skillc_runtime.world.expressions import EvaluationError
+from skillc_runtime.world.model import WorldError
+from skillc_runtime.world.state import WorldState
+
+STEP_KINDS = ("call", "if")
+"""The kinds of nodes that run a step in the body of a plan: a call, or one that is skipped if nothing is left to do."""
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """The steps of a plan in the order of its body, each with the outcome of its node."""
+
+    steps: tuple[tuple[Step, Outcome], ...]
+
+    def with_status(self, status: str) -> tuple[Step, ...]:
+        """Return the steps with a status: idle, running, success, failure or halted."""
+        return tuple(step for step, outcome in self.steps if outcome.status == status)
+
+
+def measure_progress(steps: Sequence[Step], tree: Outcome) -> Progress:
+    """Return the progress of steps, given in the order of the body that `tree` is the outcome of."""
+    return Progress(tuple(zip(steps, find_step_outcomes(tree), strict=True)))
+
+
+def find_step_outcomes(tree: Outcome) -> Iterator[Outcome]:
+    """Yield the outcome of each step from the outcome of a plan's body."""
+    if tree.kind in STEP_KINDS:
+        yield tree
+    else:
+        for child in tree.children:
+            yield from find_step_outcomes(child)
+
+
+def invalidation_reason(progress: Progress, goal: Condition, library: SkillLibrary, state: WorldState) -> str | None:
+    """Return why the plan no longer leads to the goal from `state`, None if it does.
+
+    Running steps are expected to have their effects; the remaining ones must then be able to start in order.
+    """
+    try:
+        for step in progress.with_status("running"):
+            state = apply_effects(step, library, state)
+    except (EvaluationError, WorldError):
+        return None  # in the middle of a step the world may be in a state in which its effects make no sense yet
+    for step in progress.with_status("idle"):
+        achieved = achieved_condition(step, library)
+        try:
+            state = (
+                state if achieved is not None and evaluate(achieved, state, {}) else apply_step(step, library, state)
+            )
+        except (EvaluationError, PlanError) as reason:
+            return f"{step.skill} is no longer possible: {reason}"
+    try:
+        check_goal_reached(goal, state)
+    except PlanError as reason:
+        return str(reason)
+    return None

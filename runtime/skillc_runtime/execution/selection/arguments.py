@@ -1,0 +1,64 @@
+"""Checks whether a value fits a parameter: its type, class and range."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from skillc_compiler.library.skills import Parameter
+from skillc_compiler.library.vocabulary import (
+    THING,
+    ClassType,
+    DirectionType,
+    ValueType,
+    Vocabulary,
+    local_name,
+)
+from skillc_compiler.library.words import type_text
+from skillc_runtime.execution.selection.formatting import format_value
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.typed import is_of
+from skillc_runtime.world.values import Value
+from skillc_runtime.world.vectors import is_vector
+
+
+def check_value(parameter: Parameter, value: Value, state: WorldState) -> str | None:
+    """Return why the value does not fit the parameter, None if it does."""
+    vocabulary = state.vocabulary
+    if not is_of(value, parameter.type, state):
+        return f"needs {_format_type(parameter.type, vocabulary)}, {_describe_value(value, parameter.type, state)}"
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return _check_range(parameter, float(value), vocabulary)
+    return None
+
+
+def _check_range(parameter: Parameter, value: float, vocabulary: Vocabulary) -> str | None:
+    text = format_value(value, parameter.type, vocabulary)
+    if parameter.low is not None and value < parameter.low:
+        return f"{text} is below {format_value(parameter.low, parameter.type, vocabulary)}, the minimum"
+    if parameter.high is not None and value > parameter.high:
+        return f"{text} is above {format_value(parameter.high, parameter.type, vocabulary)}, the maximum"
+    return None
+
+
+def _describe_value(value: Value, type_: ValueType, state: WorldState) -> str:
+    """Describe a value: an individual by its most specific classes."""
+    text = format_value(value, type_, state.vocabulary)
+    if isinstance(type_, DirectionType) and is_vector(value):
+        return f"not {text}, whose length is {np.linalg.norm(value):g}"
+    if not (isinstance(type_, ClassType) and isinstance(value, str)):
+        return f"not {text}"
+    if value not in state.individuals:
+        return f"{text} is not in the world model"
+    return (
+        f"{text} is {' and '.join(f'a {state.vocabulary.short(cls)}' for cls in _most_specific_classes(value, state))}"
+    )
+
+
+def _most_specific_classes(individual: str, state: WorldState) -> list[str]:
+    types = state.types(individual)
+    above = {ancestor for cls in types for ancestor in state.vocabulary.ancestors.get(cls, ()) if ancestor != cls}
+    return sorted(set(types) - above) or [THING]
+
+
+def _format_type(type_: ValueType, vocabulary: Vocabulary) -> str:
+    return local_name(type_.iri) if isinstance(type_, ClassType) else type_text(type_, vocabulary)

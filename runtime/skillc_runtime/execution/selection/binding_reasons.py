@@ -1,0 +1,48 @@
+"""Explains the values of the parameters of an implementation: where each comes from, and which facts decided."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Set
+
+from skillc_compiler.library.reading import free_variables
+from skillc_compiler.library.skills import Implementation, Parameter, Requirement
+from skillc_runtime.execution.selection.binding import BoundImplementation
+from skillc_runtime.trace.reasons import Deciding, Determined
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.support import facts_of
+from skillc_runtime.world.values import Value
+
+
+def explain_bindings(bound: BoundImplementation, passed: Set[str], state: WorldState) -> tuple[Determined, ...]:
+    """Return the reason for the value of each parameter that is not just an argument, in the order of the parameters.
+
+    Parameters to infer are included even if they were passed, since the same conditions apply to them.
+    """
+    return tuple(_explain_each(bound, passed, state))
+
+
+def _explain_each(bound: BoundImplementation, passed: Set[str], state: WorldState) -> Iterator[Determined]:
+    implementation, bindings, short = bound.implementation, bound.bindings, state.vocabulary.short
+    for parameter in implementation.parameters:
+        name, inferred = parameter.name, parameter.direction == "infer"
+        if name not in bindings or (name in passed and not inferred):
+            continue
+        yield Determined(
+            parameter=name,
+            how="passed" if name in passed else "inferred" if inferred else "default",
+            conditions=_deciding_conditions(implementation, parameter, bindings, state) if inferred else (),
+            others=tuple(short(other) for other in bound.alternatives.get(name, ())),
+        )
+
+
+def _deciding_conditions(
+    implementation: Implementation, parameter: Parameter, bindings: Mapping[str, Value], state: WorldState
+) -> tuple[Deciding, ...]:
+    """Return the preconditions that mention a parameter."""
+    about = [each for each in implementation.pre if parameter.name in free_variables(each.condition)]
+    return tuple(_make_deciding(each, bindings, state) for each in about)
+
+
+def _make_deciding(requirement: Requirement, bindings: Mapping[str, Value], state: WorldState) -> Deciding:
+    facts = facts_of([requirement.condition], state, bindings)
+    return Deciding(text=requirement.text, source=requirement.source, facts=facts)

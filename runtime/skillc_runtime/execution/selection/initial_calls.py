@@ -1,0 +1,48 @@
+"""Checks whether the calls that a body starts with can start in the current world."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.library import tree
+from skillc_compiler.library.reading import free_variables
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.execution.selection.preflight import Refusal
+from skillc_runtime.execution.selection.select import NoneSelected, explain_none_selected, select_implementation
+from skillc_runtime.world.expressions import EvaluationError, value_of
+from skillc_runtime.world.state import WorldState
+
+
+def initial_call_refusals(body: tree.Node, library: SkillLibrary, state: WorldState) -> Iterator[Refusal]:
+    """Yield why calls cannot start that a body starts with, before anything else can have changed the world."""
+    for call in _initial_calls(body):
+        if any(free_variables(argument) for argument in call.arguments.values()):
+            continue
+        try:
+            arguments = {name: value_of(argument, state, {}) for name, argument in call.arguments.items()}
+            chosen = select_implementation(library, call.skill, arguments, state, call.implementation)
+        except EvaluationError as error:
+            yield Refusal(call.skill, f"{call.skill}: {error}", call.source)
+            continue
+        if isinstance(chosen, NoneSelected):
+            yield Refusal(
+                call.skill, explain_none_selected(call.skill, chosen.rejected), call.source, (), chosen.rejected
+            )
+
+
+def _initial_calls(node: tree.Node) -> Iterator[tree.Call]:
+    """Yield the calls that start at once and whose failure is the failure of the body."""
+    match node:
+        case tree.Call():
+            yield node
+        case tree.Sequence(children=(first, *_)):
+            yield from _initial_calls(first)
+        case tree.With(call=call):
+            yield call
+        case tree.Parallel(children=children, policy="all"):
+            for child in children:
+                yield from _initial_calls(child)
+        case tree.Retry() | tree.Repeat() | tree.Timeout() | tree.Once():
+            yield from _initial_calls(node.child)
+        case _:
+            return

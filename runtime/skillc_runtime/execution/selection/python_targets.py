@@ -1,0 +1,109 @@
+"""Imports the Python classes of primitives, given as "module:Class", and checks that they can be called."""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
+
+from skillc_compiler.library.skills import Parameter
+from skillc_runtime.primitives.primitive import Primitive
+from skillc_runtime.world.foreign import EvaluationError, resolve
+
+
+class PrimitiveError(Exception):
+    """A primitive's class cannot be imported or has other parameters; the message says what to change."""
+
+
+METHOD_ARGUMENTS = {"start": (), "tick": (), "halt": ("why",), "pause": (), "resume": (), "release": ()}
+"""The methods of a primitive that are called, with placeholders for their arguments."""
+
+
+@cache
+def import_primitive(python: str) -> type[Primitive]:
+    """Import "module:Class"; PrimitiveError if it does not exist or is not a Primitive whose methods can be called."""
+    module_name, _, class_name = python.partition(":")
+    try:
+        module = importlib.import_module(module_name)
+    except (Exception, SystemExit) as error:  # user code: whatever it raises, it cannot be used
+        reason = error if isinstance(error, ImportError) else f"{type(error).__name__}: {error}"
+        raise PrimitiveError(f"the Python module of `{python}` cannot be imported: {reason}") from error
+    found = getattr(module, class_name, None)
+    if found is None:
+        raise PrimitiveError(f"the Python module {module_name} has no class {class_name}")
+    if not (isinstance(found, type) and issubclass(found, Primitive)):
+        raise PrimitiveError(f"`{python}` is not a subclass of skillc_runtime.primitives.primitive.Primitive")
+    if found.tick is Primitive.tick:
+        raise PrimitiveError(f"`{python}` has no method `tick`")
+    if not _is_valid_text_names(found.text_names):
+        raise PrimitiveError(f"`text_names` of `{python}` is not {{parameter: (parameter, relation, .., property)}}")
+    for name, values in METHOD_ARGUMENTS.items():
+        problem = _check_call(getattr(found, name), None, *values)
+        if problem is not None:
+            raise PrimitiveError(f"the method `{name}` of `{python}` cannot be called: {problem}")
+    return found
+
+
+def _is_valid_text_names(names: object) -> bool:
+    """Whether this has the form of `Primitive.text_names`."""
+    return isinstance(names, Mapping) and all(
+        isinstance(parameter, str)
+        and isinstance(chain, tuple)
+        and len(chain) > 1
+        and all(isinstance(part, str) for part in chain)
+        for parameter, chain in names.items()
+    )
+
+
+def import_matching_primitive(python: str, parameters: Sequence[Parameter]) -> type[Primitive]:
+    """Import a primitive's class and check that its constructor takes the cell and exactly these parameters by name.
+
+    Outputs are not passed. PrimitiveError lists missing and unknown parameters.
+    """
+    cls = import_primitive(python)
+    passed = tuple(parameter.name for parameter in parameters if parameter.direction != "out")
+    problem = _check_constructor(python, passed)
+    if problem is not None:
+        raise PrimitiveError(f"{cls.__name__} in `{python}` {problem}; the skill passes ({', '.join(passed)})")
+    return cls
+
+
+@cache
+def _check_constructor(python: str, passed: tuple[str, ...]) -> str | None:
+    cls = import_primitive(python)
+    reason = _check_call(cls, None, **dict.fromkeys(passed))
+    if reason is None:
+        return None
+    taken = list(inspect.signature(cls).parameters.values())[1:]
+    accepts_any = any(each.kind is each.VAR_KEYWORD for each in taken)
+    unknown = [] if accepts_any else [name for name in passed if name not in {each.name for each in taken}]
+    if unknown:
+        return f"takes no parameter {', '.join(unknown)}"
+    single = (each for each in taken if each.kind not in (each.VAR_POSITIONAL, each.VAR_KEYWORD))
+    missing = sorted({each.name for each in single if each.default is each.empty} - set(passed))
+    return f"needs the parameter {', '.join(missing)}" if missing else f"cannot be called: {reason}"
+
+
+@cache
+def check_function(python: str, count: int) -> str | None:
+    """Return why "module:function" cannot be called with the world and `count` values, None if it can."""
+    try:
+        function = resolve(python)
+    except EvaluationError as error:
+        return str(error)
+    reason = _check_call(function, None, *(None,) * count) if callable(function) else "it is not a function"
+    return None if reason is None else f"the Python function {python} cannot be called with {count} values: {reason}"
+
+
+def _check_call(called: Callable[..., object], /, *values: object, **named: object) -> str | None:
+    """Return why Python would reject a call; None if it would not, or if that cannot be determined."""
+    if inspect.iscoroutinefunction(called):
+        return "it is `async` and would not be awaited"
+    try:
+        inspect.signature(called).bind(*values, **named)
+    except TypeError as error:
+        return str(error)
+    except ValueError:
+        return None
+    return None

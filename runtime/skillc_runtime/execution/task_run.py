@@ -1,0 +1,151 @@
+"""Runs a task to its end: prepare, attempt, and replan while another plan may succeed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from time import perf_counter
+from typing import Generic, TypeVar
+
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.execution.assignment import (
+    AchieveGoal,
+    Assignment,
+    ExecuteBody,
+    NotStarted,
+    PreparedTask,
+    prepare_task,
+)
+from skillc_runtime.execution.attempt import AttemptResult, RunContext, SteppedCell, run_attempt
+from skillc_runtime.execution.plans.failed_steps import FailedSteps
+from skillc_runtime.execution.plans.progress import measure_progress
+from skillc_runtime.execution.success_facts import collect_success_facts
+from skillc_runtime.planning.plan import Step
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.trace.events import FORMAT, Listener, Replanned, TaskEnded, TaskStarted
+from skillc_runtime.trace.failure import Failure
+from skillc_runtime.trace.known import KnownFact, assumed
+from skillc_runtime.trace.listeners import Listeners
+from skillc_runtime.world.conditions import evaluate
+
+MAX_ATTEMPTS = 4
+"""How many plans are tried for one goal."""
+
+CellT = TypeVar("CellT", bound=SteppedCell)
+
+
+@dataclass(frozen=True, slots=True)
+class Execution(Generic[CellT]):
+    """How a task ended: its attempts, the cell it ran in, the wall-clock time it took.
+
+    `facts` are those that a success rests on.
+    """
+
+    attempts: tuple[AttemptResult, ...]
+    status: Status
+    failure: Failure | None
+    cell: CellT
+    wall_time_s: float
+    facts: tuple[KnownFact, ...] = ()
+
+    @property
+    def verified(self) -> bool | None:
+        """Whether a success rests on no fact that is only assumed; None if the task did not succeed."""
+        return _is_verified(self.status, self.facts)
+
+    @property
+    def last(self) -> AttemptResult:
+        """The attempt that ended the task."""
+        return self.attempts[-1]
+
+
+def execute_task(
+    prepared: PreparedTask,
+    library: SkillLibrary,
+    cell: CellT,
+    listeners: Sequence[Listener] = (),
+    after_tick: Callable[[], None] = lambda: None,
+    interrupted: Callable[[], bool] = lambda: False,
+) -> Execution[CellT]:
+    """Run a prepared task to its end; `after_tick` is called after every tick.
+
+    A plan that fails, or that no longer leads to the goal because the world changed, is replaced by a new one;
+    `MAX_ATTEMPTS` plans are tried. An implementation that failed is not tried again until something that it depends on
+    has changed. When `interrupted` returns true everything is halted, forces are released and arms are stiff again.
+    """
+    began = perf_counter()
+    emit, name = Listeners(listeners), prepared.assignment.name
+    context = RunContext(library, cell, listeners, after_tick, interrupted, FailedSteps(library))
+    emit(TaskStarted(time=cell.now, format=FORMAT, task=name, library=library.name, hash=library.hash))
+    attempts = [run_attempt(prepared, context, 0)]
+    while isinstance(following := _next_attempt(attempts, context), PreparedTask):
+        emit(Replanned(time=cell.now, reason=attempts[-1].reason))
+        attempts.append(run_attempt(following, context, attempts[-1].last_node))
+    status, failure = _final_status(attempts[-1], following)
+    facts = _success_facts(attempts[-1], cell) if status is Status.SUCCESS else ()
+    verified = _is_verified(status, facts)
+    emit(TaskEnded(time=cell.now, task=name, status=status.value, failure=failure, verified=verified, facts=facts))
+    return Execution(tuple(attempts), status, failure, cell, perf_counter() - began, facts)
+
+
+def _success_facts(last: AttemptResult, cell: SteppedCell) -> tuple[KnownFact, ...]:
+    """Return the facts that a success rests on: those of the goal, or of the posts of the body's calls."""
+    match last.prepared.assignment.objective:
+        case AchieveGoal(goal):
+            return collect_success_facts([(goal, {})], cell.world)
+        case ExecuteBody():
+            return collect_success_facts(last.claims, cell.world)
+
+
+def _is_verified(status: Status, facts: tuple[KnownFact, ...]) -> bool | None:
+    return None if status is not Status.SUCCESS else not assumed(facts)
+
+
+def _next_attempt(attempts: Sequence[AttemptResult], context: RunContext) -> PreparedTask | NotStarted | None:
+    """Return what to run next, why another plan is needed but there is none, or None if the task has ended."""
+    last, assignment = attempts[-1], attempts[-1].prepared.assignment
+    objective = assignment.objective
+    if not isinstance(objective, AchieveGoal) or (last.status is Status.HALTED and last.invalidated is None):
+        return None
+    state = context.cell.world.snapshot()
+    if last.status is Status.SUCCESS and evaluate(objective.goal, state, {}):
+        return None
+    if last.status is Status.FAILURE and not _has_failed_step(last, context.failures):
+        return None
+    if len(attempts) == MAX_ATTEMPTS:
+        return NotStarted(f"the task was tried {MAX_ATTEMPTS} times")
+    return _replan(replace(assignment, state=state), context.library, context.failures)
+
+
+def _has_failed_step(last: AttemptResult, failures: FailedSteps) -> bool:
+    """Whether a step of the plan failed, or a body that was not planned: another plan may avoid it."""
+    planned = last.prepared.planned
+    if planned is None:
+        return True
+    return any(step in failures.steps for step in measure_progress(planned.steps, last.tree).with_status("failure"))
+
+
+def _replan(assignment: Assignment, library: SkillLibrary, failures: FailedSteps) -> PreparedTask | NotStarted:
+    """Plan without the steps that failed; if there is no such plan, without those that can only fail again."""
+    prepared = prepare_task(assignment, library, failures.steps)
+    if isinstance(prepared, PreparedTask) or not failures.steps:
+        return prepared
+    without: tuple[Step, ...] = ()
+    while isinstance(prepared := prepare_task(assignment, library, without), PreparedTask) and prepared.planned:
+        repeated = failures.find_repeated(prepared.planned.steps, assignment.state)
+        if not repeated:
+            return prepared
+        without = (*without, *repeated)
+    if without:
+        message = "all remaining alternatives have failed, and nothing that they depend on has changed"
+        return NotStarted(f"{message}: {failures.describe()}")
+    return prepared
+
+
+def _final_status(last: AttemptResult, refusal: NotStarted | None) -> tuple[Status, Failure | None]:
+    """Return the status of the last attempt, or a failure if another plan was needed and there was none."""
+    if refusal is None:
+        return last.status, last.failure
+    message = f"{last.reason}; no other plan was found: {refusal.reason}"
+    source = last.failure.source if last.failure else None
+    return Status.FAILURE, Failure(kind="plan", message=message, source=source)

@@ -1,0 +1,226 @@
+"""One run of one implementation: its frame, locks, holds, body and effects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import TypeAlias, assert_never, cast
+
+from skillc_compiler.library import tree
+from skillc_compiler.library.skills import Compound, Implementation, Primitive, Skill
+from skillc_runtime.execution.selection.arguments import check_value
+from skillc_runtime.execution.selection.binding import BoundImplementation, check_requirements, describe_unmet_condition
+from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_matching_primitive
+from skillc_runtime.execution.tree.context import TreeContext
+from skillc_runtime.execution.tree.inverse_changes import inverse_changes
+from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
+from skillc_runtime.execution.tree.node import Node
+from skillc_runtime.execution.tree.primitive_node import PrimitiveNode
+from skillc_runtime.execution.tree.sensing import drop_sensed_changes, explain_not_sensed
+from skillc_runtime.execution.tree.verify_monitor import find_violation, monitored_properties
+from skillc_runtime.trace.failure import Failure, FailureKind, Rejected, Stage
+from skillc_runtime.world.changes import Change
+from skillc_runtime.world.conditions import evaluate
+from skillc_runtime.world.effects import changes_of
+from skillc_runtime.world.expressions import value_of
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.values import Value
+
+BuildNode: TypeAlias = Callable[[tree.Node, TreeContext, LexicalScope], Node]
+
+
+class Activation:
+    """An implementation that runs for a call, which holds its locks. `body` is its node, not started yet.
+
+    `holds_checked_in` is the snapshot in which the holds held last: they need not be evaluated in it again.
+    """
+
+    __slots__ = (
+        "_context",
+        "_holder",
+        "_state_at_start",
+        "_writes_at_start",
+        "body",
+        "bound",
+        "frame",
+        "holds_checked_in",
+        "implementation",
+        "skill",
+    )
+
+    def __init__(
+        self, context: TreeContext, skill: Skill, bound: BoundImplementation, holder: object, body: Node, writes: int
+    ) -> None:
+        self.bound = bound
+        self.implementation = bound.implementation
+        self.skill = skill
+        self.frame: Frame = bound.bindings
+        self.body = body
+        self.holds_checked_in: WorldState = context.state
+        self._state_at_start, self._writes_at_start = context.state, writes
+        self._context = context
+        self._holder = holder
+
+    def check_holds(self) -> Failure | None:
+        """Return the failure of the first hold that does not hold in this tick's state, None if all hold."""
+        state = self._context.state
+        for hold in self.implementation.hold:
+            if not evaluate(hold.condition, state, self.frame):
+                message = describe_unmet_condition(self.implementation, hold, "hold", self.frame, state)
+                return Failure(kind="hold", message=message, source=hold.source, skill=self.skill.name)
+        self.holds_checked_in = state
+        return None
+
+    @property
+    def needs_monitoring(self) -> bool:
+        """Whether holds or `verify` lines must be checked in each tick."""
+        return bool(self.implementation.hold) or bool(monitored_properties(self.implementation))
+
+    def check_properties(self) -> Failure | None:
+        """Return the failure of the first `verify` line that is violated now."""
+        context = self._context
+        return find_violation(self.implementation, context.cell, context.library.vocabulary, context.state, self.frame)
+
+    def apply_results(self) -> Failure | None:
+        """After the body succeeded: read a primitive's outputs, write its posts, check both; return what is wrong."""
+        self._context.refresh_state()
+        if isinstance(self.body, PrimitiveNode):
+            problem = self._read_outputs(self.body.outputs)
+            if problem is not None:
+                return problem
+            self._write_posts(self.body)
+        return self._check_outputs() or self._check_posts()
+
+    def release_locks(self) -> None:
+        """Release the locks of the call."""
+        self._context.locks.release(self._holder)
+
+    def posts_hold(self) -> bool:
+        """Whether all posts hold in this tick's state."""
+        return all(evaluate(post.condition, self._context.state, self.frame) for post in self.implementation.post)
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """The names of the output parameters."""
+        return tuple(parameter.name for parameter in self.implementation.parameters if parameter.direction == "out")
+
+    def _read_outputs(self, outputs: Mapping[str, object]) -> Failure | None:
+        """Copy the primitive's outputs to the frame; return the failure of one that does not fit its parameter."""
+        for parameter in self.implementation.parameters:
+            if parameter.direction == "out" and parameter.name in outputs:
+                value = cast("Value", outputs[parameter.name])
+                problem = check_value(parameter, value, self._context.state)
+                if problem is not None:
+                    return self._failure("error", f"output `{parameter.name}` {problem}")
+                self.frame[parameter.name] = value
+        return None
+
+    def _write_posts(self, body: PrimitiveNode) -> None:
+        effects = tuple(e for post in self.implementation.post if not post.sensed for e in post.effects)
+        before = self._context.state
+        changes = changes_of(effects, before, self.frame)
+        assumed = drop_sensed_changes(changes, self._context.cell.world, self._writes_at_start)
+        if assumed:
+            self._context.write_assumed(assumed, self.skill.name)
+        if changes:
+            start, after = before if assumed == changes else self._state_at_start, self._context.state
+            body.undo_posts = partial(_undo_posts, self._context, self.skill.name, changes, start, after)
+
+    def _check_outputs(self) -> Failure | None:
+        missing = [name for name in self.outputs if name not in self.frame]
+        if not missing:
+            return None
+        return self._failure("body", f"{self.skill.name} succeeded without assigning `{missing[0]}`")
+
+    def _failure(self, kind: FailureKind, message: str) -> Failure:
+        return Failure(kind=kind, message=message, source=self.implementation.source, skill=self.skill.name)
+
+    def _check_posts(self) -> Failure | None:
+        state = self._context.state
+        for post in self.implementation.post:
+            if not evaluate(post.condition, state, self.frame):
+                message = describe_unmet_condition(self.implementation, post, "post", self.frame, state)
+                return Failure(kind="post", message=message, source=post.source, skill=self.skill.name)
+            if post.sensed:
+                reason = explain_not_sensed(post, self._context.cell.world, self.frame, self._writes_at_start)
+                if reason is not None:
+                    message = f"{self.skill.name}: {reason}"
+                    return Failure(kind="post", message=message, source=post.source, skill=self.skill.name)
+        return None
+
+
+def activate(
+    context: TreeContext,
+    skill: Skill,
+    bound: BoundImplementation,
+    holder: object,
+    scope: LexicalScope,
+    build: BuildNode,
+) -> Activation | Rejected:
+    """Check the holds, acquire the locks, compute the lets, build the body; after a rejection nothing is locked.
+
+    EvaluationError from a hold or a let.
+    """
+    implementation, frame = bound.implementation, bound.bindings
+    rejected = check_requirements(implementation, implementation.hold, "hold", frame, context.state)
+    rejected = rejected or _acquire_locks(context, skill, bound, holder, scope)
+    if rejected is not None:
+        return rejected
+    try:
+        for let in implementation.lets:
+            frame[let.name] = value_of(let.value, context.state, frame)
+        body = _build_body(context, skill, bound, holder, scope, build)
+    except PrimitiveError as error:
+        context.locks.release(holder)
+        return _reject(implementation, "start", str(error))
+    except Exception:
+        context.locks.release(holder)
+        raise
+    return Activation(context, skill, bound, holder, body, context.cell.world.ledger.count)
+
+
+def _acquire_locks(
+    context: TreeContext, skill: Skill, bound: BoundImplementation, holder: object, scope: LexicalScope
+) -> Rejected | None:
+    devices = [str(bound.bindings[name]) for name in skill.uses if name in bound.bindings]
+    locked = context.locks.acquire(devices, holder, scope.calls)
+    if locked is None:
+        return None
+    reason = f"{context.library.vocabulary.short(locked)} is in use by another skill"
+    return _reject(bound.implementation, "lock", reason)
+
+
+def _build_body(
+    context: TreeContext,
+    skill: Skill,
+    bound: BoundImplementation,
+    holder: object,
+    scope: LexicalScope,
+    build: BuildNode,
+) -> Node:
+    implementation, frame = bound.implementation, bound.bindings
+    match implementation.body:
+        case Compound(node=node):
+            calls, writes = (*scope.calls, holder), context.cell.world.ledger.count
+            return build(node, context, LexicalScope(scope.undo, frame, implementation, calls, writes_at_start=writes))
+        case Primitive(python=python):
+            cls = import_matching_primitive(python, implementation.parameters)
+            names = [p.name for p in implementation.parameters if p.direction != "out"]
+            make = partial(cls, context.cell, **{name: frame.get(name) for name in names})
+            undo = scope.undo if skill.scoped else None
+            return PrimitiveNode(context, implementation.source, python.partition(":")[2], make, undo)
+        case _:
+            assert_never(implementation.body)
+
+
+def _undo_posts(
+    context: TreeContext, skill: str, changes: tuple[Change, ...], before: WorldState, after: WorldState
+) -> None:
+    context.refresh_state()
+    inverse = inverse_changes(changes, before, after, context.state)
+    if inverse:
+        context.write_assumed(inverse, f"{skill} undone")
+
+
+def _reject(implementation: Implementation, stage: Stage, reason: str) -> Rejected:
+    return Rejected(implementation=implementation.name, stage=stage, reason=reason, source=implementation.source)

@@ -1,0 +1,261 @@
+"""A call of a skill: it selects an implementation, monitors it while it runs, and applies its results when it ends."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar
+
+from skillc_compiler.library import tree
+from skillc_compiler.library.conditions import Variable
+from skillc_compiler.library.skills import Implementation
+from skillc_runtime.execution.selection.binding import bind_implementation
+from skillc_runtime.execution.selection.select import explain_none_selected, ranked_implementations
+from skillc_runtime.execution.tree.activation import Activation, BuildNode, activate
+from skillc_runtime.execution.tree.active_path import ActivePath
+from skillc_runtime.execution.tree.context import TreeContext
+from skillc_runtime.execution.tree.errors import describe_exception
+from skillc_runtime.execution.tree.event_factory import (
+    collect_facts_at_failure,
+    make_attempted,
+    make_implementation_chosen,
+)
+from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
+from skillc_runtime.execution.tree.node import RUNNING, SUCCESS, Node
+from skillc_runtime.execution.tree.primitive_node import PrimitiveNode
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.trace.failure import Failure, Rejected, as_failure
+from skillc_runtime.trace.reasons import Attempted
+from skillc_runtime.world.expressions import value_of
+
+_STAGES = ("argument", "inference", "pre", "hold", "lock", "start", "run")
+
+
+class CallNode(Node):
+    """Tries the implementations in rank order; each start evaluates the arguments and infers parameters again.
+
+    `rejected` are the implementations that were not chosen at the last start, with reasons; `activation` is the chosen.
+    """
+
+    kind: ClassVar[str] = "call"
+    __slots__ = (
+        "_arguments",
+        "_build",
+        "_facts",
+        "_path",
+        "_remaining",
+        "_scope",
+        "_state_at_start",
+        "activation",
+        "node",
+        "rejected",
+        "skill",
+    )
+
+    def __init__(self, context: TreeContext, node: tree.Call, scope: LexicalScope, build: BuildNode) -> None:
+        super().__init__(context, node.source, name=node.skill)
+        self.node = node
+        self.skill = context.library.skills[node.skill]
+        self.activation: Activation | None = None
+        self.rejected: list[Rejected] = []
+        self._arguments: Frame = {}
+        self._facts: tuple[str, ...] | None = None
+        self._scope = scope
+        self._build = build
+
+    def on_start(self) -> Status:
+        self.rejected = []
+        self.activation = None
+        self.children = ()
+        self._arguments, self._facts = {}, None
+        self._state_at_start = self.context.state
+        self._arguments = self._evaluate_arguments()
+        self._remaining = iter(ranked_implementations(self.context.library, self.node.skill, self.node.implementation))
+        return self._try_next(self._remaining)
+
+    def tick(self) -> Status:
+        activation = self.activation
+        assert activation is not None, "tick before start"
+        failure = self._check_running(activation)
+        if failure is not None:
+            self._record_facts()
+            activation.body.halt(failure.message)
+            return self._end_failed(activation, failure)
+        status = self._path.tick_leaf()
+        return RUNNING if status is RUNNING else self.on_child_ended(self._path.propagate(status))
+
+    def active_leaf(self) -> Node:
+        """Pass ticks on to the body unless holds or `verify` lines must be checked."""
+        activation = self.activation
+        return self if activation is None or activation.needs_monitoring else activation.body.active_leaf()
+
+    def on_child_ended(self, status: Status) -> Status:
+        activation = self.activation
+        if status is RUNNING or activation is None:
+            return status
+        if status is not SUCCESS:
+            return self._end_failed(activation, self._with_skill(activation.body.failure))
+        try:
+            failure = activation.apply_results()
+            if failure is None:
+                self._assign_output(activation)
+        except Exception as error:  # noqa: BLE001  a node is the boundary: it reports and fails
+            failure = Failure(
+                kind="error", message=describe_exception(error), source=self.source, skill=self.skill.name
+            )
+        if failure is not None:
+            return self._end_failed(activation, failure)
+        activation.release_locks()
+        return self.succeed()
+
+    def stop(self, reason: str) -> None:
+        super().stop(reason)
+        self.context.locks.release(self)
+
+    def remains_satisfied(self) -> bool:
+        return self.status is SUCCESS and (self.activation is None or self.activation.posts_hold())
+
+    def _evaluate_arguments(self) -> Frame:
+        """Evaluate the arguments; an optional parameter of the enclosing skill that was not passed is left out."""
+        frame, state = self._scope.frame, self.context.state
+        unset = {
+            name
+            for name, value in self.node.arguments.items()
+            if isinstance(value, Variable) and value.name not in frame and self._scope.is_optional(value.name)
+        }
+        given = {name: value for name, value in self.node.arguments.items() if name not in unset}
+        return {name: value_of(value, state, frame) for name, value in given.items()}
+
+    def _try_next(self, implementations: Iterator[Implementation]) -> Status:
+        for implementation in implementations:
+            activation = self._activate(implementation)
+            if isinstance(activation, Rejected):
+                self.rejected.append(activation)
+                if activation.stage not in ("run", "lock"):
+                    self._remember_failure(activation.implementation, activation.reason)
+                continue
+            status = self._start(activation)
+            if status is not None:
+                return status
+        return self.fail(self._combine_rejections())
+
+    def _activate(self, implementation: Implementation) -> Activation | Rejected:
+        try:
+            repeated = self._reject_repeated(implementation)
+            if repeated is not None:
+                return repeated
+            bound = bind_implementation(implementation, self._arguments, self.context.state)
+            if isinstance(bound, Rejected):
+                return bound
+            for note in bound.notes:
+                self.context.note(note, self.id, self.source)
+            return activate(self.context, self.skill, bound, self, self._scope, self._build)
+        except Exception as error:  # noqa: BLE001  the other implementations are tried
+            return self._reject(
+                implementation, Failure(kind="error", message=describe_exception(error), source=self.source)
+            )
+
+    def _start(self, activation: Activation) -> Status | None:
+        """Start the body; None if it refused to start, so that the next implementation is tried."""
+        self.activation, self.children = activation, (activation.body,)
+        activation.body.parent = self
+        self._path = ActivePath(activation.body)
+        self.name = f"{self.skill.name}[{activation.implementation.name}]"
+        self._emit_choice(activation)
+        status = self._path.start()
+        if status is RUNNING:
+            return RUNNING
+        if isinstance(activation.body, PrimitiveNode) and activation.body.refused_to_start:
+            activation.release_locks()
+            failure = self._with_skill(activation.body.failure)
+            self._remember_failure(activation.implementation.name, failure.message)
+            self.rejected.append(self._reject(activation.implementation, failure))
+            return None
+        return self.on_child_ended(status)
+
+    def _end_failed(self, activation: Activation, failure: Failure) -> Status:
+        """Undo and release everything, then try the next implementation if the skill has `fallback`."""
+        self._record_facts()
+        if isinstance(activation.body, PrimitiveNode):
+            activation.body.undo_now()
+        activation.release_locks()
+        self._remember_failure(activation.implementation.name, failure.message)
+        if not self.skill.fallback:
+            return self.fail(failure)
+        self.context.refresh_state()
+        self.rejected.append(self._reject(activation.implementation, failure, ran=True))
+        self._facts = None
+        return self._try_next(self._remaining)
+
+    def _reject_repeated(self, implementation: Implementation) -> Rejected | None:
+        """Reject an implementation that failed in an earlier attempt and can only fail again."""
+        failures, name = self._scope.failures, implementation.name
+        reason = failures and failures.reason_to_skip(self.skill.name, self._arguments, name, self.context.state)
+        if not reason:
+            return None
+        return Rejected(implementation=name, stage="run", reason=reason, source=implementation.source)
+
+    def _remember_failure(self, implementation: str, reason: str) -> None:
+        """Remember a failure for later attempts."""
+        if self._scope.failures is not None:
+            self._scope.failures.add(self.skill.name, self._arguments, implementation, self._state_at_start, reason)
+
+    def _check_running(self, activation: Activation) -> Failure | None:
+        """Check the holds if the state is new, and the `verify` lines in every tick."""
+        try:
+            failure = activation.check_holds() if self.context.state is not activation.holds_checked_in else None
+            return failure or (activation.check_properties() if activation.implementation.verify else None)
+        except Exception as error:  # noqa: BLE001  a node is the boundary: it reports, halts and fails
+            return Failure(kind="error", message=describe_exception(error), source=self.source, skill=self.skill.name)
+
+    def _assign_output(self, activation: Activation) -> None:
+        if self.node.out is not None:
+            self._scope.frame[self.node.out] = activation.frame[activation.outputs[0]]
+
+    def _combine_rejections(self) -> Failure:
+        causes = tuple(as_failure(rejection, self.skill.name) for rejection in self.rejected)
+        if len(causes) == 1:
+            return causes[0]
+        furthest = max(self.rejected, key=lambda rejection: _STAGES.index(rejection.stage), default=None)
+        kind = as_failure(furthest, self.skill.name).kind if furthest is not None else "error"
+        message = explain_none_selected(self.skill.name, self.rejected)
+        return Failure(kind=kind, message=message, source=self.source, skill=self.skill.name, causes=causes)
+
+    def _reject(self, implementation: Implementation, failure: Failure, ran: bool = False) -> Rejected:
+        return Rejected(
+            implementation=implementation.name,
+            stage="run" if ran else "start",
+            reason=failure.message,
+            source=failure.source or implementation.source,
+            failure=failure,
+        )
+
+    def _with_skill(self, failure: Failure | None) -> Failure:
+        """Add this skill's name to a failure of its body that names no skill."""
+        if failure is None:
+            return Failure(kind="body", message=f"{self.name} failed", source=self.source, skill=self.skill.name)
+        if failure.skill:
+            return failure
+        return Failure(
+            kind=failure.kind,
+            message=failure.message,
+            source=failure.source,
+            skill=self.skill.name,
+            causes=failure.causes,
+        )
+
+    def describe_call(self) -> Attempted:
+        self._record_facts()
+        return make_attempted(self.skill, self._arguments, self.rejected, self._facts or (), self.context)
+
+    def _record_facts(self) -> None:
+        """Record the facts that the conditions read, once per failure, before undoing changes them."""
+        if self.context.emit is not None and self._facts is None:
+            tried = ranked_implementations(self.context.library, self.node.skill, self.node.implementation)
+            self._facts = collect_facts_at_failure(tried, self.activation, self._arguments, self.context.state)
+
+    def _emit_choice(self, activation: Activation) -> None:
+        if self.context.emit is not None:
+            event = make_implementation_chosen(
+                self.id, self.node, activation, self._arguments, self.rejected, self.context
+            )
+            self.context.emit(event)

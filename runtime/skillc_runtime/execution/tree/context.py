@@ -1,0 +1,62 @@
+"""What all nodes of a tree share: the time and world state of this tick, the cell, the library, the listener."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.execution.tree.locks import DeviceLocks
+from skillc_runtime.robots.cell import Cell
+from skillc_runtime.trace.events import Listener, Note
+from skillc_runtime.world.changes import Change
+from skillc_runtime.world.state import WorldState
+
+
+class TreeContext:
+    """The mutable state that the nodes of a tree share.
+
+    `state` is the snapshot of the world for this tick; `now` is the run's own time in s, which stops while paused;
+    `time` is the cell's clock in s. `emit` is None if there are no listeners; no event is built then.
+    """
+
+    __slots__ = ("_snapshot", "cell", "emit", "last_id", "library", "locks", "now", "paused_s", "state", "time")
+
+    def __init__(
+        self, library: SkillLibrary, cell: Cell, emit: Listener | None, locks: DeviceLocks, ids: int = 0
+    ) -> None:
+        self.library = library
+        self.cell = cell
+        self.emit = emit
+        self.locks = locks
+        self.paused_s = 0.0
+        self.time = self.now = 0.0
+        self.state: WorldState
+        self.last_id = ids
+        self._snapshot = cell.world.snapshot
+        self.begin_tick()
+
+    def next_id(self) -> int:
+        """Return a number that no other node of the run has."""
+        self.last_id += 1
+        return self.last_id
+
+    def begin_tick(self) -> None:
+        """Read the clock and take the newest snapshot."""
+        self.time = now = self.cell.now
+        self.now = now - self.paused_s
+        self.state = self._snapshot()
+
+    def refresh_state(self) -> None:
+        """Take the newest snapshot, after a write to the world."""
+        self.state = self._snapshot()
+
+    def write_assumed(self, changes: Sequence[Change], origin: str) -> None:
+        """Write changes that were not measured in one transaction and refresh; WorldError if it is refused."""
+        self.cell.world.commit(changes, origin, "assumed")
+        self.refresh_state()
+
+    def note(self, message: str, node: int = 0, source: Position | None = None) -> None:
+        """Emit a note for users, which has no effect on the run."""
+        if self.emit is not None:
+            self.emit(Note(time=self.time, message=message, node=node, source=source))

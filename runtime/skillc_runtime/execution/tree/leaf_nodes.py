@@ -1,0 +1,128 @@
+"""Nodes without children: waiting, checking conditions, and writing posts."""
+
+from __future__ import annotations
+
+import math
+from typing import ClassVar
+
+from skillc_compiler.library import tree
+from skillc_compiler.library.conditions import Expression
+from skillc_runtime.execution.tree.context import TreeContext
+from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
+from skillc_runtime.execution.tree.node import RUNNING, Node
+from skillc_runtime.execution.tree.sensing import drop_sensed_changes
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.trace.failure import Failure
+from skillc_runtime.world.conditions import evaluate
+from skillc_runtime.world.effects import changes_of
+from skillc_runtime.world.explain import explain
+from skillc_runtime.world.expressions import value_of
+
+_EPSILON_S = 1e-9
+
+
+def evaluate_seconds(expression: Expression, context: TreeContext, frame: Frame) -> float:
+    """Evaluate a time in seconds; ValueError if it is not a finite number."""
+    seconds = value_of(expression, context.state, frame)
+    if not isinstance(seconds, int | float) or not math.isfinite(seconds):
+        raise ValueError(f"a time must be a finite number of seconds, not {seconds!r}")
+    return float(seconds)
+
+
+class WaitNode(Node):
+    """Succeeds after a time."""
+
+    kind: ClassVar[str] = "wait"
+    __slots__ = ("_until", "frame", "node")
+
+    def __init__(self, context: TreeContext, node: tree.Wait, scope: LexicalScope) -> None:
+        super().__init__(context, node.source)
+        self.node = node
+        self.frame = scope.frame
+
+    def on_start(self) -> Status:
+        self._until = self.context.now + evaluate_seconds(self.node.seconds, self.context, self.frame) - _EPSILON_S
+        return self.tick()
+
+    def tick(self) -> Status:
+        return RUNNING if self.context.now < self._until else self.succeed()
+
+
+class WaitUntilNode(Node):
+    """Succeeds when the condition holds, which is evaluated only when the state of the world is new."""
+
+    kind: ClassVar[str] = "wait until"
+    __slots__ = ("_seen", "frame", "node")
+
+    def __init__(self, context: TreeContext, node: tree.WaitUntil, scope: LexicalScope) -> None:
+        super().__init__(context, node.source, name=f"wait until {node.text}")
+        self.node = node
+        self.frame = scope.frame
+
+    def on_start(self) -> Status:
+        self._seen: object = None
+        return self.tick()
+
+    def tick(self) -> Status:
+        state = self.context.state
+        if state is self._seen:
+            return RUNNING
+        self._seen = state
+        try:
+            return self.succeed() if evaluate(self.node.condition, state, self.frame) else RUNNING
+        except Exception as error:  # noqa: BLE001  a node is the boundary: it reports and fails
+            return self.fail_with_error(error)
+
+    def remains_satisfied(self) -> bool:
+        return evaluate(self.node.condition, self.context.state, self.frame)
+
+
+class CheckNode(Node):
+    """Succeeds if the condition holds, else fails with what holds instead."""
+
+    kind: ClassVar[str] = "check"
+    __slots__ = ("frame", "node")
+
+    def __init__(self, context: TreeContext, node: tree.Check, scope: LexicalScope) -> None:
+        super().__init__(context, node.source, name=f"check {node.text}")
+        self.node = node
+        self.frame = scope.frame
+
+    def on_start(self) -> Status:
+        state = self.context.state
+        if evaluate(self.node.condition, state, self.frame):
+            return self.succeed()
+        instead = explain(self.node.condition, state, self.frame, self.context.library.vocabulary)
+        message = f"`{self.node.text}` does not hold: {instead}"
+        return self.fail(Failure(kind="body", message=message, source=self.source))
+
+    def remains_satisfied(self) -> bool:
+        return evaluate(self.node.condition, self.context.state, self.frame)
+
+    def would_fail_again(self) -> bool:
+        return not self.remains_satisfied()
+
+
+class ApplyNode(Node):
+    """Writes posts of the enclosing skill to the world model, except for what was sensed since that skill started."""
+
+    kind: ClassVar[str] = "apply"
+    __slots__ = ("posts", "scope")
+
+    def __init__(self, context: TreeContext, node: tree.Apply, scope: LexicalScope) -> None:
+        super().__init__(context, node.source, name=f"apply {', '.join(node.labels)}")
+        posts = scope.implementation.post if scope.implementation is not None else ()
+        self.posts = tuple(post for post in posts if post.label in node.labels)
+        self.scope = scope
+
+    def on_start(self) -> Status:
+        effects = tuple(effect for post in self.posts for effect in post.effects)
+        changes = changes_of(effects, self.context.state, self.scope.frame)
+        assumed = drop_sensed_changes(changes, self.context.cell.world, self.scope.writes_at_start)
+        if assumed:
+            self.context.write_assumed(assumed, f"{self.scope.skill}: {self.name}")
+        return self.succeed()
+
+    def remains_satisfied(self) -> bool:
+        state, frame = self.context.state, self.scope.frame
+        return all(evaluate(post.condition, state, frame) for post in self.posts)

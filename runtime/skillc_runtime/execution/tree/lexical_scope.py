@@ -1,0 +1,60 @@
+"""The scope in which the nodes of one body run: values, implementation, enclosing calls."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Protocol, TypeAlias
+
+from skillc_compiler.library.skills import Implementation
+from skillc_runtime.execution.tree.undo_stack import UndoStack
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.values import Value
+
+Frame: TypeAlias = dict[str, Value]
+"""Values by the name under which a body knows them."""
+
+
+class CallFailures(Protocol):
+    """Remembers which calls failed, so that none is repeated that can only fail again."""
+
+    def add(
+        self, skill: str, arguments: Mapping[str, Value], implementation: str, state: WorldState, reason: str
+    ) -> None:
+        """Remember that an implementation failed for a call that started in `state`."""
+        ...
+
+    def reason_to_skip(
+        self, skill: str, arguments: Mapping[str, Value], implementation: str, state: WorldState
+    ) -> str | None:
+        """Return why an implementation would fail again for these arguments, None if it may be tried."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class LexicalScope:
+    """The surroundings of a body, fixed while it runs; values reach its nodes in no other way.
+
+    `frame` holds the values in scope: parameters, lets, loop variables, outputs; an optional parameter that was not
+    passed is absent. `implementation` is the one whose body this is, None in a task. `calls` are the enclosing calls,
+    outermost first, which may hold locks; `writes_at_start` counts the writes to the world before the innermost of
+    them started. `undo` belongs to the innermost `with`: what scoped skills set up is undone when it ends. `failures`
+    are those of earlier attempts at the goal, None if the calls are not steps of a plan.
+    """
+
+    undo: UndoStack
+    frame: Frame = field(default_factory=dict)
+    implementation: Implementation | None = None
+    calls: tuple[object, ...] = ()
+    failures: CallFailures | None = None
+    writes_at_start: int = 0
+
+    @property
+    def skill(self) -> str:
+        """The skill whose body this is; empty in a task."""
+        return self.implementation.skill if self.implementation is not None else ""
+
+    def is_optional(self, name: str) -> bool:
+        """Whether the name is an optional parameter of the enclosing implementation."""
+        parameters = self.implementation.parameters if self.implementation is not None else ()
+        return any(parameter.name == name and parameter.direction == "opt" for parameter in parameters)

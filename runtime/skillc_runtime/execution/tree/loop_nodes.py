@@ -1,0 +1,158 @@
+"""Loops: at most one round starts in a tick, so that the work of a tick is bounded."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from skillc_compiler.library import tree
+from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.execution.tree.active_path import ActivePath
+from skillc_runtime.execution.tree.context import TreeContext
+from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
+from skillc_runtime.execution.tree.node import RUNNING, SUCCESS, Node
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.trace.failure import Failure
+from skillc_runtime.world.conditions import evaluate
+from skillc_runtime.world.expressions import value_of
+from skillc_runtime.world.values import Value
+
+
+class LoopNode(Node):
+    """Runs its child in rounds; `on_child_ended` returns RUNNING if another round follows in the next tick."""
+
+    __slots__ = ("_path", "child", "rounds")
+
+    def __init__(self, context: TreeContext, source: Position, child: Node, name: str) -> None:
+        super().__init__(context, source, (child,), name)
+        self.child = child
+        self.rounds = 0
+        self._path = ActivePath(child)
+
+    def on_start(self) -> Status:
+        self.rounds = 0
+        return self.next_round()
+
+    def tick(self) -> Status:
+        if self.child.status is RUNNING:
+            status = self._path.tick()
+            return RUNNING if status is RUNNING else self.on_child_ended(status)
+        try:
+            return self.next_round()
+        except Exception as error:  # noqa: BLE001  a node is the boundary: it reports, halts and fails
+            return self.fail_with_error(error)
+
+    def start_round(self) -> Status:
+        """Start the child for another round."""
+        self.rounds += 1
+        status = self._path.start()
+        return RUNNING if status is RUNNING else self.on_child_ended(status)
+
+    def next_round(self) -> Status:
+        """Start a round, or end if none is left."""
+        raise NotImplementedError
+
+
+class RetryNode(LoopNode):
+    """Repeats the child until it succeeds, at most `count` times."""
+
+    kind: ClassVar[str] = "retry"
+    __slots__ = ("count",)
+
+    def __init__(self, context: TreeContext, node: tree.Retry, child: Node) -> None:
+        super().__init__(context, node.source, child, f"retry {node.count}")
+        self.count = node.count
+
+    def next_round(self) -> Status:
+        return self.start_round()
+
+    def on_child_ended(self, status: Status) -> Status:
+        if status is SUCCESS:
+            return self.succeed()
+        return RUNNING if self.rounds < self.count else self.fail(self.child.failure)
+
+    def remains_satisfied(self) -> bool:
+        return self.status is SUCCESS and self.child.remains_satisfied()
+
+
+class RepeatNode(LoopNode):
+    """Repeats the child `count` times while it succeeds."""
+
+    kind: ClassVar[str] = "repeat"
+    __slots__ = ("count",)
+
+    def __init__(self, context: TreeContext, node: tree.Repeat, child: Node) -> None:
+        super().__init__(context, node.source, child, f"repeat {node.count}")
+        self.count = node.count
+
+    def next_round(self) -> Status:
+        return self.start_round() if self.rounds < self.count else self.succeed()
+
+    def on_child_ended(self, status: Status) -> Status:
+        if status is not SUCCESS:
+            return self.fail(self.child.failure)
+        return RUNNING if self.rounds < self.count else self.succeed()
+
+
+class WhileNode(LoopNode):
+    """Repeats the child while the condition holds; fails if it still holds after `limit` rounds."""
+
+    kind: ClassVar[str] = "while"
+    __slots__ = ("frame", "node")
+
+    def __init__(self, context: TreeContext, node: tree.While, child: Node, scope: LexicalScope) -> None:
+        super().__init__(context, node.source, child, f"while {node.text}")
+        self.node = node
+        self.frame = scope.frame
+
+    def next_round(self) -> Status:
+        if not evaluate(self.node.condition, self.context.state, self.frame):
+            return self.succeed()
+        if self.rounds < self.node.limit:
+            return self.start_round()
+        message = f"`{self.node.text}` still holds after {self.node.limit} rounds"
+        return self.fail(Failure(kind="body", message=message, source=self.source))
+
+    def on_child_ended(self, status: Status) -> Status:
+        return RUNNING if status is SUCCESS else self.fail(self.child.failure)
+
+    def remains_satisfied(self) -> bool:
+        return self.status is SUCCESS and not evaluate(self.node.condition, self.context.state, self.frame)
+
+
+class ForEachNode(LoopNode):
+    """Runs the child once for each item, in its own frame; what the last round assigned is kept after the loop."""
+
+    kind: ClassVar[str] = "for"
+    __slots__ = ("_items", "inner", "node", "outer")
+
+    def __init__(
+        self, context: TreeContext, node: tree.ForEach, child: Node, scope: LexicalScope, inner: Frame
+    ) -> None:
+        super().__init__(context, node.source, child, f"for {node.variable}")
+        self.node = node
+        self.outer = scope.frame
+        self.inner = inner
+        self._items: tuple[Value, ...] = ()
+
+    def on_start(self) -> Status:
+        items = value_of(self.node.items, self.context.state, self.outer)
+        if not isinstance(items, tuple):
+            raise TypeError(f"`for {self.node.variable}` needs a list, not {items!r}")
+        self._items = items
+        return super().on_start()
+
+    def next_round(self) -> Status:
+        if self.rounds == len(self._items):
+            return self.succeed()
+        self.inner.clear()
+        self.inner.update(self.outer)
+        self.inner[self.node.variable] = self._items[self.rounds]
+        return self.start_round()
+
+    def on_child_ended(self, status: Status) -> Status:
+        if status is not SUCCESS:
+            return self.fail(self.child.failure)
+        if self.rounds < len(self._items):
+            return RUNNING
+        self.outer.update({name: value for name, value in self.inner.items() if name != self.node.variable})
+        return self.succeed()

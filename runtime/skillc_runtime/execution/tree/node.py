@@ -1,0 +1,140 @@
+"""The life cycle of a node: it starts, is ticked while it runs, and ends or is halted."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.execution.tree.context import TreeContext
+from skillc_runtime.execution.tree.errors import describe_exception
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.trace.events import NodeEnded, NodeStarted
+from skillc_runtime.trace.failure import Failure
+from skillc_runtime.trace.reasons import Attempted
+
+RUNNING, SUCCESS, FAILURE, HALTED = Status.RUNNING, Status.SUCCESS, Status.FAILURE, Status.HALTED
+
+
+class Node:
+    """A node of a running tree: started by its `parent`, ticked while it runs, until it ends or is halted.
+
+    A subclass implements `on_start` and one of two: a node with work in each tick, such as ticking several children or
+    evaluating a condition, implements `tick`. A node that only passes ticks on to one child at a time implements
+    `active_leaf` and `on_child_ended`, and is skipped while the child runs. All return RUNNING or the result of
+    `succeed` or `fail`. Children start in the order of `children`.
+    """
+
+    kind: ClassVar[str]
+    __slots__ = ("children", "context", "ended", "failure", "id", "name", "parent", "source", "started", "status")
+
+    def __init__(self, context: TreeContext, source: Position, children: tuple[Node, ...] = (), name: str = "") -> None:
+        self.context = context
+        self.source = source
+        self.children = children
+        self.name = name or self.kind
+        self.id = context.next_id()
+        self.parent: Node | None = None
+        self.status = Status.IDLE
+        self.failure: Failure | None = None
+        self.started: float | None = None
+        self.ended: float | None = None
+        for child in children:
+            child.parent = self
+
+    def start(self) -> Status:
+        """Start from the beginning, do the work of the first tick and return the status; a node that raises fails."""
+        context = self.context
+        self.status = RUNNING
+        self.failure = None
+        self.started, self.ended = context.time, None
+        if context.emit is not None:
+            parent = 0 if self.parent is None else self.parent.id
+            started = NodeStarted(
+                time=context.time, node=self.id, parent=parent, kind=self.kind, name=self.name, source=self.source
+            )
+            context.emit(started)
+        try:
+            return self.on_start()
+        except Exception as error:  # noqa: BLE001  a node is the boundary: it reports, halts and fails
+            return self.fail_with_error(error)
+
+    def on_start(self) -> Status:
+        """Do the node's own work of `start`."""
+        raise NotImplementedError
+
+    def tick(self) -> Status:
+        """Do the work of one tick."""
+        raise NotImplementedError
+
+    def active_leaf(self) -> Node:
+        """Return the node that is ticked for this one: itself, or the active leaf of its running child."""
+        return self
+
+    def on_child_ended(self, status: Status) -> Status:
+        """Continue after the running child ended with this status."""
+        raise NotImplementedError
+
+    def halt(self, reason: str) -> None:
+        """Halt the node if it runs, and everything that runs below it, the last started first."""
+        if self.status is RUNNING:
+            self.stop(reason)
+            self._finish(HALTED, Failure(kind="halted", message=reason, source=self.source))
+
+    def stop(self, reason: str) -> None:
+        """Halt what runs below; a subclass adds its own cleanup. Never raises."""
+        for child in reversed(self.children):
+            child.halt(reason)
+
+    def pause(self) -> None:
+        """Pause everything that runs below."""
+        for child in self.children:
+            if child.status is RUNNING:
+                child.pause()
+
+    def resume(self) -> None:
+        """Resume everything that runs below."""
+        for child in self.children:
+            if child.status is RUNNING:
+                child.resume()
+
+    def remains_satisfied(self) -> bool:
+        """Whether the node has succeeded and its result still holds in the current world."""
+        return self.status is SUCCESS
+
+    def would_fail_again(self) -> bool:
+        """Whether the node, which failed, would fail again in the current world; used by `invert` only."""
+        return self.status is FAILURE
+
+    def succeed(self) -> Status:
+        """Record success."""
+        return self._finish(SUCCESS, None)
+
+    def fail(self, failure: Failure | None) -> Status:
+        """Record a failure; None stands for a child that failed without one."""
+        return self._finish(FAILURE, failure or Failure(kind="body", message=f"{self.name} failed", source=self.source))
+
+    def fail_with_error(self, error: Exception) -> Status:
+        """Halt what runs below and fail because of an exception."""
+        message = describe_exception(error)
+        self.stop(message)
+        return self.fail(Failure(kind="error", message=message, source=self.source))
+
+    def describe_call(self) -> Attempted | None:
+        """Return the details of a call that failed, None for other nodes; called if there are listeners."""
+        return None
+
+    def _finish(self, status: Status, failure: Failure | None) -> Status:
+        context = self.context
+        self.status, self.failure, self.ended = status, failure, context.time
+        if context.emit is not None:
+            ended = NodeEnded(
+                time=context.time,
+                node=self.id,
+                name=self.name,
+                status=status.value,
+                failure=failure,
+                attempted=self.describe_call() if status is FAILURE else None,
+                source=self.source,
+            )
+            context.emit(ended)
+        return status

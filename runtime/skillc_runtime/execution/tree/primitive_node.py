@@ -1,0 +1,110 @@
+"""The leaf that runs a primitive and guarantees its life cycle."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import ClassVar
+
+from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.execution.tree.context import TreeContext
+from skillc_runtime.execution.tree.errors import describe_exception
+from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
+from skillc_runtime.execution.tree.undo_stack import UndoStack
+from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.trace.failure import Failure
+
+
+class PrimitiveNode(Node):
+    """Makes one primitive, starts and ticks it; used for one run.
+
+    After `start` was called, the primitive is halted exactly once, when its parent is halted or when it raises; not if
+    `start` refused (`refused_to_start`) or `tick` succeeded. A scoped skill passes `undo`: its primitive is released
+    exactly once unless `start` refused, at once if it does not succeed, else by `undo`. After the release
+    `undo_posts` undoes what the posts wrote.
+    """
+
+    kind: ClassVar[str] = "primitive"
+    __slots__ = ("_make", "_primitive", "_running", "_tick", "_undo", "outputs", "refused_to_start", "undo_posts")
+
+    def __init__(
+        self, context: TreeContext, source: Position, name: str, make: Callable[[], Primitive], undo: UndoStack | None
+    ) -> None:
+        super().__init__(context, source, name=name)
+        self.refused_to_start = True
+        self.undo_posts: Callable[[], None] | None = None
+        self.outputs: dict[str, object] = {}
+        self._make = make
+        self._undo = undo
+        self._primitive: Primitive | None = None
+        self._running = False
+
+    def on_start(self) -> Status:
+        self._primitive = primitive = self._make()
+        self._tick = primitive.tick
+        self._running = True
+        if self._undo is not None:
+            self._undo.push(self.release)
+        try:
+            primitive.start()
+        except SkillFailure as refusal:
+            self._running = False
+            if self._undo is not None:
+                self._undo.discard(self.release)
+            return self.fail(Failure(kind="body", message=str(refusal), source=self.source))
+        self.refused_to_start = False
+        return self.tick()
+
+    def tick(self) -> Status:
+        try:
+            status = self._tick()
+            if status is RUNNING:
+                return RUNNING
+            return self._on_finished(status)
+        except SkillFailure as failure:
+            return self._halt_and_fail(str(failure))
+        except Exception as error:  # noqa: BLE001  the boundary to skill code: it reports, halts and fails
+            return self.fail_with_error(error)
+
+    def stop(self, reason: str) -> None:
+        if self._running and self._primitive is not None:
+            self._running = False
+            try:
+                self._primitive.halt(reason)
+            except Exception as error:  # noqa: BLE001  the other nodes must be halted too
+                self.context.note(f"{self.name} could not be halted: {describe_exception(error)}", self.id, self.source)
+        self.undo_now()
+
+    def undo_now(self) -> None:
+        """Release what the primitive set up, if that was not done yet."""
+        problem = self._undo.undo_one(self.release) if self._undo is not None else None
+        if problem is not None:
+            self.context.note(f"{self.name} could not be undone: {problem}", self.id, self.source)
+
+    def release(self) -> None:
+        """Undo what the primitive set up, then what its posts wrote; called by the undo stack."""
+        assert self._primitive is not None, "release before start"
+        self._primitive.release()
+        if self.undo_posts is not None:
+            self.undo_posts()
+
+    def pause(self) -> None:
+        if self._running and self._primitive is not None:
+            self._primitive.pause()
+
+    def resume(self) -> None:
+        if self._running and self._primitive is not None:
+            self._primitive.resume()
+
+    def _on_finished(self, status: Status) -> Status:
+        if status is SUCCESS:
+            assert self._primitive is not None, "finished before start"
+            self._running = False
+            self.outputs = dict(self._primitive.outputs)
+            return self.succeed()
+        if status is FAILURE:
+            return self._halt_and_fail(f"{self.name} failed without a reason")
+        raise TypeError(f"{self.name} returned {status!r} from tick; it may return RUNNING or SUCCESS")
+
+    def _halt_and_fail(self, message: str) -> Status:
+        self.stop(message)
+        return self.fail(Failure(kind="body", message=message, source=self.source))

@@ -1,0 +1,238 @@
+"""The run of one behaviour tree in a cell, from its first tick to its end."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from skillc_compiler.library import tree
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.execution.success_facts import Claim
+from skillc_runtime.execution.tree.active_path import ActivePath
+from skillc_runtime.execution.tree.build import build_node
+from skillc_runtime.execution.tree.call_node import CallNode
+from skillc_runtime.execution.tree.context import TreeContext
+from skillc_runtime.execution.tree.errors import describe_exception
+from skillc_runtime.execution.tree.lexical_scope import CallFailures, LexicalScope
+from skillc_runtime.execution.tree.locks import DeviceLocks
+from skillc_runtime.execution.tree.node import FAILURE, RUNNING, Node
+from skillc_runtime.execution.tree.undo_stack import UndoStack
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.robots.cell import Cell
+from skillc_runtime.robots.contradictions import DeviceWatch
+from skillc_runtime.robots.watchdog import Silence
+from skillc_runtime.trace.events import Listener, Paused, Resumed
+from skillc_runtime.trace.failure import Failure
+from skillc_runtime.trace.listeners import Listeners
+from skillc_runtime.trace.outcome import Outcome
+from skillc_runtime.trace.world import world_changed
+from skillc_runtime.world.model import ChangeEvent
+
+_ALIVE = (RUNNING, Status.IDLE)
+
+
+class TreeRun:
+    """Runs a body: that of a task, that of a plan, or a single call.
+
+    `status` is IDLE before the first tick, then RUNNING, and at the end SUCCESS, FAILURE or HALTED; `failure` says why.
+    What scoped skills set up outside any `with` is undone when the run ends.
+    """
+
+    def __init__(
+        self,
+        body: tree.Node,
+        library: SkillLibrary,
+        cell: Cell,
+        listeners: Sequence[Listener] = (),
+        locks: DeviceLocks | None = None,
+        nodes_before: int = 0,
+        failures: CallFailures | None = None,
+    ) -> None:
+        """Build the tree; nothing starts.
+
+        Runs on the same devices share `locks`. The nodes are numbered from `nodes_before` + 1, so that the events of
+        several runs can share a recording. Calls skip what can only fail again according to `failures`, and add to it.
+        """
+        self._listeners = Listeners(listeners)
+        self._context = TreeContext(
+            library, cell, self._listeners if listeners else None, locks or DeviceLocks(), nodes_before
+        )
+        self._undo = UndoStack()
+        self._stop_listening = cell.world.listen(self._emit_world_change) if listeners else None
+        self._root = build_node(body, self._context, LexicalScope(self._undo, failures=failures))
+        self._path = ActivePath(self._root)
+        self._paused_at: float | None = None
+        self._devices = DeviceWatch(cell)
+        self.status = Status.IDLE
+        self.failure: Failure | None = None
+
+    @property
+    def paused(self) -> bool:
+        """Whether the run is paused."""
+        return self._paused_at is not None
+
+    @property
+    def last_node(self) -> int:
+        """The number of the last node."""
+        return self._context.last_id
+
+    @property
+    def outcome(self) -> Outcome:
+        """The tree with the status of each node so far."""
+        return _collect_outcome(self._root)
+
+    @property
+    def claims(self) -> tuple[Claim, ...]:
+        """The posts of the outermost calls that succeeded, with the values of their variables."""
+        return tuple(_collect_claims(self._root))
+
+    @property
+    def listener_problems(self) -> tuple[str, ...]:
+        """The errors of listeners."""
+        return tuple(self._listeners.problems)
+
+    def tick(self) -> Status:
+        """Read the clock, take a snapshot of the world and tick the tree once; return the status.
+
+        While paused only the heartbeat of the watchdog is sent.
+        """
+        if self.status not in _ALIVE:
+            return self.status
+        if self._paused_at is not None:
+            return self._tick_paused()
+        try:
+            self._context.begin_tick()
+            self._send_heartbeat()
+            contradiction = self._find_contradiction()
+            status = self._path.tick_leaf() if self.status is RUNNING else self._start()
+            running = status is RUNNING or self._path.propagate(status) is RUNNING
+            if contradiction is not None and self._root.status is not FAILURE:
+                return self._fail_contradicted(contradiction)
+            if running:
+                return RUNNING
+        except Exception as error:  # noqa: BLE001  the task's boundary: it reports, halts and ends
+            self.abort(error)
+            return self.status
+        return self._finish(self._root.status, self._root.failure)
+
+    def halt(self, reason: str) -> None:
+        """Halt everything that runs, undo what must be undone, and end; no effect after the end."""
+        if self.status in _ALIVE:
+            self._context.begin_tick()
+            self._root.halt(reason)
+            self._finish(Status.HALTED, Failure(kind="halted", message=reason, source=self._root.source))
+
+    def abort(self, error: Exception) -> None:
+        """Fail because of an error, for example of the cell: halt everything, undo what must be undone, and end."""
+        if self.status in (Status.IDLE, RUNNING):
+            message = describe_exception(error)
+            self._root.halt(message)
+            self._finish(Status.FAILURE, Failure(kind="error", message=message, source=self._root.source))
+
+    def check_devices(self) -> None:
+        """After the end: turn a success into a failure if a device contradicts the world model."""
+        if self.status is not Status.SUCCESS:
+            return
+        stop_listening = self._context.cell.world.listen(self._emit_world_change)
+        try:
+            contradiction = self._devices.contradiction()
+        finally:
+            stop_listening()
+        if contradiction is not None:
+            self.status, self.failure = Status.FAILURE, self._contradiction_failure(contradiction)
+
+    def pause(self) -> None:
+        """Pause everything that runs and the run's own time."""
+        if self.status is not RUNNING or self.paused:
+            return
+        self._paused_at = self._context.cell.now
+        self._emit(Paused)
+        try:
+            self._root.pause()
+        except Exception as error:  # noqa: BLE001  the task's boundary: it reports, halts and ends
+            self.abort(error)
+
+    def resume(self) -> None:
+        """Continue after `pause`."""
+        if self._paused_at is None or self.status is not RUNNING:
+            return
+        self._context.paused_s += self._context.cell.now - self._paused_at
+        self._paused_at = None
+        self._emit(Resumed)
+        try:
+            self._root.resume()
+        except Exception as error:  # noqa: BLE001  the task's boundary: it reports, halts and ends
+            self.abort(error)
+
+    def _send_heartbeat(self) -> None:
+        cell = self._context.cell
+        if not cell.watchdog.beat(self, cell.now):
+            raise Silence("the tree was not ticked for too long, so everything was stopped")
+
+    def _find_contradiction(self) -> str | None:
+        """Retract the facts that a device contradicts; return a description of them."""
+        found = self._devices.contradiction()
+        if found is not None:
+            self._context.refresh_state()
+        return found
+
+    def _fail_contradicted(self, contradiction: str) -> Status:
+        """Halt everything that runs and fail because a device contradicts the world model."""
+        self._root.halt(contradiction)
+        return self._finish(Status.FAILURE, self._contradiction_failure(contradiction))
+
+    def _contradiction_failure(self, contradiction: str) -> Failure:
+        return Failure(kind="contradiction", message=contradiction, source=self._root.source)
+
+    def _tick_paused(self) -> Status:
+        """Send the heartbeat while paused."""
+        try:
+            self._send_heartbeat()
+        except Silence as silence:
+            self.abort(silence)
+        return self.status
+
+    def _start(self) -> Status:
+        self.status = RUNNING
+        return self._path.start()
+
+    def _finish(self, status: Status, failure: Failure | None) -> Status:
+        for problem in self._undo.unwind():
+            self._context.note(f"not undone at the end: {problem}")
+        if self._stop_listening is not None:
+            self._stop_listening()
+        self._context.cell.watchdog.retire(self)
+        self.status, self.failure, self._paused_at = status, failure, None
+        return status
+
+    def _emit(self, event: type[Paused | Resumed]) -> None:
+        self._context.begin_tick()
+        if self._context.emit is not None:
+            self._context.emit(event(time=self._context.time))
+
+    def _emit_world_change(self, event: ChangeEvent) -> None:
+        self._listeners(world_changed(event, self._context.time))
+
+
+def _collect_outcome(node: Node) -> Outcome:
+    """Return the status of a node and of all nodes below it, during or after the run."""
+    return Outcome(
+        id=node.id,
+        name=node.name,
+        kind=node.kind,
+        status=node.status.value,
+        source=node.source,
+        started=node.started,
+        ended=node.ended,
+        failure=node.failure,
+        rejected=tuple(node.rejected) if isinstance(node, CallNode) else (),
+        children=tuple(_collect_outcome(child) for child in node.children),
+    )
+
+
+def _collect_claims(node: Node) -> Iterator[Claim]:
+    if not isinstance(node, CallNode):
+        for child in node.children:
+            yield from _collect_claims(child)
+    elif node.activation is not None and node.status is Status.SUCCESS:
+        frame = dict(node.activation.frame)
+        yield from ((post.condition, frame) for post in node.activation.implementation.post)

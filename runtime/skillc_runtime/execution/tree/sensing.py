@@ -1,0 +1,73 @@
+"""Which facts were sensed since a skill started: only those count as measurements."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from skillc_compiler.library.conditions import And, Condition
+from skillc_compiler.library.skills import Post
+from skillc_runtime.execution.tree.lexical_scope import Frame
+from skillc_runtime.world.changes import AddRelation, Change, RemoveRelation, SetProperty
+from skillc_runtime.world.evidence import Established, statement
+from skillc_runtime.world.facts import fact_text
+from skillc_runtime.world.grounds import Ground, grounds
+from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.values import equal
+
+
+def drop_sensed_changes(changes: Sequence[Change], world: WorldModel, writes_before: int) -> tuple[Change, ...]:
+    """Return the changes without those that devices have reported since write number `writes_before`.
+
+    What was sensed keeps this evidence; it is not written again as an assumption.
+    """
+    return tuple(change for change in changes if not _is_sensed(change, world, writes_before))
+
+
+def explain_not_sensed(post: Post, world: WorldModel, frame: Frame, writes_before: int) -> str | None:
+    """Explain why a `sensed` post that holds was not measured since write number `writes_before`; None if it was."""
+    for literal in _literals(post.condition):
+        found = grounds(literal, world, frame)
+        assumed = next((ground for ground in found if ground.assumed), None)
+        if assumed is not None:
+            return f"`{post.text}` must be sensed, but {_describe_ground(assumed, world)}"
+        if not any(_is_sensed_since(ground.established, writes_before) for ground in found):
+            old = f": {'; '.join(_describe_ground(ground, world) for ground in found)}" if found else ""
+            return f"`{post.text}` must be sensed, and nothing has sensed it since the skill started{old}"
+    return None
+
+
+def _is_sensed(change: Change, world: WorldModel, writes_before: int) -> bool:
+    state, fact = world.snapshot(), statement(change)
+    match change:
+        case AddRelation(subject, relation, object_) | RemoveRelation(subject, relation, object_):
+            holds = state.holds(subject, relation, object_) is isinstance(change, AddRelation)
+        case SetProperty(individual, property_, value):
+            present = state.value(individual, property_)
+            holds = present is not None and equal(present, value)
+        case _:
+            return False
+    return holds and fact is not None and _is_sensed_since(world.known(fact), writes_before)
+
+
+def _is_sensed_since(established: Established | None, writes_before: int) -> bool:
+    if established is None or established.number <= writes_before:
+        return False
+    return established.evidence in ("sensed", "reported")
+
+
+def _literals(condition: Condition) -> Iterator[Condition]:
+    if isinstance(condition, And):
+        for part in condition.parts:
+            yield from _literals(part)
+    else:
+        yield condition
+
+
+def _describe_ground(ground: Ground, world: WorldModel) -> str:
+    """Return a fact with its evidence, for example "`lab:A contain lab:B` was assumed by Place"."""
+    fact = fact_text(ground.fact, world.snapshot())
+    known = ground.established
+    if known is None or known.evidence is None:
+        return f"`{fact}` was so before"
+    by = f" by {known.origin}" if known.origin else ""
+    return f"`{fact}` was {known.evidence}{by}"

@@ -1,0 +1,67 @@
+"""Checks `verify never ...` lines at run time: conditions, and the contact force on the skill's arms."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from skillc_compiler.library.conditions import Compare, Literal
+from skillc_compiler.library.properties import Is, Measures, Property
+from skillc_compiler.library.skills import Implementation
+from skillc_compiler.library.vocabulary import ClassType, Vocabulary
+from skillc_runtime.execution.tree.lexical_scope import Frame
+from skillc_runtime.robots.cell import Cell
+from skillc_runtime.trace.failure import Failure
+from skillc_runtime.world.conditions import evaluate
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.terms import ARM_DEVICE
+
+
+def monitored_properties(implementation: Implementation) -> tuple[Property, ...]:
+    """Return the lines that are checked while an implementation runs; the compiler decides the others."""
+    return tuple(
+        line for line in implementation.verify if line.pattern == "never" and isinstance(line.first, Is | Measures)
+    )
+
+
+def find_violation(
+    implementation: Implementation, cell: Cell, vocabulary: Vocabulary, state: WorldState, frame: Frame
+) -> Failure | None:
+    """Return the failure of the first line that is violated now; EvaluationError from its condition."""
+    for line in monitored_properties(implementation):
+        violation = _describe_violation(line, implementation, cell, vocabulary, state, frame)
+        if violation is not None:
+            message = f"`{line.text}` is violated{violation}"
+            return Failure(kind="verify", message=message, source=line.source, skill=implementation.skill)
+    return None
+
+
+def _describe_violation(
+    line: Property,
+    implementation: Implementation,
+    cell: Cell,
+    vocabulary: Vocabulary,
+    state: WorldState,
+    frame: Frame,
+) -> str | None:
+    match line.first:
+        case Is(condition=condition):
+            return "" if evaluate(condition, state, frame) else None
+        case Measures(operator=operator, limit=limit):
+            for arm in _find_arms(implementation, vocabulary, frame):
+                force_n = float(np.linalg.norm(cell.arm(arm).wrench[:3]))
+                if evaluate(Compare(Literal(force_n), operator, limit), state, frame):
+                    return f": {vocabulary.short(arm)} measures {force_n:.1f} N"
+    return None
+
+
+def _find_arms(implementation: Implementation, vocabulary: Vocabulary, frame: Frame) -> Iterator[str]:
+    for parameter in implementation.parameters:
+        value = frame.get(parameter.name)
+        if (
+            isinstance(parameter.type, ClassType)
+            and isinstance(value, str)
+            and vocabulary.is_a(parameter.type.iri, ARM_DEVICE)
+        ):
+            yield value

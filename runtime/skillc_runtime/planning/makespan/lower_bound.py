@@ -1,0 +1,48 @@
+"""A lower bound of the makespan of all plans: the critical path, and how long each device must work."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+
+from skillc_compiler.library.pddl.devices import devices
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.planning.plan import Planner, Solved
+from skillc_runtime.planning.problem.pose import Posed
+from skillc_runtime.planning.schedule import Schedule
+from skillc_runtime.planning.search.device_work import price_device_work
+from skillc_runtime.planning.search.h_max import critical_path_s
+
+TOLERANCE_S = 1e-9
+CRITICAL_PATH_SHARE = 0.5
+"""The share of the time for the critical path; the rest is for the devices."""
+
+
+def makespan_lower_bound_s(posed: Posed, schedule: Schedule, planner: Planner, deadline_s: float) -> float:
+    """Return a time in s that every plan takes at least; the search for a better bound stops if `schedule` meets it.
+
+    0 for a problem that leaves out something that may matter, or whose durations are estimates.
+    """
+    if posed.narrowed or posed.restricted or posed.assumptions:
+        return 0.0
+    end, problem = time.monotonic() + deadline_s, posed.problem
+    bound = critical_path_s(problem, CRITICAL_PATH_SHARE * deadline_s)
+    names = {iri: name for name, iri in problem.names.items()}
+    for device, busy_s in _work_by_device_s(schedule, posed.library):
+        if busy_s <= bound or schedule.makespan_s <= bound + TOLERANCE_S:
+            break  # no device has to work longer than it does in this schedule
+        answer = planner.plan(price_device_work(problem, names[device]), max(end - time.monotonic(), 0.0))
+        if isinstance(answer, Solved):
+            bound = max(bound, answer.bound_s)
+    return bound
+
+
+def _work_by_device_s(schedule: Schedule, library: SkillLibrary) -> Iterator[tuple[str, float]]:
+    """Yield the devices (IRIs) that a schedule locks with the time in s, the busiest first."""
+    locked, found = devices(library), dict[str, float]()
+    for each in schedule.steps:
+        for name in locked[each.step.skill]:
+            if name in each.step.arguments:
+                device = each.step.arguments[name]
+                found[device] = found.get(device, 0.0) + each.duration_s
+    yield from sorted(found.items(), key=lambda each: (-each[1], each[0]))

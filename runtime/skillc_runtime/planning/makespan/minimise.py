@@ -1,0 +1,149 @@
+"""Plans for a goal with minimal makespan: steps of different robots run in parallel."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+from skillc_compiler.library.conditions import Condition
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.planning.makespan.lower_bound import TOLERANCE_S, makespan_lower_bound_s
+from skillc_runtime.planning.makespan.scheduling import schedule_plan
+from skillc_runtime.planning.makespan.simulation import simulate_schedule
+from skillc_runtime.planning.plan import GaveUp, Plan, Solved, Step, Unsolvable
+from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.problem.initial_state import TooManyValues
+from skillc_runtime.planning.problem.neighbourhood import AT_ONCE
+from skillc_runtime.planning.problem.pose import Posed, pose_problem
+from skillc_runtime.planning.schedule import Schedule, Scheduled, Scheduler
+from skillc_runtime.planning.solve import DEADLINE_S, solve
+from skillc_runtime.planning.validation import PlanError, compute_work_s, validate
+from skillc_runtime.world.state import WorldState
+
+EARLIEST_START = "each step starts when the part of the plan before it has ended"
+LEAST_WORK_SHARE = 0.5
+"""The share of the time for the plan with the least work; the rest is for one with a shorter makespan."""
+LOWER_BOUND_DEADLINE_S = 4.0
+"""The time limit for the lower bound of the makespan."""
+
+ScheduleResult: TypeAlias = Scheduled | Unsolvable | GaveUp
+
+
+@dataclass(frozen=True, slots=True)
+class MakespanProblem:
+    """The goal, the world, the library, the steps that are excluded, and the deadline on the monotonic clock in s."""
+
+    library: SkillLibrary
+    state: WorldState
+    goal: Condition
+    without: tuple[Step, ...]
+    deadline: float
+
+    @property
+    def left_s(self) -> float:
+        """The remaining time in s."""
+        return max(self.deadline - time.monotonic(), 0.0)
+
+
+def minimise_makespan(
+    library: SkillLibrary,
+    state: WorldState,
+    goal: Condition,
+    planners: Planners,
+    deadline_s: float = DEADLINE_S,
+    without: Sequence[Step] = (),
+) -> ScheduleResult:
+    """Return a plan with times from `state` to the goal, which was simulated in the world model.
+
+    The plan with the least work is scheduled. If its makespan cannot be proven to be minimal, the scheduler searches
+    for a shorter one; without a scheduler, or if it fails, the note of the answer says so.
+    """
+    problem = MakespanProblem(library, state, goal, tuple(without), time.monotonic() + deadline_s)
+    least_work = solve(library, state, goal, planners.for_work, LEAST_WORK_SHARE * deadline_s, without)
+    if isinstance(least_work, Unsolvable) or (isinstance(least_work, GaveUp) and not least_work.searched):
+        return least_work
+    if isinstance(least_work, Solved) and not least_work.plan.steps:
+        return _schedule_empty_plan(least_work, problem)
+    try:
+        posed = pose_problem(library, state, goal, without, AT_ONCE)
+    except TooManyValues as why:
+        return GaveUp(str(why))
+    problem = replace(problem, library=posed.library)
+    first = _schedule_least_work(least_work, problem) if isinstance(least_work, Solved) else least_work
+    if isinstance(first, Scheduled):
+        seconds = min(LOWER_BOUND_DEADLINE_S, problem.left_s)
+        lower_bound_s = makespan_lower_bound_s(posed, first.schedule, planners.for_work[0], seconds)
+        first = _rate(replace(first, left_out=posed.left_out, assumptions=posed.assumptions), lower_bound_s)
+        if first.optimal == "proven":
+            return first
+    return _improve(first, planners.for_makespan, posed, problem)
+
+
+def _schedule_least_work(solved: Solved, problem: MakespanProblem) -> Scheduled | GaveUp:
+    try:
+        schedule = schedule_plan(solved.plan, problem.library, problem.state)
+        simulate_schedule(schedule, problem.library, problem.state, problem.goal)
+    except PlanError as error:
+        return GaveUp(f"{solved.planner} returned a plan that does not work: {error}")
+    return Scheduled(schedule, solved.plan, "best found", solved.planner, EARLIEST_START)
+
+
+def _schedule_empty_plan(solved: Solved, problem: MakespanProblem) -> Scheduled:
+    """Return the schedule of a plan without steps."""
+    schedule = schedule_plan(solved.plan, problem.library, problem.state)
+    return Scheduled(schedule, solved.plan, "proven", solved.planner, EARLIEST_START)
+
+
+def _improve(
+    first: Scheduled | GaveUp, scheduler: Scheduler | None, posed: Posed, problem: MakespanProblem
+) -> Scheduled | GaveUp:
+    """Return what the scheduler finds if its makespan is shorter, else the first schedule with a note."""
+    if scheduler is None:
+        return _add_note(first, "a temporal planner may find a shorter one: pip install 'skillc[temporal]'")
+    answer = scheduler.schedule(posed.problem, problem.left_s)
+    if isinstance(answer, GaveUp):
+        return _add_note(first, answer.why)
+    try:
+        plan, tight = _tighten(answer, problem)
+    except PlanError as error:
+        return _add_note(first, f"{scheduler.name} returned a schedule that does not work: {error}")
+    if isinstance(first, Scheduled) and tight.makespan_s >= first.schedule.makespan_s - TOLERANCE_S:
+        return _add_note(first, f"{scheduler.name} found none that is shorter")
+    lower_bound_s = first.at_least_s if isinstance(first, Scheduled) else None
+    found = Scheduled(tight, plan, "best found", scheduler.name, scheduler.name)
+    found = replace(found, left_out=posed.left_out, assumptions=posed.assumptions)
+    return _rate(found, lower_bound_s or 0.0)
+
+
+def _add_note(answer: Scheduled | GaveUp, note: str) -> Scheduled | GaveUp:
+    if isinstance(answer, GaveUp):
+        return GaveUp(f"{answer.why}; {note}")
+    return replace(answer, note=note)
+
+
+def _tighten(schedule: Schedule, problem: MakespanProblem) -> tuple[Plan, Schedule]:
+    """Return the steps in an order that works sequentially, and the schedule with the earliest times for it.
+
+    A temporal planner leaves gaps between steps, and orders simultaneous events in ways that running steps cannot.
+    """
+    library, state, goal = problem.library, problem.state, problem.goal
+    by_start = tuple(each.step for each in schedule.steps)
+    by_end = tuple(each.step for each in sorted(schedule.steps, key=lambda each: each.end_s))
+    try:
+        validate(Plan(by_start, 0.0), library, state, goal)
+        steps = by_start
+    except PlanError:
+        validate(Plan(by_end, 0.0), library, state, goal)
+        steps = by_end
+    plan = Plan(steps, compute_work_s(Plan(steps, 0.0), library, state))
+    tight = schedule_plan(plan, library, state)
+    simulate_schedule(tight, library, state, goal)
+    return plan, tight
+
+
+def _rate(answer: Scheduled, lower_bound_s: float) -> Scheduled:
+    if answer.schedule.makespan_s <= lower_bound_s + TOLERANCE_S:
+        return replace(answer, optimal="proven")
+    return replace(answer, at_least_s=lower_bound_s or None)

@@ -1,0 +1,54 @@
+"""Schedules a plan: each step starts as soon as those have ended that it has to wait for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from typing import assert_never
+
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSeries, arrange_plan
+from skillc_runtime.planning.plan import Plan
+from skillc_runtime.planning.schedule import Schedule, TimedStep
+from skillc_runtime.planning.validation import apply_step, compute_step_duration_s
+from skillc_runtime.world.state import WorldState
+
+
+def schedule_plan(plan: Plan, library: SkillLibrary, state: WorldState) -> Schedule:
+    """Return the earliest times for the steps of a plan; PlanError if it does not work from `state`.
+
+    They are those of the body that runs the plan: each part starts when the part before it has ended.
+    """
+    durations = step_durations_s(plan, library, state)
+    times = sorted(
+        _start_times(arrange_plan(plan, library, state), Fraction(0), durations), key=lambda each: each[::-1]
+    )
+    return Schedule(
+        tuple(TimedStep(plan.steps[number], float(start), float(durations[number])) for number, start in times)
+    )
+
+
+def step_durations_s(plan: Plan, library: SkillLibrary, state: WorldState) -> tuple[Fraction, ...]:
+    """Return the expected durations of the steps of a plan in s; PlanError if it does not work from `state`."""
+    before, found = state, []
+    for step in plan.steps:
+        found.append(compute_step_duration_s(step, library, state, before))
+        state = apply_step(step, library, state)
+    return tuple(found)
+
+
+def _start_times(part: Arrangement, start: Fraction, durations: Sequence[Fraction]) -> Iterator[tuple[int, Fraction]]:
+    """Yield the steps of a part that starts at `start`, each with the time at which it starts, in s."""
+    match part:
+        case int():
+            yield part, start
+        case InSeries(parts):
+            for each in parts:
+                starts = tuple(_start_times(each, start, durations))
+                yield from starts
+                start = max((begin + durations[number] for number, begin in starts), default=start)
+        case InParallel(parts):
+            for each in parts:
+                yield from _start_times(each, start, durations)
+        case _:
+            assert_never(part)

@@ -1,0 +1,69 @@
+"""Moves the joints of an arm to a posture around the obstacles in the world model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from skillc_runtime.avoidance.body import body
+from skillc_runtime.avoidance.contacts import Contacts
+from skillc_runtime.avoidance.outfit import outfit
+from skillc_runtime.avoidance.scenery import scenery
+from skillc_runtime.avoidance.ways import Known, NoWay, touch_on, way
+from skillc_runtime.motion.joint import JointTrajectory
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.primitives.primitive import SkillFailure
+from skillc_runtime.world.frames import FrameError, pose
+from skillc_runtime.world.sheet import SheetError, sheet_of
+from skillc_runtime.world.terms import HAS_GRIPPER
+
+if TYPE_CHECKING:
+    from skillc_runtime.robots.cell import Cell
+    from skillc_runtime.robots.driver import ArmDriver
+    from skillc_runtime.world.state import WorldState
+
+BLEND_SHARES = (1.0, 0.5, 0.25)
+"""Shares of each corner that are blended, in the order in which they are tried."""
+
+
+def move_collision_free(cell: Cell, arm: str, goals: Iterable[Array], pace: float) -> None:
+    """Move the joints to the first of the postures (nv,) in rad that can be reached without a collision.
+
+    `pace` is the share of the maximum joint speeds. SkillFailure, before anything moves, says what is in the way.
+    """
+    driver = cell.arm(arm)
+    state = cell.world.snapshot()
+    try:
+        contacts, known = _make_collision_model(cell, state, arm)
+    except (SheetError, FrameError):
+        driver.move_joints(next(iter(goals)), pace)
+        return
+    try:
+        driver.follow_joints(_plan_motion(driver, contacts, known, goals, pace))
+    except NoWay as why:
+        raise SkillFailure(str(why)) from why
+
+
+def _make_collision_model(cell: Cell, state: WorldState, arm: str) -> tuple[Contacts, Known]:
+    """Return what an arm can collide with, and its limits; SheetError without a model, FrameError without a pose."""
+    openings = {each: cell.gripper(each).opening_m for each in state.objects(arm, HAS_GRIPPER)}
+    shape = body(outfit(state, arm, openings), scenery(state, pose(state, arm)))
+    sheet = sheet_of(state, arm)
+    contacts = Contacts(shape, sheet.posture("home"))
+    return contacts, Known(cell.arm(arm).limits.range, tuple(sheet.posture(name) for name in sheet.posture_names))
+
+
+def _plan_motion(
+    driver: ArmDriver, contacts: Contacts, known: Known, goals: Iterable[Array], pace: float
+) -> JointTrajectory:
+    """Return a collision-free motion whose corners are blended as far as possible; NoWay if there is no path.
+
+    If no blending is possible the arm stops at each posture of the path, which is free of collisions.
+    """
+    postures = way(contacts, driver.joint_anchor, goals, known)
+    if len(postures) > 1:
+        for blend in BLEND_SHARES:
+            motion = driver.joint_motion(postures, pace, blend)
+            if touch_on(contacts, motion) is None:
+                return motion
+    return driver.joint_motion(postures, pace)
