@@ -1,4 +1,4 @@
-"""Looking into conditions and expressions: what they are made of, what they read, which names they leave open."""
+"""Looking into conditions and expressions: what they are made of, which names they leave open."""
 
 from __future__ import annotations
 
@@ -13,9 +13,6 @@ from skillc_compiler.library.conditions import (
     Exists,
     Expression,
     Forall,
-    HasProperty,
-    Holds,
-    PropertyOf,
     Variable,
 )
 
@@ -46,16 +43,6 @@ def _flat(value: object) -> Iterable[object]:
             return value.values()
         case _:
             return (value,)
-
-
-def terms_read(condition: Condition | Expression) -> frozenset[str]:
-    """Return the IRIs of the relations and properties that decide whether a condition holds or what a value is."""
-    read: set[str] = set()
-    for each in walk(condition):
-        match each:
-            case Holds(relation=iri) | HasProperty(property=iri) | PropertyOf(property=iri):
-                read.add(iri)
-    return frozenset(read)
 
 
 @lru_cache(maxsize=4096)

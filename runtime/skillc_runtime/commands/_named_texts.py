@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from skillc_compiler import walk
 from skillc_compiler.library.conditions import Literal
+from skillc_compiler.library.read_write import changing_terms
 from skillc_compiler.library.skills import Compound, SkillLibrary
 from skillc_compiler.library.vocabulary import Position
 from skillc_compiler.program import Implementation, Program, Valued, position
@@ -70,7 +71,6 @@ def warned(
     # The world model is heavy to import.
     from skillc_runtime.commands._scenes import read
     from skillc_runtime.selection.named import Misnamed, is_fixed_path, known_names
-    from skillc_runtime.selection.reads import changing_terms
 
     changing = changing_terms(compiled.value)
     for each in given:

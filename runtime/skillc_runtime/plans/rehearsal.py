@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.pddl.devices import devices
+from skillc_compiler.library.read_write import ReadWriteSet
 from skillc_compiler.library.skills import Implementation, SkillLibrary
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.schedule import Schedule, TimedStep
@@ -23,8 +24,7 @@ from skillc_runtime.planning.validation import (
     filter_held_implementations,
     find_startable_implementations,
 )
-from skillc_runtime.plans.order import touched_by
-from skillc_runtime.plans.touched import Touched
+from skillc_runtime.plans.order import read_write_set
 from skillc_runtime.world.expressions import EvaluationError
 from skillc_runtime.world.model import WorldError
 from skillc_runtime.world.state import WorldState
@@ -38,7 +38,7 @@ class _Active:
     """A step that runs, with the implementations that may be running it."""
 
     step: Step
-    touched: Touched
+    touches: ReadWriteSet
     implementations: tuple[Implementation, ...]
 
 
@@ -93,14 +93,14 @@ class _Rehearsal:
             expected_s = float(compute_step_duration_s(step, library, state, self._before))
             if abs(self._steps[number - 1].duration_s - expected_s) > INSTANT_S:
                 raise PlanError(f"it takes {expected_s:g} s, not {self._steps[number - 1].duration_s:g}")
-            touched = touched_by(step, library, self._locked, state, apply_effects(step, library, state))
+            touches = read_write_set(step, library, self._locked, state, apply_effects(step, library, state))
             for other, active in self._active.items():
-                shared = active.touched.shares_with(touched)
+                shared = active.touches.shares_with(touches)
                 if shared is not None:
                     raise PlanError(f"it runs beside step {other}, {active.step.skill}: {shared}")
-                if touched.is_disturbed_by(active.touched):
+                if touches.is_disturbed_by(active.touches):
                     raise PlanError(f"it begins while step {other}, {active.step.skill}, changes what it reads")
-            self._active[number] = _Active(step, touched, implementations)
+            self._active[number] = _Active(step, touches, implementations)
 
     def _end(self, number: int) -> None:
         active = self._active.pop(number)

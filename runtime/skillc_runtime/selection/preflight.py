@@ -8,6 +8,7 @@ from typing import TypeAlias, assert_never
 
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Condition, Expression, Variable
+from skillc_compiler.library.read_write import changing_terms, is_fixed
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Compound, Implementation, Primitive, SkillLibrary
 from skillc_compiler.library.vocabulary import Position
@@ -16,7 +17,6 @@ from skillc_runtime.selection.inferred import infer_fixed
 from skillc_runtime.selection.known import Known, known_values, unusable
 from skillc_runtime.selection.named import Misnamed, misnamed
 from skillc_runtime.selection.python import PrimitiveError, fitting_class
-from skillc_runtime.selection.reads import changing_terms, is_fixed
 from skillc_runtime.selection.select import candidates, why_none
 from skillc_runtime.trace.failure import Rejected
 from skillc_runtime.world.conditions import evaluate

@@ -25,7 +25,6 @@ from skillc_compiler.library.conditions import (
 from skillc_compiler.library.pddl.domain import PlanningDomain, PropertyFact, RelationFact
 from skillc_compiler.library.pddl.formulas import FALSE, TRUE, Formula, Typed, atoms
 from skillc_compiler.library.pddl.hierarchy import Hierarchy
-from skillc_compiler.library.pddl.relations import Relations
 from skillc_compiler.library.pddl.rewriting import replaced
 from skillc_compiler.library.pddl.symbols import Symbols
 from skillc_compiler.library.pddl.translate import Named, Scope, Translator
@@ -75,7 +74,7 @@ def _symbols(library: SkillLibrary, domain: PlanningDomain) -> Symbols:
                 case RelationFact(relation=iri) | PropertyFact(property=iri):
                     changing.add(iri)
     hierarchy = Hierarchy(vocabulary, {name: term for term, name in domain.names.items()}, domain.combined)
-    return Symbols(vocabulary, domain.names, hierarchy, Relations(vocabulary), frozenset(changing), settled=True)
+    return Symbols(vocabulary, domain.names, hierarchy, frozenset(changing), settled=True)
 
 
 def _ground(condition: Condition, symbols: Symbols, members: Members) -> Condition:

@@ -12,7 +12,8 @@ from skillc_compiler.library.pddl.names import fresh, kebab
 from skillc_compiler.library.pddl.rewriting import is_plain
 from skillc_compiler.library.pddl.symbols import Symbols
 from skillc_compiler.library.pddl.translate import Scope, Settle, Untranslatable
-from skillc_compiler.library.reading import free_variables_in_order, terms_read
+from skillc_compiler.library.read_write import terms_read
+from skillc_compiler.library.reading import free_variables_in_order
 
 
 @dataclass
