@@ -9,8 +9,8 @@ from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 from skillc_compiler.emit.phrases import expression_text, literal_text
 from skillc_compiler.emit.quantities import quantity_texts
 from skillc_compiler.library.conditions import Expression, Literal
-from skillc_compiler.library.pddl.rewriting import constant
 from skillc_compiler.library.reading import walk
+from skillc_compiler.library.rewriting import constant_number
 from skillc_compiler.library.skills import Compound, Implementation, Parameter, Skill, SkillLibrary
 from skillc_compiler.library.tree import Call
 from skillc_compiler.library.vocabulary import Vocabulary
@@ -43,7 +43,7 @@ def _page(skill: Skill, library: SkillLibrary) -> str:
 def _parameter(parameter: Parameter, vocabulary: Vocabulary) -> tuple[str, ...]:
     """Return the row of a parameter: name, kind, type, default, range, what it is."""
     kind = KINDS[parameter.direction] + (", any" if parameter.any_ else "")
-    number = None if parameter.default is None else constant(parameter.default)
+    number = None if parameter.default is None else constant_number(parameter.default)
     default, low, high = quantity_texts((number, parameter.low, parameter.high), parameter.type)
     if parameter.default is not None and number is None:
         default = _default(parameter.default, vocabulary)

@@ -9,7 +9,7 @@ from skillc_compiler.emit.owl_words import DATATYPES, DIMENSION, RDFS, SKILLC, X
 from skillc_compiler.emit.phrases import expression_text
 from skillc_compiler.emit.turtle import RDF_TYPE, Iri, Object
 from skillc_compiler.library.conditions import Expression, Individual, Literal
-from skillc_compiler.library.pddl.rewriting import constant
+from skillc_compiler.library.rewriting import constant_number
 from skillc_compiler.library.vocabulary import (
     ClassType,
     DirectionType,
@@ -45,7 +45,7 @@ def value(expression: Expression, type_: ValueType, vocabulary: Vocabulary) -> O
             return plain
         case Literal(value=int() as whole) if type_ == PlainType("Int"):
             return whole
-    number = constant(expression)
+    number = constant_number(expression)
     return expression_text(expression, vocabulary) if number is None else number
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import lru_cache
 
 import msgspec
 
 from skillc_compiler.library.conditions import (
+    And,
     Condition,
     Effect,
     Exists,
@@ -20,29 +21,33 @@ from skillc_compiler.library.conditions import (
 def walk(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
     """Yield a condition or expression and everything inside it."""
     yield item
-    for part in _inside(item):
+    for part in children(item):
         yield from walk(part)
 
 
-def is_deeper(item: object, most: int) -> bool:
+def children(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
+    """Yield the conditions, expressions, nodes and other structs of which something is made, in order."""
+    for name in item.__struct_fields__:
+        value = getattr(item, name)
+        parts = value if isinstance(value, tuple) else value.values() if isinstance(value, dict) else (value,)
+        yield from (part for part in parts if isinstance(part, msgspec.Struct))
+
+
+def conjuncts(condition: Condition) -> Iterator[Condition]:
+    """Yield the conditions that `and` joins, the condition itself where it is none."""
+    if isinstance(condition, And):
+        for part in condition.parts:
+            yield from conjuncts(part)
+    else:
+        yield condition
+
+
+def is_deeper(item: msgspec.Struct, most: int) -> bool:
     """Whether parts of a condition, an expression or a call are inside each other more than so many times."""
     level = [item]
     for _ in range(most + 1):
-        structs = [each for each in level if isinstance(each, msgspec.Struct)]
-        level = [part for each in structs for name in each.__struct_fields__ for part in _flat(getattr(each, name))]
-        if not level:
-            return False
-    return any(isinstance(each, msgspec.Struct) for each in level)
-
-
-def _flat(value: object) -> Iterable[object]:
-    match value:
-        case tuple():
-            return value
-        case dict():
-            return value.values()
-        case _:
-            return (value,)
+        level = [part for each in level for part in children(each)]
+    return bool(level)
 
 
 @lru_cache(maxsize=4096)
@@ -60,11 +65,4 @@ def _free(item: msgspec.Struct) -> Iterator[str]:
     if isinstance(item, Variable):
         yield item.name
     bound = item.variable if isinstance(item, Exists | Forall) else None
-    yield from (name for part in _inside(item) for name in _free(part) if name != bound)
-
-
-def _inside(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
-    for name in item.__struct_fields__:
-        value = getattr(item, name)
-        parts = value if isinstance(value, tuple) else (value,)
-        yield from (part for part in parts if isinstance(part, msgspec.Struct))
+    yield from (name for part in children(item) for name in _free(part) if name != bound)

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TypeVar, assert_never
-
-import msgspec
+from typing import assert_never
 
 from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import And, Condition, Expression, Individual, Not, Variable
+from skillc_compiler.library.conditions import And, Condition, Expression, Individual, Not
 from skillc_compiler.library.reading import free_variables
+from skillc_compiler.library.rewriting import substitute
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.plans.order import Arrangement, InOrder, Together
-
-S = TypeVar("S", bound=msgspec.Struct)
 
 
 def plan_body(plan: Plan, arrangement: Arrangement, library: SkillLibrary) -> tree.Node:
@@ -31,7 +27,7 @@ def achieved(step: Step, library: SkillLibrary) -> Condition | None:
     posts = library.skills[step.skill].post
     if not posts or any(free_variables(post.condition) - individuals.keys() for post in posts):
         return None
-    return And(tuple(_grounded(post.condition, individuals) for post in posts))
+    return And(tuple(substitute(post.condition, individuals) for post in posts))
 
 
 def _body(arrangement: Arrangement, steps: tuple[Step, ...], library: SkillLibrary) -> tree.Node:
@@ -57,21 +53,3 @@ def _step(step: Step, library: SkillLibrary) -> tree.Node:
         return call
     text = " and ".join(post.text for post in skill.post)
     return tree.If(condition=Not(done), text=f"not ({text})", then=call, orelse=None, source=skill.source)
-
-
-def _grounded(item: S, individuals: Mapping[str, Individual]) -> S:
-    """Return a condition or expression with individuals in the place of variables."""
-    changed = {name: _replaced(getattr(item, name), individuals) for name in item.__struct_fields__}
-    return msgspec.structs.replace(item, **changed)
-
-
-def _replaced(value: object, individuals: Mapping[str, Individual]) -> object:
-    match value:
-        case Variable(name=name):
-            return individuals.get(name, value)
-        case msgspec.Struct():
-            return _grounded(value, individuals)
-        case tuple():
-            return tuple(_replaced(each, individuals) for each in value)
-        case _:
-            return value

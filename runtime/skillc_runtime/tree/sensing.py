@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
-from skillc_compiler.library.conditions import And, Condition
+from skillc_compiler.library.reading import conjuncts
 from skillc_compiler.library.skills import Post
 from skillc_runtime.tree.enclosing import Frame
 from skillc_runtime.world.changes import AddRelation, Change, RemoveRelation, SetProperty
@@ -25,7 +25,7 @@ def unsensed(changes: Sequence[Change], world: WorldModel, begun: int) -> tuple[
 
 def not_sensed(post: Post, world: WorldModel, frame: Frame, begun: int) -> str | None:
     """Say why a `sensed` post that holds is no measurement made since the write `begun`; None where it is one."""
-    for literal in _literals(post.condition):
+    for literal in conjuncts(post.condition):
         found = grounds(literal, world, frame)
         assumed = next((ground for ground in found if ground.assumed), None)
         if assumed is not None:
@@ -51,14 +51,6 @@ def _told(change: Change, world: WorldModel, begun: int) -> bool:
 
 def _fresh(established: Established | None, begun: int) -> bool:
     return established is not None and established.number > begun and established.evidence in ("sensed", "reported")
-
-
-def _literals(condition: Condition) -> Iterator[Condition]:
-    if isinstance(condition, And):
-        for part in condition.parts:
-            yield from _literals(part)
-    else:
-        yield condition
 
 
 def _said(ground: Ground, world: WorldModel) -> str:

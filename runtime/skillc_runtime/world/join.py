@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import repeat
 
-from skillc_compiler.library.conditions import And, Anything, Condition, Holds, Individual, Term, Variable
-from skillc_compiler.library.reading import free_variables
+from skillc_compiler.library.conditions import Anything, Condition, Holds, Individual, Term, Variable
+from skillc_compiler.library.reading import conjuncts, free_variables
 from skillc_runtime.world.conditions import Test, compile_condition
 from skillc_runtime.world.expressions import Bindings
 from skillc_runtime.world.state import WorldState
@@ -27,7 +27,7 @@ def solutions(
     at `most_tried` individuals it ends. EvaluationError as in `evaluate`.
     """
     relevant = (condition for condition in conditions if not free_variables(condition).isdisjoint(variables))
-    filters = [_filter(part, variables) for condition in relevant for part in _parts(condition)]
+    filters = [_filter(part, variables) for condition in relevant for part in conjuncts(condition)]
     scope = {**bindings, **dict.fromkeys(variables)}
     if not all(each.test(state, scope) for each in filters if not each.about):
         return
@@ -46,14 +46,6 @@ class _Filter:
 
 def _filter(condition: Condition, variables: Mapping[str, str]) -> _Filter:
     return _Filter(condition, free_variables(condition) & variables.keys(), compile_condition(condition))
-
-
-def _parts(condition: Condition) -> Iterator[Condition]:
-    if isinstance(condition, And):
-        for part in condition.parts:
-            yield from _parts(part)
-    else:
-        yield condition
 
 
 def _extended(

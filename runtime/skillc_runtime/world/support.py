@@ -23,6 +23,7 @@ from skillc_compiler.library.conditions import (
     Same,
     Variable,
 )
+from skillc_compiler.library.reading import children
 from skillc_compiler.library.vocabulary import local_name
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.expressions import EvaluationError, iri_of, property_of
@@ -69,7 +70,7 @@ def _facts(item: msgspec.Struct, state: WorldState, bindings: _Names) -> Iterato
             for individual in _telling(item, state, bindings):
                 yield from _facts(item.body, state, {**bindings, item.variable: individual})
         case _:
-            for part in _parts(item):
+            for part in children(item):
                 yield from _facts(part, state, bindings)
 
 
@@ -122,10 +123,3 @@ def _true(parts: Sequence[Condition], state: WorldState, bindings: _Names) -> li
         return [part for part in parts if evaluate(part, state, bindings)]
     except EvaluationError:
         return []
-
-
-def _parts(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
-    for name in item.__struct_fields__:
-        value = getattr(item, name)
-        parts = value if isinstance(value, tuple) else (value,)
-        yield from (part for part in parts if isinstance(part, msgspec.Struct))

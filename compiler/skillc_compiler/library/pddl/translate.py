@@ -75,7 +75,7 @@ class Impossible(Untranslatable):
     """Something that can never be done: a skill that is left out for it makes no difference to any plan."""
 
 
-class Settle(Protocol):
+class StaticEvaluator(Protocol):
     """What becomes of a condition that nothing changes."""
 
     def __call__(self, condition: Condition, scope: Scope) -> Formula | None:
@@ -88,7 +88,7 @@ class Translator:
     """Turns conditions into formulas; `objects` are the individuals that may be named, by IRI."""
 
     symbols: Symbols
-    settle: Settle
+    evaluate_static: StaticEvaluator
     objects: Mapping[str, Named]
 
     def formula(self, condition: Condition, scope: Scope) -> Formula:
@@ -111,7 +111,7 @@ class Translator:
         read = terms_read(condition)
         self._refuse_moving(read)
         if not any(self.symbols.affected(iri) for iri in read):
-            settled = self.settle(condition, scope)
+            settled = self.evaluate_static(condition, scope)
             if settled is not None:
                 return settled
         match condition:
