@@ -29,7 +29,7 @@ from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source, Span
 
-T = TypeVar("T", bound=msgspec.Struct)
+T = TypeVar("T")
 
 LONGEST, DEEPEST = 50_000, 100
 """How many characters a goal or a call may have, and how deep it may be nested."""
@@ -57,7 +57,7 @@ def parse_call(
     return _bounded(lambda: _call(text, asked), text, "call")
 
 
-def _bounded(understand: Callable[[], Outcome[T | None]], text: str, what: Asked) -> Outcome[T | None]:
+def _bounded(understand: Callable[[], Outcome[T]], text: str, what: Asked) -> Outcome[T | None]:
     """Understand a text unless it is longer, or nested deeper, than anybody would write it."""
     if len(text) > LONGEST:
         return _refused(what, f"the {what} has {len(text)} characters, and {LONGEST} at most are read")
@@ -65,7 +65,7 @@ def _bounded(understand: Callable[[], Outcome[T | None]], text: str, what: Asked
         outcome = understand()
     except RecursionError:
         return _refused(what, f"the {what} is nested too deeply")
-    if outcome.value is not None and is_deeper(outcome.value, DEEPEST):
+    if isinstance(outcome.value, msgspec.Struct) and is_deeper(outcome.value, DEEPEST):
         return _refused(what, f"the {what} is nested more than {DEEPEST} deep")
     return outcome
 

@@ -206,9 +206,9 @@ def _compared(sorts: Sorts, state: State, asked: Compare) -> bool | None:
         return None
     for fact, true in state.facts.items():
         if isinstance(fact, Compare) and fact.left == asked.left:
-            decided = _follows(fact, true, asked)
-            if decided is not None:
-                return decided
+            answer = _follows(fact, true, asked)
+            if answer is not None:
+                return answer
     return None
 
 
