@@ -6,9 +6,9 @@ from functools import cache
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 
-from skillc_compiler.emit.phrases import expression_text, literal_text
 from skillc_compiler.emit.quantities import quantity_texts
 from skillc_compiler.library.conditions import Expression, Literal
+from skillc_compiler.library.format_condition import format_expression, format_literal
 from skillc_compiler.library.reading import walk
 from skillc_compiler.library.rewriting import constant_number
 from skillc_compiler.library.skills import Compound, Implementation, Parameter, Skill, SkillLibrary
@@ -33,7 +33,7 @@ def _page(skill: Skill, library: SkillLibrary) -> str:
         skill=skill,
         parameters=[_parameter(each, vocabulary) for each in skill.parameters],
         conditions=[(title, listed) for title, listed in conditions if listed],
-        duration=expression_text(skill.duration, vocabulary) if skill.duration else "",
+        duration=format_expression(skill.duration, vocabulary) if skill.duration else "",
         implementations=[
             (each, _difference(each, skill, vocabulary), _body(each)) for each in library.implementations_of(skill.name)
         ],
@@ -55,9 +55,9 @@ def _parameter(parameter: Parameter, vocabulary: Vocabulary) -> tuple[str, ...]:
 def _default(default: Expression, vocabulary: Vocabulary) -> str:
     match default:
         case Literal(value=value):
-            return literal_text(value)
+            return format_literal(value)
         case expression:
-            return expression_text(expression, vocabulary)
+            return format_expression(expression, vocabulary)
 
 
 def _difference(implementation: Implementation, skill: Skill, vocabulary: Vocabulary) -> list[str]:

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from typing import assert_never
 
 from skillc_compiler.emit.owl_words import DATATYPES, DIMENSION, RDFS, SKILLC, XSD
-from skillc_compiler.emit.phrases import expression_text
 from skillc_compiler.emit.turtle import RDF_TYPE, Iri, Object
 from skillc_compiler.library.conditions import Expression, Individual, Literal
+from skillc_compiler.library.format_condition import format_expression
 from skillc_compiler.library.rewriting import constant_number
 from skillc_compiler.library.vocabulary import (
     ClassType,
@@ -46,7 +46,7 @@ def value(expression: Expression, type_: ValueType, vocabulary: Vocabulary) -> O
         case Literal(value=int() as whole) if type_ == PlainType("Int"):
             return whole
     number = constant_number(expression)
-    return expression_text(expression, vocabulary) if number is None else number
+    return format_expression(expression, vocabulary) if number is None else number
 
 
 def _type_iri(type_: ValueType) -> str:
