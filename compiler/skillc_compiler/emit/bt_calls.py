@@ -19,7 +19,7 @@ from skillc_compiler.emit.bt_ports import (
     whole_ports,
 )
 from skillc_compiler.library.closure import reachable
-from skillc_compiler.library.reading import walk
+from skillc_compiler.library.reading import calls_in
 from skillc_compiler.library.skills import Compound, Implementation, Parameter, Skill, SkillLibrary
 from skillc_compiler.library.tree import Call, Node
 from skillc_compiler.library.vocabulary import Position
@@ -43,7 +43,7 @@ def _demands(implementation: Implementation, skill: Skill) -> bool:
 
 def may_break_hold(library: SkillLibrary, node: Node) -> bool:
     """Whether a skill below the node has a hold condition."""
-    names = reached([each.skill for each in walk(node) if isinstance(each, Call)], library)
+    names = reached([each.skill for each in calls_in(node)], library)
     return any(each.hold for name in names for each in library.implementations_of(name))
 
 
@@ -53,7 +53,7 @@ def reached(start: Sequence[str], library: SkillLibrary) -> set[str]:
     def called(name: str) -> Iterator[str]:
         bodies = (each.body for each in library.implementations_of(name))
         nodes = (body.node for body in bodies if isinstance(body, Compound))
-        return (each.skill for node in nodes for each in walk(node) if isinstance(each, Call))
+        return (each.skill for node in nodes for each in calls_in(node))
 
     return reachable(start, called)
 

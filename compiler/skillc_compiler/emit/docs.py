@@ -9,10 +9,9 @@ from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 from skillc_compiler.emit.quantities import quantity_texts
 from skillc_compiler.library.conditions import Expression, Literal
 from skillc_compiler.library.format_condition import format_expression, format_literal
-from skillc_compiler.library.reading import walk
+from skillc_compiler.library.reading import calls_in
 from skillc_compiler.library.rewriting import constant_number
 from skillc_compiler.library.skills import Compound, Implementation, Parameter, Skill, SkillLibrary
-from skillc_compiler.library.tree import Call
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.library.words import type_text
 
@@ -77,7 +76,7 @@ def _difference(implementation: Implementation, skill: Skill, vocabulary: Vocabu
 def _body(implementation: Implementation) -> str:
     match implementation.body:
         case Compound(node=node):
-            names = dict.fromkeys(each.skill for each in walk(node) if isinstance(each, Call))
+            names = dict.fromkeys(each.skill for each in calls_in(node))
             return "calls " + ", ".join(f"[{name}]({name}.md)" for name in names) if names else "calls no skill"
         case primitive:
             return f"runs `{primitive.python}`"

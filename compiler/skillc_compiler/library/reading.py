@@ -1,4 +1,4 @@
-"""Looking into conditions and expressions: what they are made of, which names they leave open."""
+"""Looking into conditions, expressions and bodies: what they are made of, which names they leave open."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from skillc_compiler.library.conditions import (
     Forall,
     Variable,
 )
+from skillc_compiler.library.tree import Call
 
 
 def walk(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
@@ -40,6 +41,11 @@ def conjuncts(condition: Condition) -> Iterator[Condition]:
             yield from conjuncts(part)
     else:
         yield condition
+
+
+def calls_in(item: msgspec.Struct) -> Iterator[Call]:
+    """Yield the calls of skills in a body, in the order of the text."""
+    return (each for each in walk(item) if isinstance(each, Call))
 
 
 def is_deeper(item: msgspec.Struct, most: int) -> bool:

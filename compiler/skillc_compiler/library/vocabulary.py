@@ -10,6 +10,8 @@ import msgspec
 from skillc_compiler.library.closure import RelationClosure, reachable, relation_closure
 
 THING = "http://www.w3.org/2002/07/owl#Thing"
+CHARACTERISTICS = ("functional", "inverse_functional", "symmetric", "transitive", "asymmetric", "irreflexive")
+"""What may be stated of a relation alone, in the order in which it is told."""
 
 
 class Position(msgspec.Struct, frozen=True, order=True):
@@ -100,6 +102,11 @@ class RelationTerm(msgspec.Struct, frozen=True, kw_only=True):
     computed_from: tuple[str, ...] = ()
     comment: str = ""
     source: Position | None = None
+
+    @property
+    def characteristics(self) -> tuple[str, ...]:
+        """The axioms about the relation alone, by their names in OWL's words, as `inverse functional`."""
+        return tuple(name.replace("_", " ") for name in CHARACTERISTICS if getattr(self, name))
 
 
 class Bounds(msgspec.Struct, frozen=True, kw_only=True):

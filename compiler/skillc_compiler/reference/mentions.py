@@ -18,8 +18,7 @@ from skillc_compiler.library.conditions import (
     PropertyOf,
     Retract,
 )
-from skillc_compiler.library.reading import walk
-from skillc_compiler.library.tree import Call
+from skillc_compiler.library.reading import calls_in, walk
 from skillc_compiler.library.vocabulary import ClassType
 
 
@@ -30,7 +29,7 @@ def mentioned(item: msgspec.Struct) -> frozenset[str]:
 
 def called(item: msgspec.Struct) -> tuple[str, ...]:
     """Return the skills called inside `item`, in the order of their first call."""
-    return tuple(dict.fromkeys(each.skill for each in walk(item) if isinstance(each, Call)))
+    return tuple(dict.fromkeys(each.skill for each in calls_in(item)))
 
 
 def _named(item: msgspec.Struct) -> Iterator[str]:

@@ -70,13 +70,7 @@ def _beyond_dl(vocabulary: Vocabulary, places: Places) -> Iterator[Diagnostic]:
     """Tell of characteristics that OWL 2 DL forbids for relations that a transitive one implies."""
     relations = vocabulary.relations
     for iri in sorted(vocabulary.closure.chained):
-        term = relations[iri]
-        words = (
-            *(["functional"] if term.functional else []),
-            *(["inverse functional"] if term.inverse_functional else []),
-            *(["asymmetric"] if term.asymmetric else []),
-            *(["irreflexive"] if term.irreflexive else []),
-        )
+        words = [each for each in relations[iri].characteristics if each not in ("symmetric", "transitive")]
         if words:
             yield Diagnostic(
                 "beyond-owl-dl",

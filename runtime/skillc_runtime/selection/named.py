@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Variable
-from skillc_compiler.library.reading import walk
+from skillc_compiler.library.reading import calls_in
 from skillc_compiler.library.skills import Implementation, Primitive, SkillLibrary
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_runtime.selection.python import PrimitiveError, primitive_class
@@ -114,8 +114,7 @@ def _named_by(
 def _passed_on(library: SkillLibrary, body: tree.Node, name: str, around: frozenset[str]) -> frozenset[Path]:
     passed = (
         _naming(library, call.skill, parameter, around)
-        for call in walk(body)
-        if isinstance(call, tree.Call)
+        for call in calls_in(body)
         for parameter, argument in call.arguments.items()
         if argument == Variable(name)
     )

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import repeat
 
-from skillc_compiler.library.conditions import Anything, Condition, Holds, Individual, Term, Variable
+from skillc_compiler.library.conditions import Condition, Holds, Term, Variable
 from skillc_compiler.library.reading import conjuncts, free_variables
 from skillc_runtime.world.conditions import Test, compile_condition
-from skillc_runtime.world.expressions import Bindings
+from skillc_runtime.world.expressions import Bindings, iri_of
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
 
@@ -90,7 +90,7 @@ def _candidates(
 
 
 def _related(name: str, holds: Holds, scope: dict[str, Value | None], state: WorldState) -> frozenset[str] | None:
-    subject, object_ = _known(holds.subject, scope), _known(holds.object, scope)
+    subject, object_ = iri_of(holds.subject, scope), iri_of(holds.object, scope)
     if subject is None and object_ is not None and _is(holds.subject, name):
         return state.subjects(holds.relation, object_)
     if object_ is None and subject is not None and _is(holds.object, name):
@@ -100,14 +100,3 @@ def _related(name: str, holds: Holds, scope: dict[str, Value | None], state: Wor
 
 def _is(term: Term, name: str) -> bool:
     return isinstance(term, Variable) and term.name == name
-
-
-def _known(term: Term, scope: dict[str, Value | None]) -> str | None:
-    match term:
-        case Individual(iri):
-            return iri
-        case Variable(name):
-            value = scope.get(name)
-            return value if isinstance(value, str) else None
-        case Anything():
-            return None
