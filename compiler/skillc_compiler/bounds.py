@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal as OneOf
 from typing import TypeAlias, assert_never
 
-from skillc_compiler.library.conditions import Compare, Condition, Expression, Literal
-from skillc_compiler.lower.folding import fold
+from skillc_compiler.library.conditions import Compare, Condition, Expression, Literal, Operator
+from skillc_compiler.library.rewriting import fold
 
-Operator: TypeAlias = OneOf["==", "!=", "<", "<=", ">", ">="]
-_TURNED: dict[Operator, Operator] = {"==": "==", "!=": "!=", "<": ">", "<=": ">=", ">": "<", ">=": "<="}
+MIRRORED: dict[Operator, Operator] = {"==": "==", "!=": "!=", "<": ">", "<=": ">=", ">": "<", ">=": "<="}
+"""What a comparison says with its sides exchanged."""
 _OPPOSITE: dict[Operator, Operator] = {"==": "!=", "!=": "==", "<": ">=", "<=": ">", ">": "<=", ">=": "<"}
 
 
@@ -38,11 +37,11 @@ def bound(condition: Condition) -> Bound | None:
         case left, Literal(value=value):
             return Bound(left, condition.operator, value)
         case Literal(value=value), right:
-            return Bound(right, _TURNED[condition.operator], value)
+            return Bound(right, MIRRORED[condition.operator], value)
     return None
 
 
-def exclude(one: Bound, other: Bound) -> bool:
+def are_disjoint(one: Bound, other: Bound) -> bool:
     """Whether no value is allowed by both; they must be about the same thing."""
     first, second = one.value, other.value
     if isinstance(first, str | bool) or isinstance(second, str | bool):

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
-from skillc_compiler.bounds import Bound, bound, exclude
+from skillc_compiler.bounds import Bound, are_disjoint, bound
 from skillc_compiler.conjuncts import Fact
 from skillc_compiler.library.conditions import Anything, HasProperty, Holds, Individual, IsA, PropertyOf, Term
-from skillc_compiler.library.pddl.relations import Reading, Relations
 from skillc_compiler.library.vocabulary import Vocabulary
 
 
@@ -21,18 +20,17 @@ class Link:
     object: Term
 
 
-@dataclass
+@dataclass(frozen=True)
 class Conflicts:
     """What excludes what under the axioms of a vocabulary."""
 
     vocabulary: Vocabulary
-    _implied: dict[str, tuple[Reading, ...]] = field(default_factory=dict)
 
     def implied(self, fact: Holds) -> Iterator[Link]:
         """Yield every link that is there when the relation holds: its own, those above it, inverses."""
-        for reading in self._above(fact.relation):
-            ends = (fact.object, fact.subject) if reading.swapped else (fact.subject, fact.object)
-            yield Link(ends[0], reading.relation, ends[1])
+        for each in self.vocabulary.closure.implied.get(fact.relation, ()):
+            subject, object_ = each.ends(fact.subject, fact.object)
+            yield Link(subject, each.relation, object_)
 
     def between(self, one: Fact, other: Fact) -> bool:
         """Whether the two facts cannot both be."""
@@ -69,11 +67,6 @@ class Conflicts:
             for link in self.implied(one)
         )
 
-    def _above(self, relation: str) -> tuple[Reading, ...]:
-        if relation not in self._implied:
-            self._implied[relation] = Relations(self.vocabulary).above(relation)
-        return self._implied[relation]
-
     def _never_to_itself(self, link: Link) -> bool:
         term = self.vocabulary.relations[link.relation]
         return term.irreflexive or term.asymmetric
@@ -96,7 +89,7 @@ class Conflicts:
     def _valued(self, one: Fact, other: Fact) -> bool:
         mine, theirs = bound(one.meaning), bound(other.meaning)
         if mine is not None and theirs is not None and mine.of == theirs.of:
-            return exclude(mine, theirs if other.holds else theirs.opposite())
+            return are_disjoint(mine, theirs if other.holds else theirs.opposite())
         match mine, other.meaning:
             case Bound(of=PropertyOf(of=of, property=name)), HasProperty(subject=subject, property=absent):
                 return not other.holds and (of, name) == (subject, absent)

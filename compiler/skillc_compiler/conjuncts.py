@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from skillc_compiler.library.conditions import And, Condition, Expression, Individual, Not, Or, Same, Variable
-from skillc_compiler.library.pddl.rewriting import replaced
+from skillc_compiler.library.rewriting import substitute
 from skillc_compiler.program import Clause, Implementation, Program, Requirement, Skill
 from skillc_compiler.walk import clauses_in, steps
 
@@ -26,7 +26,7 @@ class Fact:
 
 
 @dataclass(frozen=True, slots=True)
-class Together:
+class ConjunctionGroup:
     """Facts that shall be true at the same time; of those `given` no problem is told again."""
 
     own: tuple[Fact, ...]
@@ -59,29 +59,29 @@ def names_of(facts: Iterable[Fact]) -> dict[str, Expression]:
     names: dict[str, Expression] = {}
     for fact in facts:
         if fact.holds and isinstance(fact.meaning, Same):
-            one, other = (replaced(each, names) for each in (fact.meaning.left, fact.meaning.right))
+            one, other = (substitute(each, names) for each in (fact.meaning.left, fact.meaning.right))
             one, other = (other, one) if isinstance(other, Variable) else (one, other)
             if isinstance(one, Variable) and isinstance(other, Variable | Individual) and one != other:
-                names = {name: replaced(each, {one.name: other}) for name, each in names.items()}
+                names = {name: substitute(each, {one.name: other}) for name, each in names.items()}
                 names[one.name] = other
     return names
 
 
 def renamed(fact: Fact, names: Mapping[str, Expression]) -> Fact:
     """Return the fact with one name for all that are the same."""
-    return replace(fact, clause=replace(fact.clause, meaning=replaced(fact.meaning, names))) if names else fact
+    return replace(fact, clause=replace(fact.clause, meaning=substitute(fact.meaning, names))) if names else fact
 
 
-def together(program: Program) -> Iterator[Together]:
+def conjunction_groups(program: Program) -> Iterator[ConjunctionGroup]:
     """Yield every group of facts that a description, implementation, goal, node or part of a condition joins."""
     for skill in program.skills.values():
-        yield Together(_facts(skill.requirements))
+        yield ConjunctionGroup(_facts(skill.requirements))
     for implementation in program.implementations:
-        yield Together(_facts(implementation.requirements), _facts(implementation.skill.requirements))
+        yield ConjunctionGroup(_facts(implementation.requirements), _facts(implementation.skill.requirements))
     alone = [task.goal for task in program.tasks if task.goal]
     alone += [clause for step in steps(program) for clause in step.clauses]
     for clause in alone:
-        yield Together(tuple(conjuncts(clause)))
+        yield ConjunctionGroup(tuple(conjuncts(clause)))
     for clause in (*alone, *_conditions(program)):
         yield from _inner(clause)
 
@@ -96,9 +96,9 @@ def _facts(requirements: tuple[Requirement, ...]) -> tuple[Fact, ...]:
     return tuple(fact for r in requirements if r.kind != "post" for fact in conjuncts(r.clause))
 
 
-def _inner(clause: Clause) -> Iterator[Together]:
+def _inner(clause: Clause) -> Iterator[ConjunctionGroup]:
     """Yield the groups inside `or` and quantifiers."""
     for part in clauses_in(clause):
         if not isinstance(part.meaning, And | Not):
             for below in part.parts:
-                yield Together(tuple(conjuncts(below)))
+                yield ConjunctionGroup(tuple(conjuncts(below)))

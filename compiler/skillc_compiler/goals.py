@@ -15,10 +15,10 @@ from skillc_compiler.checks import check
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.reading import is_deeper
+from skillc_compiler.library.rewriting import fold
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Position, Vocabulary
 from skillc_compiler.lower.bodies import node
-from skillc_compiler.lower.folding import fold_condition
 from skillc_compiler.program import Program, Task
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.names import KINDS, Names
@@ -65,7 +65,7 @@ def _bounded(understand: Callable[[], Outcome[T]], text: str, what: Asked) -> Ou
         outcome = understand()
     except RecursionError:
         return _refused(what, f"the {what} is nested too deeply")
-    if is_deeper(outcome.value, DEEPEST):
+    if isinstance(outcome.value, msgspec.Struct) and is_deeper(outcome.value, DEEPEST):
         return _refused(what, f"the {what} is nested more than {DEEPEST} deep")
     return outcome
 
@@ -84,7 +84,7 @@ def _goal(text: str, asked: Setting) -> Outcome[Condition | None]:
     else:
         understood = _in_text(_understood(asked, _wrapped(text, "goal")), text, "goal")
     reached = understood.value.goal if understood.value else None
-    return Outcome(fold_condition(reached.meaning) if reached else None, understood.diagnostics)
+    return Outcome(fold(reached.meaning) if reached else None, understood.diagnostics)
 
 
 def _call(text: str, asked: Setting) -> Outcome[tree.Call | None]:

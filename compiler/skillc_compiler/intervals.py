@@ -15,7 +15,7 @@ from skillc_compiler.library.conditions import (
     PropertyOf,
     Variable,
 )
-from skillc_compiler.lower.folding import number
+from skillc_compiler.library.rewriting import constant_number
 from skillc_compiler.program import Let, Parameter
 
 Interval: TypeAlias = tuple[float, float]
@@ -26,7 +26,7 @@ def intervals(parameters: Iterable[Parameter], lets: Iterable[Let] = ()) -> dict
     """Return the intervals of the parameters that have a range, and of what is made of them."""
     known: dict[str, Interval] = {}
     for parameter in parameters:
-        low, high = (number(bound.meaning) if bound else None for bound in (parameter.low, parameter.high))
+        low, high = (constant_number(bound.meaning) if bound else None for bound in (parameter.low, parameter.high))
         if low is not None and high is not None and low <= high:
             known[parameter.name] = (low, high)
     for let in lets:

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Literal as OneOf
 from typing import TypeAlias
 
-from skillc_compiler.library.conditions import Condition, Expression
+from skillc_compiler.library.conditions import Condition, Expression, Operator
 from skillc_compiler.library.vocabulary import Position, ValueType, Vocabulary
 from skillc_compiler.types import Type
 from skillc_dsl import syntax as s
@@ -143,7 +143,7 @@ class Let:
 class Measured:
     """The measured contact force, compared with a limit."""
 
-    operator: OneOf["==", "!=", "<", "<=", ">", ">="]
+    operator: Operator
     limit: Valued
 
 

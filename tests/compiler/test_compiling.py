@@ -12,9 +12,9 @@ from shipped import library, shelf, vocabulary
 
 from skillc_compiler.library import codec
 from skillc_compiler.library.conditions import And, Arithmetic, Assign, Given, Literal, Not, Or, Retract
+from skillc_compiler.library.rewriting import constant_number
 from skillc_compiler.library.skills import Compound, SkillLibrary
 from skillc_compiler.library.tree import Sequence, Wait
-from skillc_compiler.lower.folding import number
 from skillc_compiler.pipeline import compile
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
@@ -124,7 +124,7 @@ def test_constants_are_folded_and_implies_is_spelled_out() -> None:
     premise = outcome.value.skills["Use"].pre[0].condition
     assert isinstance(premise, Or) and premise.parts[0] == Not(Given("speed"))
     compared = premise.parts[1]
-    assert number(compared.right) == 0.2  # type: ignore[union-attr]
+    assert constant_number(compared.right) == 0.2  # type: ignore[union-attr]
     made = outcome.value.implementations["Use.one"].body
     assert isinstance(made, Compound) and isinstance(made.node, Sequence)
     half, open_, _ = made.node.children

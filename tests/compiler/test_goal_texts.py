@@ -1,10 +1,12 @@
 """Goals in `.skill` and PDDL text mean the same; calls and goals are checked against library and scene."""
 
+import msgspec
 import pytest
 from shipped import library, shelf, vocabulary
 
 from skillc_compiler.goals import parse_call, parse_goal
 from skillc_compiler.library.conditions import And, Condition, Exists, Forall, Individual, Literal
+from skillc_compiler.library.format_condition import format_condition
 from skillc_compiler.library.vocabulary import Position
 from skillc_compiler.pipeline import compile
 from skillc_dsl.diagnostics import Outcome
@@ -43,6 +45,21 @@ def test_both_texts_mean_the_same(text: str, pddl: str) -> None:
     one, other = goal(text), goal(pddl)
     assert one.value is not None and one.value == other.value
     assert one.ok and other.ok
+
+
+WRITTEN = [
+    *(text for text, _ in SAME),
+    "lab:Hand contain _ and (lab:Hand contain lab:Felt or not (lab:Board is Tool or lab:Felt is Tool))",
+    "forall x: GripperSheet ((x.maxOpening + x.maxOpening) * 2 < x.maxOpening * 5 / 2)",
+    "exists x: WipeableSurface (not x == lab:Board and x has isClean)",
+]
+
+
+@pytest.mark.parametrize("text", WRITTEN)
+def test_what_is_written_of_a_condition_means_the_same(text: str) -> None:
+    known = msgspec.structs.replace(vocabulary(), prefixes={**vocabulary().prefixes, "lab": LAB})
+    meant = goal(text).value
+    assert meant is not None and goal(format_condition(meant, known)).value == meant
 
 
 def test_the_kinds_of_goals_are_kept() -> None:

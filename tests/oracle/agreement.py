@@ -18,7 +18,6 @@ from skillc_compiler.library.pddl.formulas import (
     Negation,
     Universal,
 )
-from skillc_compiler.library.pddl.relations import Relations
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.plan_text import read_step
@@ -56,7 +55,7 @@ def _after(action: GroundAction, before: Set[Atom]) -> Set[Atom]:
 
 def _differences(posed: Posed, atoms: Set[Atom], after: WorldState) -> Iterator[str]:
     """Yield what a condition would read otherwise: a relation that follows, a value of a property."""
-    relations, problem = Relations(after.vocabulary), posed.problem
+    closure, problem = after.vocabulary.closure, posed.problem
     predicates = problem.domain.predicates
     names = {
         iri: each.name
@@ -65,13 +64,13 @@ def _differences(posed: Posed, atoms: Set[Atom], after: WorldState) -> Iterator[
         for iri in [each.meaning.relation]
     }
     for iri in after.vocabulary.relations:
-        below = [each for each in relations.below(iri) if each.relation in names]
-        if relations.transitive_below(iri) or len(below) != len(relations.below(iri)):
+        below = [each for each in closure.canonical_sources[iri] if each.relation in names]
+        if iri in closure.chained or len(below) != len(closure.canonical_sources[iri]):
             continue  # no condition on it is planned with, or none is here
         for subject, first in problem.names.items():
             for object_, second in problem.names.items():
                 pairs = {False: (subject, object_), True: (object_, subject)}
-                said = any(Atom(names[each.relation], pairs[each.swapped]) in atoms for each in below)
+                said = any(Atom(names[each.relation], pairs[each.flipped]) in atoms for each in below)
                 if said != after.holds(first, iri, second):
                     yield f"{first} {iri} {second}"
     for each in predicates:

@@ -17,17 +17,16 @@ from skillc_compiler.library.conditions import (
     Variable,
 )
 from skillc_compiler.library.conditions import Compare as Comparison
+from skillc_compiler.library.read_write import EVERYTHING, FactPattern, facts_read, is_fixed
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.pipeline import compile as compiled
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
-from skillc_runtime.execution.selection.reads import is_fixed
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
-from skillc_runtime.planning.touched import EVERYTHING, Fact, read_by
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.explain import explain
 from skillc_runtime.world.foreign import EvaluationError
@@ -112,10 +111,10 @@ def test_a_scene_that_states_it_is_told_where(tmp_path: object) -> None:
 def test_it_is_never_fixed_and_is_read_from_what_decides_it() -> None:
     condition = Holds(X, CAN_REACH, i("Table"))
     assert not is_fixed(condition, frozenset(), ROOM.vocabulary)
-    read = set(read_by(condition, {}, ROOM))
-    assert Fact(SIZE[0]) not in read and Fact(AT) not in read and EVERYTHING not in read
-    assert Fact(BASE_FRAME_ID) in read
-    assert Fact(AT) in set(read_by(Holds(X, ON, i("Table")), {}, ROOM))
+    read = set(facts_read(condition, {}, ROOM.vocabulary))
+    assert FactPattern(SIZE[0]) not in read and FactPattern(AT) not in read and EVERYTHING not in read
+    assert FactPattern(BASE_FRAME_ID) in read
+    assert FactPattern(AT) in set(facts_read(Holds(X, ON, i("Table")), {}, ROOM.vocabulary))
 
 
 HEAD = "use skiros, rparts, cora, skillc, wiping\n"

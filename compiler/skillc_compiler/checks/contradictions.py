@@ -33,7 +33,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.conflicts import Conflicts
-from skillc_compiler.conjuncts import Fact, Together, names_of, renamed, together
+from skillc_compiler.conjuncts import ConjunctionGroup, Fact, conjunction_groups, names_of, renamed
 from skillc_compiler.program import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -43,11 +43,11 @@ NAMES = ("contradicting-conditions",)
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each fact that an earlier one excludes."""
     conflicts = Conflicts(program.vocabulary)
-    for group in together(program):
+    for group in conjunction_groups(program):
         yield from _in_group(conflicts, group)
 
 
-def _in_group(conflicts: Conflicts, group: Together) -> Iterator[Diagnostic]:
+def _in_group(conflicts: Conflicts, group: ConjunctionGroup) -> Iterator[Diagnostic]:
     names = names_of((*group.given, *group.own))
     earlier = [renamed(fact, names) for fact in group.given]
     for fact in (renamed(each, names) for each in group.own):

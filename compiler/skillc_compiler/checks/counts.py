@@ -51,7 +51,8 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from skillc_compiler.intervals import Interval, interval_of, intervals
 from skillc_compiler.library.conditions import Arithmetic, Literal
-from skillc_compiler.lower.folding import MOST_ROUNDS, number
+from skillc_compiler.library.rewriting import constant_number
+from skillc_compiler.lower.bodies import MOST_ROUNDS
 from skillc_compiler.program import Program, Step, Valued
 from skillc_compiler.walk import steps, values, within
 from skillc_dsl import syntax as s
@@ -138,10 +139,10 @@ def _number(value: Valued) -> Iterator[Diagnostic]:
             yield Diagnostic("bad-number", value.span, "this number is too large", "write a smaller number")
         case Literal(value=float() as found) if abs(found) > MOST:
             yield Diagnostic("bad-number", value.span, "this number is too large", "write a smaller number")
-        case Arithmetic(operator="/", right=right) if number(right) == 0:
+        case Arithmetic(operator="/", right=right) if constant_number(right) == 0:
             yield Diagnostic("bad-number", value.span, "this divides by zero", "divide by something else")
-        case Arithmetic() as sum_ if all(_is_finite(number(part.meaning)) for part in value.parts):
-            if not _is_finite(number(sum_)):
+        case Arithmetic() as sum_ if all(_is_finite(constant_number(part.meaning)) for part in value.parts):
+            if not _is_finite(constant_number(sum_)):
                 message = "the result is too large a number"
                 yield Diagnostic("bad-number", value.span, message, "write smaller numbers")
 

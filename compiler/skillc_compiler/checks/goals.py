@@ -28,9 +28,10 @@ Good:
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Set
+from collections.abc import Iterator
 
-from skillc_compiler.library.conditions import Assert, Assign, Compare, Holds, PropertyOf, Retract
+from skillc_compiler.library.conditions import Compare, Holds, PropertyOf
+from skillc_compiler.library.read_write import may_change, terms_written_by
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
 from skillc_compiler.lower.effects import NoEffect, effects
 from skillc_compiler.program import Clause, Program
@@ -44,12 +45,12 @@ def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a warning for each relation or property of a task's goal that no planned skill changes."""
     if not program.files:
         return
-    changed = _changed(program)
+    written = _written(program)
     for task in program.tasks:
         told: set[str] = set()
         for clause in clauses_in(task.goal) if task.goal else ():
             term = _term(clause)
-            if term is not None and term not in told and not _may_change(term, changed, program.vocabulary):
+            if term is not None and term not in told and not _may_change(term, written, program.vocabulary):
                 told.add(term)
                 yield Diagnostic(
                     "unachievable-goal",
@@ -69,31 +70,19 @@ def _term(clause: Clause) -> str | None:
     return None
 
 
-def _may_change(term: str, changed: Set[str], vocabulary: Vocabulary) -> bool:
+def _may_change(term: str, written: frozenset[str], vocabulary: Vocabulary) -> bool:
     """Whether skills change a relation or property, or what it is computed from; nobody may know what that is."""
-    relation, property_ = vocabulary.relations.get(term), vocabulary.properties.get(term)
+    relation = vocabulary.relations.get(term)
     if relation is not None and relation.computed_by is not None:
-        return not relation.computed_from or not changed.isdisjoint(relation.computed_from)
-    return term in changed or (property_ is not None and property_.computed_by is not None)
+        return not relation.computed_from or any(
+            may_change(each, written, vocabulary) for each in relation.computed_from
+        )
+    return vocabulary.is_computed(term) or may_change(term, written, vocabulary)
 
 
-def _changed(program: Program) -> set[str]:
-    changed: set[str] = set()
-    for skill in program.skills.values():
-        for post in (r for r in skill.requirements if r.kind == "post" and "noplan" not in skill.flags):
-            for effect in effects(post.clause):
-                match effect:
-                    case Assign(property=name):
-                        changed.add(name)
-                    case Assert(relation=name) | Retract(relation=name):
-                        changed |= _related(program.vocabulary, name)
-                    case NoEffect():
-                        pass
-    return changed
-
-
-def _related(vocabulary: Vocabulary, relation: str) -> set[str]:
-    """Return a relation, those above it and their inverses."""
-    above = vocabulary.super_relations.get(relation, frozenset({relation}))
-    inverses = (vocabulary.relations[name].inverse for name in above if name in vocabulary.relations)
-    return {*above, *(inverse for inverse in inverses if inverse)}
+def _written(program: Program) -> frozenset[str]:
+    """Return what the skills write that a planner may take, as of `terms_written_by`."""
+    planned = (skill for skill in program.skills.values() if "noplan" not in skill.flags)
+    posts = (post for skill in planned for post in skill.requirements if post.kind == "post")
+    found = (effect for post in posts for effect in effects(post.clause) if not isinstance(effect, NoEffect))
+    return frozenset[str]().union(*(terms_written_by(effect, program.vocabulary) for effect in found))

@@ -37,6 +37,7 @@ from collections.abc import Iterator, Sequence
 from skillc_compiler.conflicts import Conflicts, covers
 from skillc_compiler.conjuncts import Fact, conjuncts, equal_names, renamed
 from skillc_compiler.library.conditions import Holds
+from skillc_compiler.library.format_condition import format_condition
 from skillc_compiler.library.vocabulary import local_name
 from skillc_compiler.program import Program, Requirement
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
@@ -84,7 +85,7 @@ def _breaks(
         yield Diagnostic("breaks-axiom", fact.source.span, message, "name another individual on one side")
     back = next((o for o in others if isinstance(o.meaning, Holds) and conflicts.opposite(meaning, o.meaning)), None)
     if back is not None:
-        text = f"post not {_written(back)}"
+        text = f"post not {format_condition(back.meaning, conflicts.vocabulary)}"
         yield Diagnostic(
             "breaks-axiom",
             fact.source.span,
@@ -93,15 +94,6 @@ def _breaks(
             labels=(Label(back.clause.span, "the other way"),),
             fix=Fix(_after(post.span), f"\n{' ' * (post.span.column - 1)}{text}", f"add `{text}`"),
         )
-
-
-def _written(fact: Fact) -> str:
-    """Return a relation between two names as it is written."""
-    match fact.meaning:
-        case Holds(subject=subject, relation=relation, object=object_):
-            ends = [getattr(end, "name", getattr(end, "iri", "_")) for end in (subject, object_)]
-            return f"{ends[0]} {local_name(relation)} {ends[1]}"
-    raise AssertionError(fact)
 
 
 def _after(span: Span) -> Span:

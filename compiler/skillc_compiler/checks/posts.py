@@ -129,7 +129,7 @@ from skillc_compiler.library.conditions import (
     Literal,
     Retract,
 )
-from skillc_compiler.library.pddl.rewriting import replaced
+from skillc_compiler.library.rewriting import substitute
 from skillc_compiler.library.vocabulary import PropertyTerm, RelationTerm, Vocabulary, local_name
 from skillc_compiler.lower.effects import NoEffect, effects
 from skillc_compiler.program import Program, Requirement
@@ -168,7 +168,7 @@ def _check(conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Req
 
 def _same(effect: Effect | NoEffect, names: Mapping[str, Expression]) -> Effect | NoEffect:
     """Return the effect with one name for all that are the same."""
-    return effect if isinstance(effect, NoEffect) else replaced(effect, names)
+    return effect if isinstance(effect, NoEffect) else substitute(effect, names)
 
 
 def _values(

@@ -54,7 +54,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import isfinite
 
-from skillc_compiler.lower.folding import number
+from skillc_compiler.library.rewriting import constant_number
 from skillc_compiler.program import Parameter, Program, Valued
 from skillc_compiler.types import INT, Measure, Type
 from skillc_compiler.walk import calls
@@ -126,7 +126,7 @@ def _bounds(parameter: Parameter) -> tuple[float | None, float | None]:
 
 def _number(value: Valued | None, kind: Type) -> float | None:
     """Return a bound, None if there is none or it is of another type, which is reported elsewhere."""
-    return number(value.meaning) if value and _same(value.type, kind) else None
+    return constant_number(value.meaning) if value and _same(value.type, kind) else None
 
 
 def _same(given: Type, wanted: Type) -> bool:

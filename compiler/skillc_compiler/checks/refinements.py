@@ -32,7 +32,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.lower.folding import number
+from skillc_compiler.library.rewriting import constant_number
 from skillc_compiler.program import Parameter, Program, Refinement, Valued
 from skillc_compiler.types import describe, fits
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -70,4 +70,4 @@ def _wider(new: Refinement, of: Parameter) -> bool:
 
 
 def _number(value: Valued | None) -> float | None:
-    return number(value.meaning) if value else None
+    return constant_number(value.meaning) if value else None

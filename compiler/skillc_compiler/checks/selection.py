@@ -65,7 +65,7 @@ from collections.abc import Iterator, Sequence
 from skillc_compiler.conflicts import Conflicts
 from skillc_compiler.lower.ranking import more_specific, ranked
 from skillc_compiler.program import Implementation, Program
-from skillc_compiler.selecting import asks, both_fit, takes_all_of
+from skillc_compiler.selecting import asks, both_fit, subsumes
 from skillc_compiler.walk import calls
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -87,7 +87,7 @@ def _placed(
     conflicts: Conflicts, late: Implementation, before: Sequence[Implementation], called: bool
 ) -> Iterator[Diagnostic]:
     for early in before:
-        shadowed = takes_all_of(conflicts.vocabulary, early, late) and asks(early) != asks(late)
+        shadowed = subsumes(conflicts.vocabulary, early, late) and asks(early) != asks(late)
         if shadowed and not called and "fallback" not in late.skill.flags:
             yield _never(late, early)
             return

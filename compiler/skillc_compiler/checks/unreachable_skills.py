@@ -40,6 +40,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.library.closure import reachable
 from skillc_compiler.program import Implementation, Program, Skill, Step
 from skillc_compiler.walk import within
 from skillc_dsl import syntax as s
@@ -68,16 +69,10 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 
 def _reached(program: Program) -> set[str]:
-    todo = [name for task in program.tasks if task.body for name in _called(task.body)]
+    start = [name for task in program.tasks if task.body for name in _called(task.body)]
     if any(task.goal for task in program.tasks):
-        todo += [skill.name for skill in program.skills.values() if _planned(skill)]
-    reached: set[str] = set()
-    while todo:
-        name = todo.pop()
-        if name not in reached:
-            reached.add(name)
-            todo += [other for each in program.implementations_of[name] for other in _calls(each)]
-    return reached
+        start += [skill.name for skill in program.skills.values() if _planned(skill)]
+    return reachable(start, lambda name: (each for one in program.implementations_of[name] for each in _calls(one)))
 
 
 def _planned(skill: Skill) -> bool:

@@ -49,11 +49,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from skillc_compiler.bounds import Bound, bound, decided, exclude
+from skillc_compiler.bounds import Bound, are_disjoint, bound, decided
 from skillc_compiler.conflicts import Conflicts
 from skillc_compiler.conjuncts import conjuncts
 from skillc_compiler.library.conditions import Compare, Given, Holds, IsA, Literal, Or, Same, Variable
-from skillc_compiler.lower.folding import fold, number
+from skillc_compiler.library.rewriting import constant_number, fold
 from skillc_compiler.program import Clause, Implementation, Parameter, Program, Skill, Step
 from skillc_compiler.types import Thing, describe
 from skillc_compiler.walk import clauses_in, within
@@ -143,15 +143,15 @@ def _compared(comparison: Compare, parameters: _Parameters) -> tuple[bool, str] 
     if limit is None or not isinstance(limit.of, Variable) or limit.of.name not in parameters:
         return None
     name, range_ = limit.of.name, tuple(_range(parameters[limit.of.name]))
-    if any(exclude(limit, end) for end in range_):
+    if any(are_disjoint(limit, end) for end in range_):
         return False, f"no value in the range of `{name}` is such"
-    if any(exclude(limit.opposite(), end) for end in range_):
+    if any(are_disjoint(limit.opposite(), end) for end in range_):
         return True, f"every value in the range of `{name}` is such"
     return None
 
 
 def _range(parameter: Parameter) -> Iterator[Bound]:
-    low, high = (number(end.meaning) if end else None for end in (parameter.low, parameter.high))
+    low, high = (constant_number(end.meaning) if end else None for end in (parameter.low, parameter.high))
     if low is not None:
         yield Bound(Variable(parameter.name), ">=", low)
     if high is not None:

@@ -20,9 +20,9 @@ from skillc_compiler.emit.bt_nodes import Body, started
 from skillc_compiler.emit.bt_rules import verified
 from skillc_compiler.emit.bt_skills import fixed_tree, implementation_tree, main_tree, skill_tree
 from skillc_compiler.emit.headers import XML_DECLARATION
-from skillc_compiler.library.reading import walk
+from skillc_compiler.library.reading import calls_in
 from skillc_compiler.library.skills import Compound, Skill, SkillLibrary, Task
-from skillc_compiler.library.tree import Call, Node
+from skillc_compiler.library.tree import Node
 
 
 def emit(library: SkillLibrary) -> dict[str, str]:
@@ -65,7 +65,7 @@ def _task_file(task: Task, node: Node, library: SkillLibrary, names: Names, chos
     body = Body(library, names, model, path)
     tree = Element("BehaviorTree", ID=identity, _description=str(task.source))
     tree.append(started(body, [body.node(node)]))
-    called = reached([each.skill for each in walk(node) if isinstance(each, Call)], library)
+    called = reached([each.skill for each in calls_in(node)], library)
     others = [each for name in sorted(called) for each in _trees(library.skills[name], library, names, model, chosen)]
     return _document([tree, *others], names, model)
 
@@ -87,7 +87,7 @@ def _chosen(library: SkillLibrary) -> set[tuple[str, str]]:
     """Return the implementations that some call of the library chooses itself, each with its skill."""
     bodies = [each.body.node for each in library.implementations.values() if isinstance(each.body, Compound)]
     bodies += [each.body for each in library.tasks.values() if each.body is not None]
-    calls = [each for body in bodies for each in walk(body) if isinstance(each, Call)]
+    calls = [each for body in bodies for each in calls_in(body)]
     return {(each.skill, each.implementation) for each in calls if each.implementation is not None}
 
 

@@ -9,8 +9,8 @@ from xml.etree.ElementTree import Element
 from skillc_compiler.emit.bt_model import Kind, Model, Port
 from skillc_compiler.emit.bt_names import Names, entry, port
 from skillc_compiler.emit.bt_ports import plain_value, port_type
-from skillc_compiler.emit.phrases import expression_text
 from skillc_compiler.library.conditions import Condition, Expression, Variable
+from skillc_compiler.library.format_condition import format_expression
 from skillc_compiler.library.reading import free_variables_in_order
 from skillc_compiler.library.skills import Parameter, Post, SkillLibrary
 from skillc_compiler.library.vocabulary import Position, ValueType
@@ -112,7 +112,7 @@ class Writer:
         identity = self.names.of(*path)
         read = free_variables_in_order(expression)
         result = _result(read)
-        text = f"Computes: {expression_text(expression, self.library.vocabulary)}"
+        text = f"Computes: {format_expression(expression, self.library.vocabulary)}"
         ports = [*self.ports(read), Port(result, "output", type_)]
         self.model.declare("Action", identity, path, ports, text)
         return Element(identity, {**self.reads(read), result: pointer(into)})

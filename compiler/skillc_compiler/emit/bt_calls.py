@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from xml.etree.ElementTree import Element
 
 from skillc_compiler.emit.bt_body import Bound, Writer, after, holding, leaf, pointer, sequence
@@ -18,7 +18,8 @@ from skillc_compiler.emit.bt_ports import (
     tree_ports,
     whole_ports,
 )
-from skillc_compiler.library.reading import walk
+from skillc_compiler.library.closure import reachable
+from skillc_compiler.library.reading import calls_in
 from skillc_compiler.library.skills import Compound, Implementation, Parameter, Skill, SkillLibrary
 from skillc_compiler.library.tree import Call, Node
 from skillc_compiler.library.vocabulary import Position
@@ -42,22 +43,19 @@ def _demands(implementation: Implementation, skill: Skill) -> bool:
 
 def may_break_hold(library: SkillLibrary, node: Node) -> bool:
     """Whether a skill below the node has a hold condition."""
-    names = reached([each.skill for each in walk(node) if isinstance(each, Call)], library)
+    names = reached([each.skill for each in calls_in(node)], library)
     return any(each.hold for name in names for each in library.implementations_of(name))
 
 
 def reached(start: Sequence[str], library: SkillLibrary) -> set[str]:
     """Return these skills and all that they call, directly or not."""
-    seen: set[str] = set()
-    todo = list(start)
-    while todo:
-        name = todo.pop()
-        if name not in seen:
-            seen.add(name)
-            bodies = [each.body for each in library.implementations_of(name)]
-            nodes = [body.node for body in bodies if isinstance(body, Compound)]
-            todo += [each.skill for node in nodes for each in walk(node) if isinstance(each, Call)]
-    return seen
+
+    def called(name: str) -> Iterator[str]:
+        bodies = (each.body for each in library.implementations_of(name))
+        nodes = (body.node for body in bodies if isinstance(body, Compound))
+        return (each.skill for node in nodes for each in calls_in(node))
+
+    return reachable(start, called)
 
 
 def call(writer: Writer, written: Call) -> Element:

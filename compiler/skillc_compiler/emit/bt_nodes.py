@@ -18,7 +18,7 @@ from skillc_compiler.emit.bt_calls import call, may_break_hold, scoped
 from skillc_compiler.emit.bt_model import Port
 from skillc_compiler.emit.bt_patterns import count_text, forget, kept, lead, once, sequence_of, until, while_
 from skillc_compiler.library.conditions import Arithmetic, Expression, Literal
-from skillc_compiler.library.reading import free_variables_in_order, walk
+from skillc_compiler.library.reading import calls_in, free_variables_in_order, walk
 from skillc_compiler.library.skills import Post
 from skillc_compiler.library.tree import (
     Apply,
@@ -141,7 +141,7 @@ class Body(Writer):
 
     def _still(self, child: Node) -> list[Element]:
         """Return the test whether what the child established and found still holds; none if that is nothing."""
-        calls = [each for each in walk(child) if isinstance(each, Call)]
+        calls = list(calls_in(child))
         tested = [each for each in walk(child) if isinstance(each, Check | WaitUntil | If | While)]
         relied = [f"{each.skill}: {post.text}" for each in calls for post in self.library.skills[each.skill].post]
         relied += [each.text for each in tested]

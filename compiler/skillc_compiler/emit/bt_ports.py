@@ -17,7 +17,7 @@ from typing import assert_never
 from skillc_compiler.emit.bt_model import Direction, Port
 from skillc_compiler.emit.bt_names import NOT_IN_XML, given, port
 from skillc_compiler.library.conditions import Expression, Individual, Literal
-from skillc_compiler.library.pddl.rewriting import constant
+from skillc_compiler.library.rewriting import constant_number
 from skillc_compiler.library.skills import Parameter
 from skillc_compiler.library.vocabulary import (
     ClassType,
@@ -84,7 +84,7 @@ def default_text(parameter: Parameter) -> str | None:
         case Literal() | Individual() as value:
             return plain_value(value, port_type(parameter.type))
         case computed:
-            number = constant(computed)
+            number = constant_number(computed)
             return None if number is None else plain_value(Literal(number), port_type(parameter.type))
 
 

@@ -13,6 +13,7 @@ from functools import partial
 from xml.etree.ElementTree import Element
 
 from skillc_compiler.emit.bt_names import BUILT_IN
+from skillc_compiler.library.closure import reachable
 
 Children = tuple[int, int]
 ANY = 10**6
@@ -87,18 +88,12 @@ def _of_file(root: Element, trees: Mapping[str, Element]) -> Iterator[str]:
         if not _is_free(identity):
             yield f"a tree cannot be called {identity!r}"
     yield from (f"the tree {name} has not exactly one root" for name, tree in trees.items() if len(tree) != 1)
-    yield from (f"the tree {name} contains itself" for name in trees if name in _below(name, trees))
+    called = partial(_called_by, trees=trees)
+    yield from (f"the tree {name} contains itself" for name in trees if name in reachable(called(name), called))
 
 
-def _below(name: str, trees: Mapping[str, Element]) -> set[str]:
-    seen: set[str] = set()
-    todo = [name]
-    while todo:
-        tree = trees.get(todo.pop())
-        called = {node.get("ID", "") for node in tree.iter("SubTree")} if tree is not None else set()
-        todo += called - seen
-        seen |= called
-    return seen
+def _called_by(name: str, trees: Mapping[str, Element]) -> Iterator[str]:
+    return (node.get("ID", "") for node in trees[name].iter("SubTree")) if name in trees else iter(())
 
 
 def _of_model(model: Element, trees: Mapping[str, Element]) -> Iterator[str]:

@@ -6,13 +6,12 @@ from functools import cache
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 
-from skillc_compiler.emit.phrases import expression_text, literal_text
 from skillc_compiler.emit.quantities import quantity_texts
 from skillc_compiler.library.conditions import Expression, Literal
-from skillc_compiler.library.pddl.rewriting import constant
-from skillc_compiler.library.reading import walk
+from skillc_compiler.library.format_condition import format_expression, format_literal
+from skillc_compiler.library.reading import calls_in
+from skillc_compiler.library.rewriting import constant_number
 from skillc_compiler.library.skills import Compound, Implementation, Parameter, Skill, SkillLibrary
-from skillc_compiler.library.tree import Call
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.library.words import type_text
 
@@ -33,7 +32,7 @@ def _page(skill: Skill, library: SkillLibrary) -> str:
         skill=skill,
         parameters=[_parameter(each, vocabulary) for each in skill.parameters],
         conditions=[(title, listed) for title, listed in conditions if listed],
-        duration=expression_text(skill.duration, vocabulary) if skill.duration else "",
+        duration=format_expression(skill.duration, vocabulary) if skill.duration else "",
         implementations=[
             (each, _difference(each, skill, vocabulary), _body(each)) for each in library.implementations_of(skill.name)
         ],
@@ -43,7 +42,7 @@ def _page(skill: Skill, library: SkillLibrary) -> str:
 def _parameter(parameter: Parameter, vocabulary: Vocabulary) -> tuple[str, ...]:
     """Return the row of a parameter: name, kind, type, default, range, what it is."""
     kind = KINDS[parameter.direction] + (", any" if parameter.any_ else "")
-    number = None if parameter.default is None else constant(parameter.default)
+    number = None if parameter.default is None else constant_number(parameter.default)
     default, low, high = quantity_texts((number, parameter.low, parameter.high), parameter.type)
     if parameter.default is not None and number is None:
         default = _default(parameter.default, vocabulary)
@@ -55,9 +54,9 @@ def _parameter(parameter: Parameter, vocabulary: Vocabulary) -> tuple[str, ...]:
 def _default(default: Expression, vocabulary: Vocabulary) -> str:
     match default:
         case Literal(value=value):
-            return literal_text(value)
+            return format_literal(value)
         case expression:
-            return expression_text(expression, vocabulary)
+            return format_expression(expression, vocabulary)
 
 
 def _difference(implementation: Implementation, skill: Skill, vocabulary: Vocabulary) -> list[str]:
@@ -77,7 +76,7 @@ def _difference(implementation: Implementation, skill: Skill, vocabulary: Vocabu
 def _body(implementation: Implementation) -> str:
     match implementation.body:
         case Compound(node=node):
-            names = dict.fromkeys(each.skill for each in walk(node) if isinstance(each, Call))
+            names = dict.fromkeys(each.skill for each in calls_in(node))
             return "calls " + ", ".join(f"[{name}]({name}.md)" for name in names) if names else "calls no skill"
         case primitive:
             return f"runs `{primitive.python}`"

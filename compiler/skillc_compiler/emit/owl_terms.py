@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from skillc_compiler.emit.owl_words import DATATYPES, OWL, RDFS, SKILLC, XSD, frame, library_base
 from skillc_compiler.emit.turtle import RDF_TYPE, Anonymous, Iri, Listed, Object
 from skillc_compiler.library.conditions import IsA
-from skillc_compiler.library.reading import terms_read, walk
+from skillc_compiler.library.read_write import terms_read
+from skillc_compiler.library.reading import walk
 from skillc_compiler.library.skills import Implementation, Skill, SkillLibrary
 from skillc_compiler.library.vocabulary import (
     THING,

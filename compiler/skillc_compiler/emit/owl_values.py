@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from typing import assert_never
 
 from skillc_compiler.emit.owl_words import DATATYPES, DIMENSION, RDFS, SKILLC, XSD
-from skillc_compiler.emit.phrases import expression_text
 from skillc_compiler.emit.turtle import RDF_TYPE, Iri, Object
 from skillc_compiler.library.conditions import Expression, Individual, Literal
-from skillc_compiler.library.pddl.rewriting import constant
+from skillc_compiler.library.format_condition import format_expression
+from skillc_compiler.library.rewriting import constant_number
 from skillc_compiler.library.vocabulary import (
     ClassType,
     DirectionType,
@@ -45,8 +45,8 @@ def value(expression: Expression, type_: ValueType, vocabulary: Vocabulary) -> O
             return plain
         case Literal(value=int() as whole) if type_ == PlainType("Int"):
             return whole
-    number = constant(expression)
-    return expression_text(expression, vocabulary) if number is None else number
+    number = constant_number(expression)
+    return format_expression(expression, vocabulary) if number is None else number
 
 
 def _type_iri(type_: ValueType) -> str:

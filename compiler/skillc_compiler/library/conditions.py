@@ -66,11 +66,14 @@ class Holds(msgspec.Struct, frozen=True, tag="holds"):
     object: Term
 
 
+Operator: TypeAlias = OneOf["==", "!=", "<", "<=", ">", ">="]
+
+
 class Compare(msgspec.Struct, frozen=True, tag="compare"):
     """`left operator right` on data values; false when a property read on either side is missing."""
 
     left: Expression
-    operator: OneOf["==", "!=", "<", "<=", ">", ">="]
+    operator: Operator
     right: Expression
 
 

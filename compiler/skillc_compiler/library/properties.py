@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from skillc_compiler.library.conditions import Condition, Expression
+from skillc_compiler.library.conditions import Condition, Expression, Operator
 from skillc_compiler.library.vocabulary import Position
 
 
@@ -27,7 +27,7 @@ class Measures(msgspec.Struct, frozen=True, tag="measures"):
     """The contact force on an arm of the implementation, N, compares so with a limit, N."""
 
     quantity: OneOf["force"]
-    operator: OneOf["==", "!=", "<", "<=", ">", ">="]
+    operator: Operator
     limit: Expression
 
 

@@ -1,61 +1,59 @@
-"""Looking into conditions and expressions: what they are made of, what they read, which names they leave open."""
+"""Looking into conditions, expressions and bodies: what they are made of, which names they leave open."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import lru_cache
 
 import msgspec
 
 from skillc_compiler.library.conditions import (
+    And,
     Condition,
     Effect,
     Exists,
     Expression,
     Forall,
-    HasProperty,
-    Holds,
-    PropertyOf,
     Variable,
 )
+from skillc_compiler.library.tree import Call
 
 
 def walk(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
     """Yield a condition or expression and everything inside it."""
     yield item
-    for part in _inside(item):
+    for part in children(item):
         yield from walk(part)
 
 
-def is_deeper(item: object, most: int) -> bool:
+def children(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
+    """Yield the conditions, expressions, nodes and other structs of which something is made, in order."""
+    for name in item.__struct_fields__:
+        value = getattr(item, name)
+        parts = value if isinstance(value, tuple) else value.values() if isinstance(value, dict) else (value,)
+        yield from (part for part in parts if isinstance(part, msgspec.Struct))
+
+
+def conjuncts(condition: Condition) -> Iterator[Condition]:
+    """Yield the conditions that `and` joins, the condition itself where it is none."""
+    if isinstance(condition, And):
+        for part in condition.parts:
+            yield from conjuncts(part)
+    else:
+        yield condition
+
+
+def calls_in(item: msgspec.Struct) -> Iterator[Call]:
+    """Yield the calls of skills in a body, in the order of the text."""
+    return (each for each in walk(item) if isinstance(each, Call))
+
+
+def is_deeper(item: msgspec.Struct, most: int) -> bool:
     """Whether parts of a condition, an expression or a call are inside each other more than so many times."""
     level = [item]
     for _ in range(most + 1):
-        structs = [each for each in level if isinstance(each, msgspec.Struct)]
-        level = [part for each in structs for name in each.__struct_fields__ for part in _flat(getattr(each, name))]
-        if not level:
-            return False
-    return any(isinstance(each, msgspec.Struct) for each in level)
-
-
-def _flat(value: object) -> Iterable[object]:
-    match value:
-        case tuple():
-            return value
-        case dict():
-            return value.values()
-        case _:
-            return (value,)
-
-
-def terms_read(condition: Condition | Expression) -> frozenset[str]:
-    """Return the IRIs of the relations and properties that decide whether a condition holds or what a value is."""
-    read: set[str] = set()
-    for each in walk(condition):
-        match each:
-            case Holds(relation=iri) | HasProperty(property=iri) | PropertyOf(property=iri):
-                read.add(iri)
-    return frozenset(read)
+        level = [part for each in level for part in children(each)]
+    return bool(level)
 
 
 @lru_cache(maxsize=4096)
@@ -73,11 +71,4 @@ def _free(item: msgspec.Struct) -> Iterator[str]:
     if isinstance(item, Variable):
         yield item.name
     bound = item.variable if isinstance(item, Exists | Forall) else None
-    yield from (name for part in _inside(item) for name in _free(part) if name != bound)
-
-
-def _inside(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
-    for name in item.__struct_fields__:
-        value = getattr(item, name)
-        parts = value if isinstance(value, tuple) else (value,)
-        yield from (part for part in parts if isinstance(part, msgspec.Struct))
+    yield from (name for part in children(item) for name in _free(part) if name != bound)

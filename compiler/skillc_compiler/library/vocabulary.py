@@ -7,7 +7,11 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
+from skillc_compiler.library.closure import RelationClosure, reachable, relation_closure
+
 THING = "http://www.w3.org/2002/07/owl#Thing"
+CHARACTERISTICS = ("functional", "inverse_functional", "symmetric", "transitive", "asymmetric", "irreflexive")
+"""What may be stated of a relation alone, in the order in which it is told."""
 
 
 class Position(msgspec.Struct, frozen=True, order=True):
@@ -99,6 +103,11 @@ class RelationTerm(msgspec.Struct, frozen=True, kw_only=True):
     comment: str = ""
     source: Position | None = None
 
+    @property
+    def characteristics(self) -> tuple[str, ...]:
+        """The axioms about the relation alone, by their names in OWL's words, as `inverse functional`."""
+        return tuple(name.replace("_", " ") for name in CHARACTERISTICS if getattr(self, name))
+
 
 class Bounds(msgspec.Struct, frozen=True, kw_only=True):
     """Which numbers there may be: `least` and `greatest` belong to them, `above` and `below` do not."""
@@ -170,13 +179,18 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     def ancestors(self) -> dict[str, frozenset[str]]:
         """Each class with all its superclasses, itself and `owl:Thing` included."""
         parents = {iri: (*term.parents, THING) for iri, term in self.classes.items()}
-        return {iri: _reach(iri, parents) for iri in (*self.classes, THING)}
+        return {iri: _ancestors(iri, parents) for iri in (*self.classes, THING)}
 
     @cached_property
     def super_relations(self) -> dict[str, frozenset[str]]:
         """Each relation with all its super-relations, itself included."""
         parents = {iri: term.parents for iri, term in self.relations.items()}
-        return {iri: _reach(iri, parents) for iri in self.relations}
+        return {iri: _ancestors(iri, parents) for iri in self.relations}
+
+    @cached_property
+    def closure(self) -> RelationClosure:
+        """What follows from relations by sub-relations, inverses and symmetry."""
+        return relation_closure(self.relations)
 
     @cached_property
     def namespaces(self) -> dict[str, str]:
@@ -188,6 +202,11 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     def is_a(self, cls: str, ancestor: str) -> bool:
         """Whether every individual of `cls` is one of `ancestor`; an unknown class is only itself and a Thing."""
         return ancestor in self.ancestors.get(cls, (cls, THING))
+
+    def is_computed(self, term: str) -> bool:
+        """Whether a relation or property follows from other facts by a computation."""
+        known = self.relations.get(term) or self.properties.get(term)
+        return known is not None and known.computed_by is not None
 
     def disjoint(self, one: str, other: str) -> bool:
         """Whether no individual can be of both classes."""
@@ -215,12 +234,5 @@ def local_name(iri: str) -> str:
     return iri.rsplit("#", 1)[-1].rsplit("/", 1)[-1]
 
 
-def _reach(start: str, parents: dict[str, tuple[str, ...]]) -> frozenset[str]:
-    seen: set[str] = set()
-    todo = [start]
-    while todo:
-        current = todo.pop()
-        if current not in seen:
-            seen.add(current)
-            todo.extend(parents.get(current, ()))
-    return frozenset(seen)
+def _ancestors(iri: str, parents: dict[str, tuple[str, ...]]) -> frozenset[str]:
+    return frozenset(reachable([iri], lambda each: parents.get(each, ())))

@@ -7,9 +7,12 @@ from typing import assert_never
 
 from skillc_compiler.library import tree as t
 from skillc_compiler.library.conditions import Condition, Expression
-from skillc_compiler.lower.folding import fold, fold_condition, rounds_of
+from skillc_compiler.library.rewriting import fold
 from skillc_compiler.program import Step, position
 from skillc_dsl import syntax as s
+
+MOST_ROUNDS = 1_000_000
+"""More rounds than that count as endless."""
 
 
 def node(step: Step) -> t.Node:
@@ -111,4 +114,9 @@ def _value(step: Step) -> Expression:
 
 
 def _condition(step: Step) -> Condition:
-    return fold_condition(step.clauses[0].meaning)
+    return fold(step.clauses[0].meaning)
+
+
+def rounds_of(written: s.Number) -> int:
+    """Return a number of rounds as a whole number that there can be; any other is reported as `bad-count`."""
+    return int(min(max(written.value, 1), MOST_ROUNDS))

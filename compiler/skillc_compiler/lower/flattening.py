@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 from skillc_compiler.library import skills as library
 from skillc_compiler.library.conditions import Expression
+from skillc_compiler.library.rewriting import constant_number, fold
 from skillc_compiler.lower.bodies import node
 from skillc_compiler.lower.effects import NoEffect, effects
-from skillc_compiler.lower.folding import fold, fold_condition, number
 from skillc_compiler.lower.properties import verified
 from skillc_compiler.program import (
     Implementation,
@@ -70,7 +70,7 @@ def task(understood: Task) -> library.Task:
         name=understood.name,
         doc=understood.doc,
         scene=understood.scene,
-        goal=fold_condition(understood.goal.meaning) if understood.goal else None,
+        goal=fold(understood.goal.meaning) if understood.goal else None,
         goal_text=understood.goal_text,
         body=node(understood.body) if understood.body else None,
         source=position(understood.span),
@@ -94,9 +94,7 @@ def label(requirements: Sequence[Requirement]) -> list[tuple[str, Requirement]]:
 
 def _requirements(labelled: Sequence[tuple[str, Requirement]], kind: str) -> tuple[library.Requirement, ...]:
     return tuple(
-        library.Requirement(
-            label=name, condition=fold_condition(r.clause.meaning), text=r.text, source=position(r.span)
-        )
+        library.Requirement(label=name, condition=fold(r.clause.meaning), text=r.text, source=position(r.span))
         for name, r in labelled
         if r.kind == kind
     )
@@ -106,7 +104,7 @@ def _posts(labelled: Sequence[tuple[str, Requirement]]) -> tuple[library.Post, .
     return tuple(
         library.Post(
             label=name,
-            condition=fold_condition(r.clause.meaning),
+            condition=fold(r.clause.meaning),
             effects=tuple(effect for effect in effects(r.clause) if not isinstance(effect, NoEffect)),
             sensed=r.sensed,
             text=r.text,
@@ -124,8 +122,8 @@ def _parameter(understood: Parameter) -> library.Parameter:
         type=understood.declared,
         any_=understood.any_,
         default=_expression(understood.default),
-        low=number(understood.low.meaning) if understood.low else None,
-        high=number(understood.high.meaning) if understood.high else None,
+        low=constant_number(understood.low.meaning) if understood.low else None,
+        high=constant_number(understood.high.meaning) if understood.high else None,
         doc=understood.doc,
         source=position(understood.span),
     )

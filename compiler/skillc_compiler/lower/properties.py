@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from skillc_compiler.library import properties as library
-from skillc_compiler.lower.folding import fold, fold_condition
+from skillc_compiler.library.rewriting import fold
 from skillc_compiler.program import Event, Property, position
 
 
@@ -20,7 +20,7 @@ def verified(understood: Property) -> library.Property:
 
 def _event(understood: Event) -> library.Event:
     if understood.clause is not None:
-        return library.Is(fold_condition(understood.clause.meaning))
+        return library.Is(fold(understood.clause.meaning))
     if understood.measured is not None:
         limit = fold(understood.measured.limit.meaning)
         return library.Measures("force", understood.measured.operator, limit)

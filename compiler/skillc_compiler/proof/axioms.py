@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TypeAlias
 
-from skillc_compiler.library.vocabulary import RelationTerm, Vocabulary
-
-Directed: TypeAlias = tuple[str, bool]
-"""A relation, and whether it is read from object to subject."""
+from skillc_compiler.library.closure import Directed
+from skillc_compiler.library.vocabulary import Vocabulary
 
 
 @dataclass(frozen=True)
@@ -34,71 +31,36 @@ class Axioms:
 
 def axioms_of(vocabulary: Vocabulary) -> Axioms:
     """Return the axioms of all relations of a vocabulary."""
-    relations = vocabulary.relations
-    name = {iri: _name(relations, iri) for iri in relations}
-    steps = _steps(relations, name)
-    implied = {iri: _reach(iri, steps) for iri in steps}
-    sources = {
-        iri: tuple((source, turned) for source, reached in implied.items() for x, turned in reached if x == iri)
-        for iri in steps
-    }
-    chained = {name[iri][0] for iri, term in relations.items() if term.transitive}
-    loose = {x for iri in chained for x, _ in implied[iri]}
+    relations, closure = vocabulary.relations, vocabulary.closure
+    name = {iri: closure.canonical(iri) for iri in relations}
+    bases = dict.fromkeys(base for base, _ in name.values())
     flags = {
         flag: {name[iri] for iri, term in relations.items() if getattr(term, flag)}
         for flag in ("functional", "inverse_functional", "asymmetric", "irreflexive")
     }
     straight, turned = flags["functional"], flags["inverse_functional"]
-    single_object = {iri for iri in steps if (iri, False) in straight or (iri, True) in turned}
-    single_subject = {iri for iri in steps if (iri, False) in turned or (iri, True) in straight}
+    single_object = {iri for iri in bases if Directed(iri) in straight or Directed(iri, True) in turned}
+    single_subject = {iri for iri in bases if Directed(iri) in turned or Directed(iri, True) in straight}
+    implied = {iri: closure.canonical_implied[iri] for iri in bases}
+    sources = {iri: closure.canonical_sources[iri] for iri in bases}
     return Axioms(
         name,
         implied,
         sources,
-        frozenset(loose),
+        frozenset(bases.keys() & closure.chained),
         frozenset(single_object),
         frozenset(single_subject),
         frozenset(iri for iri, _ in flags["asymmetric"]),
         frozenset(iri for iri, _ in flags["irreflexive"]),
-        {iri: _kin(iri, name, implied, sources) for iri in steps},
+        {iri: _kin(iri, name, implied, sources) for iri in bases},
     )
-
-
-def _name(relations: Mapping[str, RelationTerm], iri: str) -> Directed:
-    other = relations[iri].inverse
-    if other is None:
-        other = next((each for each, term in relations.items() if term.inverse == iri), None)
-    return (other, True) if other is not None and other in relations and other < iri else (iri, False)
-
-
-def _steps(relations: Mapping[str, RelationTerm], name: Mapping[str, Directed]) -> dict[str, set[Directed]]:
-    steps: dict[str, set[Directed]] = {base: set() for base, _ in name.values()}
-    for iri, term in relations.items():
-        base, turned = name[iri]
-        for parent in (parent for parent in term.parents if parent in relations):
-            above, above_turned = name[parent]
-            steps[base].add((above, turned != above_turned))
-        if term.symmetric or (term.inverse == iri):
-            steps[base].add((base, True))
-    return steps
-
-
-def _reach(start: str, steps: Mapping[str, Iterable[Directed]]) -> tuple[Directed, ...]:
-    seen: set[Directed] = set()
-    todo: list[Directed] = [(start, False)]
-    while todo:
-        relation, turned = todo.pop()
-        if (relation, turned) not in seen:
-            seen.add((relation, turned))
-            todo.extend((other, turned != turn) for other, turn in steps[relation])
-    return tuple(sorted(seen))
 
 
 def _kin(
     iri: str,
     name: Mapping[str, Directed],
-    implied: Mapping[str, Iterable[Directed]],
-    sources: Mapping[str, Iterable[Directed]],
+    implied: Mapping[str, tuple[Directed, ...]],
+    sources: Mapping[str, tuple[Directed, ...]],
 ) -> frozenset[str]:
     below = {source for above, _ in implied[iri] for source, _ in sources[above]}
     bases = {above for source in below for above, _ in implied[source]}

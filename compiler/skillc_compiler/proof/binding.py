@@ -19,7 +19,8 @@ from skillc_compiler.library.conditions import (
     Term,
     Variable,
 )
-from skillc_compiler.library.pddl.rewriting import ALWAYS, NEVER, replaced
+from skillc_compiler.library.reading import conjuncts
+from skillc_compiler.library.rewriting import ALWAYS, NEVER, map_children, substitute
 from skillc_compiler.library.vocabulary import THING, ClassType
 from skillc_compiler.lower.effects import NoEffect, effects
 from skillc_compiler.program import Call, Implementation, Parameter, Program, Requirement, Skill
@@ -44,15 +45,15 @@ class Binding:
 
     def at_start(self, condition: Condition) -> Condition:
         """Return what a pre- or hold condition says to the caller."""
-        return replaced(answered(condition, self.given), self.start)
+        return substitute(answered(condition, self.given), self.start)
 
     def at_end(self, condition: Condition) -> Condition:
         """Return what a postcondition says to the caller."""
-        return replaced(answered(condition, self.given), self.after)
+        return substitute(answered(condition, self.given), self.after)
 
     def effect(self, effect: Effect) -> Effect:
         """Return what an effect changes, as the caller sees it."""
-        return replaced(effect, self.after)
+        return substitute(effect, self.after)
 
 
 def candidates(program: Program, call: Call) -> tuple[Implementation, ...]:
@@ -135,12 +136,8 @@ def answered(condition: Condition, given: Mapping[str, bool | str]) -> Condition
         case Given(parameter=name):
             answer = given.get(name, name)
             return Given(answer) if isinstance(answer, str) else ALWAYS if answer else NEVER
-        case Not(body=body):
-            return Not(answered(body, given))
-        case And(parts=parts):
-            return And(tuple(answered(part, given) for part in parts))
-        case Or(parts=parts):
-            return Or(tuple(answered(part, given) for part in parts))
+        case Not() | And() | Or():
+            return map_children(condition, lambda part: answered(part, given))
     return condition
 
 
@@ -161,9 +158,9 @@ def _inferred(
     """Return the parameters for which the preconditions leave one individual, by relations that have one only."""
     found: dict[str, Thing] = {}
     wanted = {start[name]: name for name, parameter in open_.items() if parameter.direction == "infer"}
-    facts = [fact for r in requirements for fact in _conjuncts(r.clause.meaning) if isinstance(fact, Holds)]
+    facts = [fact for r in requirements for fact in conjuncts(r.clause.meaning) if isinstance(fact, Holds)]
     for fact in facts * len(wanted):
-        seen = canonical(sorts, state, replaced(fact, {**start, **found}))
+        seen = canonical(sorts, state, substitute(fact, {**start, **found}))
         assert isinstance(seen, Holds), "a relation is one in any form"
         for unknown, known, single, at_subject in (
             (seen.subject, seen.object, sorts.axioms.single_subject, True),
@@ -189,11 +186,3 @@ def _only(state: State, relation: str, other: Term, at_subject: bool) -> frozens
     """Return who may have the relation with the other where that is one only."""
     rest = state.alone.get((relation, other, not at_subject)) if isinstance(other, Variable | Individual) else None
     return rest if rest is not None and len(rest) == 1 else frozenset()
-
-
-def _conjuncts(condition: Condition) -> Iterator[Condition]:
-    if isinstance(condition, And):
-        for part in condition.parts:
-            yield from _conjuncts(part)
-    else:
-        yield condition

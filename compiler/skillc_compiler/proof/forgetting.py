@@ -22,8 +22,8 @@ from skillc_compiler.library.conditions import (
     Term,
     Variable,
 )
-from skillc_compiler.library.pddl.rewriting import replaced
 from skillc_compiler.library.reading import walk
+from skillc_compiler.library.rewriting import substitute
 from skillc_compiler.proof.sorts import Sorts
 from skillc_compiler.proof.state import Side, State, Thing
 from skillc_compiler.proof.truth import truth
@@ -171,7 +171,7 @@ def _agrees(sorts: Sorts, state: State, fact: Condition, true: bool, write: Valu
 
 
 def _reads_value(sorts: Sorts, state: State, fact: Condition, write: Valued) -> bool:
-    subject = replaced(write.subject, state.same)
+    subject = substitute(write.subject, state.same)
     for of, iri in _values_read(fact):
         term = sorts.vocabulary.properties.get(iri)
         if term is None or term.computed_by is not None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from skillc_compiler.library.conditions import And, Anything, Condition, Holds, Individual, Not, Or, Same, Variable
-from skillc_compiler.library.pddl.rewriting import replaced
+from skillc_compiler.library.rewriting import substitute
 from skillc_compiler.proof.axioms import Axioms
 from skillc_compiler.proof.sorts import Sorts
 from skillc_compiler.proof.state import Side, State, Thing
@@ -39,7 +39,7 @@ def learned(sorts: Sorts, state: State, condition: Condition, holds: bool = True
 def merged(state: State, name: Variable, thing: Thing) -> State:
     """Return the state in which `name` is another name for `thing`."""
     values = {name.name: thing}
-    facts = {replaced(fact, values): value for fact, value in state.facts.items()}
+    facts = {substitute(fact, values): value for fact, value in state.facts.items()}
     alone = {
         (relation, thing if side == name else side, is_subject): frozenset(thing if o == name else o for o in others)
         for (relation, side, is_subject), others in state.alone.items()

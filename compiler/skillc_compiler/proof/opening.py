@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from skillc_compiler.library.conditions import Compare, Condition, Given, Individual, Literal, Variable
+from skillc_compiler.library.rewriting import constant_number
 from skillc_compiler.library.vocabulary import THING
-from skillc_compiler.lower.folding import number
 from skillc_compiler.program import Implementation, Parameter, Requirement, Task
 from skillc_compiler.proof.binding import class_of
 from skillc_compiler.proof.learning import learned
@@ -69,6 +69,6 @@ def _ranges(parameters: Iterable[Parameter]) -> Iterable[tuple[Condition, bool]]
         if not parameter.may_be_unset:
             yield Given(parameter.name), True
         for bound, sign in ((parameter.low, ">="), (parameter.high, "<=")):
-            limit = number(bound.meaning) if bound is not None else None
+            limit = constant_number(bound.meaning) if bound is not None else None
             if limit is not None and not parameter.may_be_unset:
                 yield Compare(Variable(parameter.name), sign, Literal(limit)), True  # type: ignore[arg-type]

@@ -17,8 +17,8 @@ from skillc_compiler.library.conditions import (
     Term,
     Variable,
 )
-from skillc_compiler.library.pddl.rewriting import replaced
-from skillc_compiler.library.reading import walk
+from skillc_compiler.library.reading import conjuncts, walk
+from skillc_compiler.library.rewriting import substitute
 from skillc_compiler.library.vocabulary import THING
 from skillc_compiler.proof.sorts import Sorts
 from skillc_compiler.proof.state import State, Thing
@@ -42,10 +42,10 @@ def quantified(sorts: Sorts, condition: Exists | Forall, canonical: Callable[[Co
         return _negation(quantified(sorts, Exists(condition.variable, condition.cls, Not(condition.body)), canonical))
     body, name = condition.body, condition.variable
     if not name.startswith(BOUND):
-        body, name = replaced(body, {name: Variable(BOUND + name)}), BOUND + name
+        body, name = substitute(body, {name: Variable(BOUND + name)}), BOUND + name
     body = _pushed(canonical(body))
     variable = Variable(f"{BOUND}{1 + max(_depths(body), default=0)}")
-    body = replaced(body, {name: variable})
+    body = substitute(body, {name: variable})
     match body:
         case Or(parts=parts):
             return Or(tuple(quantified(sorts, Exists(variable.name, condition.cls, part), canonical) for part in parts))
@@ -61,7 +61,7 @@ def quantified(sorts: Sorts, condition: Exists | Forall, canonical: Callable[[Co
 def only(state: State, condition: Exists) -> Iterator[frozenset[Thing]]:
     """Yield groups outside of which nobody fulfils the condition: those that alone may have a relation it asks."""
     variable = Variable(condition.variable)
-    for part in _conjuncts(condition.body):
+    for part in conjuncts(condition.body):
         match part:
             case Holds(subject=Variable() | Individual() as near, relation=relation, object=far) if far == variable:
                 yield from _alone(state, relation, near, True)
@@ -74,7 +74,7 @@ def is_ruled_out(sorts: Sorts, state: State, asked: Condition) -> bool:
     nobody = [fact for fact, true in state.facts.items() if not true and isinstance(fact, Exists)]
     for fact in nobody:
         for thing in {part for part in walk(asked) if isinstance(part, Variable | Individual)}:
-            parts = tuple(_conjuncts(replaced(fact.body, {fact.variable: thing})))
+            parts = tuple(conjuncts(substitute(fact.body, {fact.variable: thing})))
             known = all(part == asked or _is_known(state, part) for part in parts)
             if asked in parts and known and sorts.is_a(state, thing, fact.cls):
                 return True
@@ -102,14 +102,6 @@ def _covers(sorts: Sorts, cls: str, relation: str, is_subject: bool) -> bool:
         return False
     ends = [signature.domain if is_subject else signature.range for signature in term.signatures]
     return bool(ends) and all(sorts.vocabulary.is_a(end, cls) for end in ends)
-
-
-def _conjuncts(condition: Condition) -> Iterator[Condition]:
-    if isinstance(condition, And):
-        for part in condition.parts:
-            yield from _conjuncts(part)
-    else:
-        yield condition
 
 
 def _pushed(condition: Condition) -> Condition:

@@ -28,8 +28,7 @@ class Sorts:
 
     def is_computed(self, relation: str) -> bool:
         """Whether a relation follows from other facts by a computation."""
-        term = self.vocabulary.relations.get(relation)
-        return term is not None and term.computed_by is not None
+        return relation in self.vocabulary.relations and self.vocabulary.is_computed(relation)
 
     def is_decided_by(self, relation: str, written: frozenset[str]) -> bool:
         """Whether a computed relation may change with one of these relations, by their one name, and properties."""

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import operator
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from functools import lru_cache
-from typing import Literal as OneOf
-from typing import TypeAlias, assert_never
+from typing import assert_never
 
+from skillc_compiler.bounds import MIRRORED, Bound, are_disjoint, decided
 from skillc_compiler.library.conditions import (
     And,
     Anything,
@@ -28,13 +27,11 @@ from skillc_compiler.library.conditions import (
     Same,
     Variable,
 )
-from skillc_compiler.library.pddl.rewriting import replaced
 from skillc_compiler.library.reading import walk
+from skillc_compiler.library.rewriting import substitute
 from skillc_compiler.proof.quantifying import is_bound, is_ruled_out, only, quantified
 from skillc_compiler.proof.sorts import Sorts, same
 from skillc_compiler.proof.state import State, Thing
-
-Sign: TypeAlias = OneOf["==", "!=", "<", "<=", ">", ">="]
 
 
 def truth(sorts: Sorts, state: State, condition: Condition) -> bool | None:
@@ -45,7 +42,7 @@ def truth(sorts: Sorts, state: State, condition: Condition) -> bool | None:
 def canonical(sorts: Sorts, state: State, condition: Condition) -> Condition:
     """Return the condition in the form in which states keep it: one name for each individual and each relation."""
     if state.same:
-        condition = replaced(condition, state.same)
+        condition = substitute(condition, state.same)
     match condition:
         case Holds(subject=subject, relation=relation, object=object_):
             name, turned = sorts.axioms.name.get(relation, (relation, False))
@@ -59,7 +56,7 @@ def canonical(sorts: Sorts, state: State, condition: Condition) -> Condition:
         case Same(left=Variable() | Individual() as left, right=Variable() | Individual() as right):
             return same(left, right)
         case Compare(left=left, operator=sign, right=right) if _is_constant(left) and not _is_constant(right):
-            return Compare(right, _MIRRORED[sign], left)
+            return Compare(right, MIRRORED[sign], left)
         case Exists() | Forall():
             return quantified(sorts, condition, lambda body: canonical(sorts, state, body))
     return condition
@@ -175,7 +172,7 @@ def _exists(sorts: Sorts, state: State, condition: Exists) -> bool | None:
         return known
 
     def of(thing: Thing) -> bool | None:
-        return _truth(sorts, state, canonical(sorts, state, replaced(condition.body, {condition.variable: thing})))
+        return _truth(sorts, state, canonical(sorts, state, substitute(condition.body, {condition.variable: thing})))
 
     if any(sorts.is_a(state, thing, condition.cls) and of(thing) for thing in things(state)):
         return True
@@ -198,7 +195,7 @@ def _compared(sorts: Sorts, state: State, asked: Compare) -> bool | None:
     if known is not None:
         return known
     if isinstance(asked.left, Literal) and isinstance(asked.right, Literal):
-        return _apply(asked.operator, asked.left.value, asked.right.value)
+        return decided(asked.operator, asked.left.value, asked.right.value)
     if is_ruled_out(sorts, state, asked):
         return False
     if asked.left == asked.right and isinstance(asked.left, Variable):
@@ -209,9 +206,9 @@ def _compared(sorts: Sorts, state: State, asked: Compare) -> bool | None:
         return None
     for fact, true in state.facts.items():
         if isinstance(fact, Compare) and fact.left == asked.left:
-            decided = _follows(fact, true, asked)
-            if decided is not None:
-                return decided
+            answer = _follows(fact, true, asked)
+            if answer is not None:
+                return answer
     return None
 
 
@@ -244,45 +241,12 @@ def _follows(known: Compare, true: bool, asked: Compare) -> bool | None:
     """Return what one comparison of a value with a constant says of another."""
     if not isinstance(known.right, Literal) or not isinstance(asked.right, Literal) or not true:
         return None
-    one, other = known.right.value, asked.right.value
-    if known.operator == "==":
-        return _apply(asked.operator, one, other)
-    if asked.operator == "==" and not _apply(known.operator, other, one):
+    one = Bound(known.left, known.operator, known.right.value)
+    other = Bound(asked.left, asked.operator, asked.right.value)
+    if are_disjoint(one, other):
         return False
-    if asked.operator == "!=" and not _apply(known.operator, other, one):
-        return True
-    if isinstance(one, str) or isinstance(other, str) or known.operator == "!=":
-        return None
-    return _bounded(known.operator, float(one), asked.operator, float(other))
-
-
-def _bounded(known: str, one: float, asked: str, other: float) -> bool | None:
-    """Whether x `asked` other, given that x `known` one."""
-    if known in ("<", "<="):
-        within = one < other or (one == other and (asked == "<=" or known == "<"))
-        beyond = one < other or (one == other and (known == "<" or asked == ">"))
-        return (True if within else None) if asked in ("<", "<=") else (False if beyond else None)
-    above = one > other or (one == other and (asked == ">=" or known == ">"))
-    outside = one > other or (one == other and (known == ">" or asked == "<"))
-    return (True if above else None) if asked in (">", ">=") else (False if outside else None)
-
-
-def _apply(sign: str, one: bool | float | str, other: bool | float | str) -> bool | None:
-    if isinstance(one, str) != isinstance(other, str):
-        return None
-    return bool(_SIGNS[sign](one, other))
+    return True if are_disjoint(one, other.opposite()) else None
 
 
 def _is_constant(expression: Expression) -> bool:
     return isinstance(expression, Literal)
-
-
-_SIGNS: dict[str, Callable[..., bool]] = {
-    "==": operator.eq,
-    "!=": operator.ne,
-    "<": operator.lt,
-    "<=": operator.le,
-    ">": operator.gt,
-    ">=": operator.ge,
-}
-_MIRRORED: dict[Sign, Sign] = {"==": "==", "!=": "!=", "<": ">", "<=": ">=", ">": "<", ">=": "<="}

@@ -19,7 +19,7 @@ from skillc_compiler.library.conditions import (
     Term,
     Variable,
 )
-from skillc_compiler.library.pddl.rewriting import replaced
+from skillc_compiler.library.rewriting import substitute
 from skillc_compiler.proof.sorts import Sorts
 from skillc_compiler.proof.state import State
 
@@ -103,5 +103,5 @@ def condition_of(write: Related | Valued) -> Condition | None:
 def canonical(sorts: Sorts, state: State, write: Related) -> tuple[Term, str, Term]:
     """Return a written relation between the names that the state uses, in the direction that facts are kept in."""
     relation, turned = sorts.axioms.name.get(write.relation, (write.relation, False))
-    subject, object_ = (replaced(term, state.same) for term in (write.subject, write.object))
+    subject, object_ = (substitute(term, state.same) for term in (write.subject, write.object))
     return (object_, relation, subject) if turned else (subject, relation, object_)

@@ -18,18 +18,18 @@ from skillc_compiler.library.conditions import (
     PropertyOf,
     Retract,
 )
-from skillc_compiler.library.tree import Call
+from skillc_compiler.library.reading import calls_in, walk
 from skillc_compiler.library.vocabulary import ClassType
 
 
 def mentioned(item: msgspec.Struct) -> frozenset[str]:
     """Return the IRIs of the classes, relations and properties, and the names of the functions, inside `item`."""
-    return frozenset(name for each in _all(item) for name in _named(each))
+    return frozenset(name for each in walk(item) for name in _named(each))
 
 
 def called(item: msgspec.Struct) -> tuple[str, ...]:
     """Return the skills called inside `item`, in the order of their first call."""
-    return tuple(dict.fromkeys(each.skill for each in _all(item) if isinstance(each, Call)))
+    return tuple(dict.fromkeys(each.skill for each in calls_in(item)))
 
 
 def _named(item: msgspec.Struct) -> Iterator[str]:
@@ -42,21 +42,5 @@ def _named(item: msgspec.Struct) -> Iterator[str]:
             yield iri
         case Invoke(function=name):
             yield name
-        case _:
-            pass
-
-
-def _all(item: object) -> Iterator[msgspec.Struct]:
-    match item:
-        case msgspec.Struct():
-            yield item
-            for name in item.__struct_fields__:
-                yield from _all(getattr(item, name))
-        case tuple():
-            for part in item:
-                yield from _all(part)
-        case dict():
-            for part in item.values():
-                yield from _all(part)
         case _:
             pass

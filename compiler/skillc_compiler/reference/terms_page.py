@@ -128,15 +128,7 @@ def _facts(term: Term, links: Links) -> Iterator[Markup]:
 
 def _relation(term: RelationTerm, links: Links) -> Iterator[Markup]:
     yield from (Markup("{} → {}").format(links.term(each.domain), links.term(each.range)) for each in term.signatures)
-    traits = {
-        "functional": term.functional,
-        "inverse functional": term.inverse_functional,
-        "symmetric": term.symmetric,
-        "transitive": term.transitive,
-        "asymmetric": term.asymmetric,
-        "irreflexive": term.irreflexive,
-    }
-    yield from (Markup(name) for name, has in traits.items() if has)
+    yield from map(Markup, term.characteristics)
     yield from (Markup("implies {}").format(links.term(iri)) for iri in term.parents)
     if term.inverse:
         yield Markup("inverse of {}").format(links.term(term.inverse))

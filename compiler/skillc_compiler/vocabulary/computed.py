@@ -27,15 +27,7 @@ def computed_alone(vocabulary: Vocabulary) -> Iterator[Diagnostic]:
 
 
 def _axioms(term: RelationTerm, vocabulary: Vocabulary) -> Iterator[str]:
-    stated = {
-        "functional": term.functional,
-        "inverse functional": term.inverse_functional,
-        "symmetric": term.symmetric,
-        "transitive": term.transitive,
-        "asymmetric": term.asymmetric,
-        "irreflexive": term.irreflexive,
-    }
-    yield from (name for name, is_stated in stated.items() if is_stated)
+    yield from term.characteristics
     yield from (f"a kind of `{vocabulary.short(parent)}`" for parent in term.parents)
     if term.inverse is not None:
         yield f"the inverse of `{vocabulary.short(term.inverse)}`"

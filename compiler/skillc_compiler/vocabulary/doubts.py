@@ -7,7 +7,6 @@ from itertools import combinations
 
 from skillc_compiler.library.vocabulary import PropertyTerm, RelationTerm, Vocabulary
 from skillc_compiler.vocabulary.graph import Graph
-from skillc_compiler.vocabulary.implied import implied
 from skillc_compiler.vocabulary.names import DOMAIN, INVERSE, RANGE, TYPE
 from skillc_compiler.vocabulary.places import Places
 from skillc_dsl.diagnostics import Diagnostic
@@ -70,15 +69,8 @@ def _ends(
 def _beyond_dl(vocabulary: Vocabulary, places: Places) -> Iterator[Diagnostic]:
     """Tell of characteristics that OWL 2 DL forbids for relations that a transitive one implies."""
     relations = vocabulary.relations
-    chained = {other for iri, all_ in implied(relations).items() if relations[iri].transitive for other, _ in all_}
-    for iri in sorted(chained):
-        term = relations[iri]
-        words = (
-            *(["functional"] if term.functional else []),
-            *(["inverse functional"] if term.inverse_functional else []),
-            *(["asymmetric"] if term.asymmetric else []),
-            *(["irreflexive"] if term.irreflexive else []),
-        )
+    for iri in sorted(vocabulary.closure.chained):
+        words = [each for each in relations[iri].characteristics if each not in ("symmetric", "transitive")]
         if words:
             yield Diagnostic(
                 "beyond-owl-dl",

@@ -7,9 +7,9 @@ from functools import cached_property
 from itertools import product
 from typing import Literal, NamedTuple
 
+from skillc_compiler.library.closure import Directed
 from skillc_compiler.library.vocabulary import THING, RelationTerm, Vocabulary
 from skillc_compiler.vocabulary.expressions import Needed
-from skillc_compiler.vocabulary.implied import Directed, implied
 
 MOST_CHOICES = 4096
 """How many ways to choose among alternative domains are tried."""
@@ -204,6 +204,6 @@ class Impossible:
         """The classes that are said to be disjoint with others, with these."""
         return {iri: frozenset(term.disjoint) for iri, term in self._vocabulary.classes.items() if term.disjoint}
 
-    @cached_property
-    def _implied(self) -> dict[str, tuple[Directed, ...]]:
-        return implied(self._vocabulary.relations)
+    @property
+    def _implied(self) -> Mapping[str, tuple[Directed, ...]]:
+        return self._vocabulary.closure.implied

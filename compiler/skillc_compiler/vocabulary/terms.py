@@ -9,6 +9,7 @@ from itertools import combinations
 
 import pyoxigraph as ox
 
+from skillc_compiler.library.closure import reachable
 from skillc_compiler.library.vocabulary import THING, ClassTerm, PropertyTerm, RelationTerm, Signature
 from skillc_compiler.vocabulary.datatypes import value_type
 from skillc_compiler.vocabulary.expressions import alternatives, complements
@@ -63,14 +64,7 @@ class Terms:
 
     def ancestors(self, iri: str) -> frozenset[str]:
         """Return all terms above one, itself not included."""
-        seen: set[str] = set()
-        todo = [*self.above(iri)]
-        while todo:
-            current = todo.pop()
-            if current not in seen:
-                seen.add(current)
-                todo += self.above(current)
-        return frozenset(seen)
+        return frozenset(reachable(self.above(iri), self.above))
 
 
 def classes(terms: Terms) -> dict[str, ClassTerm]:

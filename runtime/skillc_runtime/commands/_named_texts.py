@@ -68,8 +68,8 @@ def warned(
     states = [scene.state for scene in scenes.sound.values()] if scenes else []
     errors = {each.span for each in told if each.name == "unknown-value"}
     # The world model is heavy to import.
+    from skillc_compiler.library.read_write import changing_terms
     from skillc_runtime.commands._scenes import read
-    from skillc_runtime.execution.selection.reads import changing_terms
     from skillc_runtime.execution.selection.text_names import UnknownName, is_fixed_path, list_names
 
     changing = changing_terms(compiled.value)

@@ -8,10 +8,11 @@ from typing import TypeAlias
 
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.pddl.devices import devices
+from skillc_compiler.library.read_write import ReadWriteSet, facts_read
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.planning.plan import Plan, Step
-from skillc_runtime.planning.touched import Touched, changed_between, read_by, settled_by
 from skillc_runtime.planning.validation import apply_step, compute_effects
+from skillc_runtime.planning.world_changes import changed_between, settled_by
 from skillc_runtime.world.state import WorldState
 
 
@@ -46,10 +47,10 @@ def arrange_plan(plan: Plan, library: SkillLibrary, state: WorldState) -> Arrang
 
 def find_predecessors(plan: Plan, library: SkillLibrary, state: WorldState) -> tuple[frozenset[int], ...]:
     """Return for each step the earlier ones that must end first; PlanError if the plan does not work from `state`."""
-    touched = _touched(plan.steps, library, state)
+    sets = _read_write_sets(plan.steps, library, state)
     predecessors: list[frozenset[int]] = []
-    for late in range(len(touched)):
-        direct = [early for early in range(late) if touched[early].conflicts(touched[late])]
+    for late in range(len(sets)):
+        direct = [early for early in range(late) if sets[early].conflicts(sets[late])]
         predecessors.append(frozenset(direct).union(*(predecessors[each] for each in direct)))
     return tuple(predecessors)
 
@@ -95,25 +96,26 @@ def _connected_components(steps: Iterable[int], linked: Callable[[int, int], boo
     return sorted(groups)
 
 
-def _touched(steps: Iterable[Step], library: SkillLibrary, state: WorldState) -> list[Touched]:
+def _read_write_sets(steps: Iterable[Step], library: SkillLibrary, state: WorldState) -> list[ReadWriteSet]:
     locked = devices(library)
     found = []
     for step in steps:
         after = apply_step(step, library, state)
-        found.append(touched_by(step, library, locked, state, after))
+        found.append(read_write_set(step, library, locked, state, after))
         state = after
     return found
 
 
-def touched_by(
+def read_write_set(
     step: Step, library: SkillLibrary, locked: Mapping[str, tuple[str, ...]], before: WorldState, after: WorldState
-) -> Touched:
-    """Return what a step touches that leads from one version of the world to another; `locked` as of `devices`."""
-    reads = (fact for each in _conditions(step, library) for fact in read_by(each, step.arguments, before))
+) -> ReadWriteSet:
+    """Return what a step reads and writes between two versions of the world; `locked` as of `devices`."""
+    vocabulary = before.vocabulary
+    reads = (fact for each in _conditions(step, library) for fact in facts_read(each, step.arguments, vocabulary))
     settles = (fact for each in compute_effects(step, library, before) for fact in settled_by(each, before))
-    return Touched(
+    return ReadWriteSet(
         reads=frozenset(reads),
-        changes=frozenset(changed_between(before, after)),
+        writes=frozenset(changed_between(before, after)),
         settles=frozenset(settles),
         devices=frozenset(step.arguments[name] for name in locked[step.skill] if name in step.arguments),
     )

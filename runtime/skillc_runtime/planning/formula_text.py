@@ -5,6 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import assert_never
 
+from skillc_compiler.library.format_condition import (
+    format_all,
+    format_any,
+    format_class,
+    format_property,
+    format_quantified,
+    format_relation,
+)
 from skillc_compiler.library.pddl.domain import ROOT, ClassFact, GoalFact, GuardFact, PropertyFact, RelationFact
 from skillc_compiler.library.pddl.formulas import (
     Atom,
@@ -18,7 +26,6 @@ from skillc_compiler.library.pddl.formulas import (
 )
 from skillc_compiler.library.pddl.problem import Problem
 from skillc_compiler.library.skills import Implementation, SkillLibrary
-from skillc_compiler.library.vocabulary import local_name
 from skillc_runtime.world.values import show
 
 
@@ -52,9 +59,9 @@ class FormulaFormatter:
             case Negation(body):
                 return f"not {self.formula(body, known)}"
             case Conjunction(parts):
-                return " and ".join(self.formula(part, known) for part in parts) or "true"
+                return format_all(self.formula(part, known) for part in parts)
             case Disjunction(parts):
-                return " or ".join(self.formula(part, known) for part in parts) or "false"
+                return format_any(self.formula(part, known) for part in parts)
             case Existential(variable, body):
                 return self._quantified("exists", variable.name, variable.type, body, known)
             case Universal(variable, body):
@@ -63,18 +70,18 @@ class FormulaFormatter:
                 assert_never(formula)
 
     def _quantified(self, word: str, variable: str, type_: str, body: Formula, names: Mapping[str, str]) -> str:
-        return f"{word} {variable.removeprefix('?')}: {self.type_(type_)} ({self.formula(body, names)})"
+        return format_quantified(word, variable.removeprefix("?"), self.type_(type_), self.formula(body, names))
 
     def _atom(self, atom: Atom, names: Mapping[str, str]) -> str:
         terms = [self._term(term, names) for term in atom.terms]
         meaning = self._problem.domain.predicate[atom.predicate].meaning
         match meaning:
             case RelationFact(relation):
-                return f"{terms[0]} {local_name(relation)} {terms[1]}"
+                return format_relation(terms[0], relation, terms[1])
             case PropertyFact(property_, value):
-                return f"{terms[0]}.{local_name(property_)} == {show(value)}"
+                return format_property(terms[0], property_, show(value))
             case ClassFact(cls):
-                return f"{terms[0]} is {self._short(cls)}"
+                return format_class(terms[0], self._short(cls))
             case GuardFact():
                 text = self._texts.get((meaning.skill, meaning.label), meaning.label)
                 return f"{text} for {', '.join(terms)}"

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import assert_never
 
-from skillc_compiler.library.vocabulary import Vocabulary, local_name
+from skillc_compiler.library.format_condition import format_property, format_relation
+from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_runtime.trace.events import WorldChanged
 from skillc_runtime.world.changes import (
     AddIndividual,
@@ -34,12 +35,12 @@ def change_text(change: Change, vocabulary: Vocabulary) -> str:
         case RemoveIndividual(individual):
             return f"gone: {short(individual)}"
         case AddRelation(subject, relation, object_):
-            return f"{short(subject)} {local_name(relation)} {short(object_)}"
+            return format_relation(short(subject), relation, short(object_))
         case RemoveRelation(subject, relation, object_):
-            return f"not {short(subject)} {local_name(relation)} {short(object_)}"
+            return format_relation(short(subject), relation, short(object_), holds=False)
         case SetProperty(individual, property_, value):
-            return f"{short(individual)}.{local_name(property_)} == {show(value)}"
+            return format_property(short(individual), property_, show(value))
         case ClearProperty(individual, property_):
-            return f"not {short(individual)} has {local_name(property_)}"
+            return format_property(short(individual), property_, None)
         case _:
             assert_never(change)

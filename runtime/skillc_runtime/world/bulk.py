@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from skillc_compiler.library.closure import reachable
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_runtime.world.axioms import Axioms
 from skillc_runtime.world.links import NONE, Links
@@ -110,7 +111,9 @@ class _Consequences:
         following = dict(edges.forward.items())
         if not any(each in following for objects in following.values() for each in objects):
             return edges
-        forward = {start: _reached(start, following) for start in following}
+        forward = {
+            start: reachable(objects, lambda each: following.get(each, NONE)) for start, objects in following.items()
+        }
         return _links([(start, end) for start, ends in forward.items() for end in ends], self._sets)
 
 
@@ -122,16 +125,6 @@ def _links(pairs: Pairs, sets: _Freezer) -> Links:
 
 def _turned(links: Links) -> Links:
     return Links(links.backward, links.forward)
-
-
-def _reached(start: str, following: _Sets) -> set[str]:
-    seen: set[str] = set()
-    todo = [start]
-    while todo:
-        found = following.get(todo.pop(), NONE) - seen
-        seen |= found
-        todo.extend(each for each in found if each in following)
-    return seen
 
 
 def _members(classes: _Sets) -> dict[str, Members]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Set
 
+from skillc_compiler.library.closure import reachable
 from skillc_runtime.world.axioms import Axioms
 from skillc_runtime.world.links import Links, LinksDraft
 
@@ -101,10 +102,10 @@ class Closure:
             return
         before, after = {start, *facts.subjects(start)}, {end, *facts.objects(end)}
         if len(before) < len(after):
-            left = {first: _reachable(first, lambda node: self.edges_from(node, relation)) for first in before}
+            left = {first: _after(first, lambda node: self.edges_from(node, relation)) for first in before}
             lost = [(first, last) for first in before for last in after - left[first]]
         else:
-            left = {last: _reachable(last, lambda node: self.edges_to(relation, node)) for last in after}
+            left = {last: _after(last, lambda node: self.edges_to(relation, node)) for last in after}
             lost = [(first, last) for last in after for first in before - left[last]]
         for first, last in lost:
             facts.discard(first, last)
@@ -129,11 +130,6 @@ class Closure:
         self._consequences(relation).discard(start, end)
 
 
-def _reachable(start: str, step: Callable[[str], Set[str]]) -> set[str]:
-    seen: set[str] = set()
-    todo = [start]
-    while todo:
-        found = step(todo.pop()) - seen
-        seen |= found
-        todo.extend(found)
-    return seen
+def _after(start: str, step: Callable[[str], Set[str]]) -> set[str]:
+    """Return what is reached by one step or more, the start itself only in a circle."""
+    return reachable(step(start), step)

@@ -28,6 +28,7 @@ from skillc_compiler.library.conditions import (
     Term,
     Variable,
 )
+from skillc_compiler.library.format_condition import format_relation
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.expressions import Bindings, EvaluationError, compile_expression, missing
@@ -111,7 +112,7 @@ class _Explainer:
     def _no_relation(self, subject: Term, relation: str, object_: Term, bindings: Bindings, anything: str = "_") -> str:
         """Name the facts that share the subject or, when there are none, the object."""
         start, end = (self._term(term, bindings, anything) for term in (subject, object_))
-        needed = f"{start} {local_name(relation)} {end}"
+        needed = format_relation(start, relation, end)
         computed = self._state.axioms.computed.get(relation)
         pair = _iri(subject, bindings), _iri(object_, bindings)
         if computed is not None and pair[0] is not None and pair[1] is not None:
@@ -125,7 +126,7 @@ class _Explainer:
         return f"`{needed}` does not hold: {start} has the relation {local_name(relation)} to nothing"
 
     def _facts(self, pairs: list[tuple[str, str]], relation: str) -> str:
-        return _list([f"{self._short(start)} {local_name(relation)} {self._short(end)}" for start, end in pairs])
+        return _list([format_relation(self._short(start), relation, self._short(end)) for start, end in pairs])
 
     def _pairs(self, subject: Term, object_: Term, relation: str, bindings: Bindings) -> Iterable[tuple[str, str]]:
         start, end = _iri(subject, bindings), _iri(object_, bindings)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeAlias, assert_never
 
-from skillc_compiler.library.vocabulary import local_name
+from skillc_compiler.library.format_condition import format_class, format_property, format_relation
 from skillc_runtime.world.expressions import EvaluationError, property_of
 from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value, show
+from skillc_runtime.world.values import Value, show_stated
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,14 +46,12 @@ def fact_text(fact: Fact, state: WorldState) -> str:
     short = state.vocabulary.short
     match fact:
         case Related(subject, relation, object_, holds):
-            return f"{'' if holds else 'not '}{short(subject)} {local_name(relation)} {short(object_)}"
+            return format_relation(short(subject), relation, short(object_), holds)
         case Valued(individual, property_):
             value = value_at(state, individual, property_)
-            if value is None or (isinstance(value, tuple) and not value):
-                return f"not {short(individual)} has {local_name(property_)}"
-            return f"{short(individual)}.{local_name(property_)} == {show(value)}"
+            return format_property(short(individual), property_, show_stated(value))
         case Typed(individual, cls, holds):
-            return f"{'' if holds else 'not '}{short(individual)} is {short(cls)}"
+            return format_class(short(individual), short(cls), holds)
         case _:
             assert_never(fact)
 

@@ -25,6 +25,7 @@ from skillc_compiler.library.conditions import (
     Same,
     Variable,
 )
+from skillc_compiler.library.reading import walk
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.evidence import Established, pairs
 from skillc_runtime.world.expressions import Bindings, EvaluationError, iri_of
@@ -127,14 +128,9 @@ def _each_once(found: Iterable[Ground]) -> Grounds:
 
 def _values(item: msgspec.Struct, bindings: Bindings) -> Iterator[Valued]:
     """Yield the properties that a comparison reads."""
-    match item:
-        case PropertyOf(Variable() | Individual() as owner, property_) | HasProperty(owner, property_):
-            iri = iri_of(owner, bindings)
-            if iri is not None:
-                yield Valued(iri, property_)
-        case _:
-            for name in item.__struct_fields__:
-                value = getattr(item, name)
-                for part in value if isinstance(value, tuple) else (value,):
-                    if isinstance(part, msgspec.Struct):
-                        yield from _values(part, bindings)
+    for each in walk(item):
+        match each:
+            case PropertyOf(Variable() | Individual() as owner, property_) | HasProperty(owner, property_):
+                iri = iri_of(owner, bindings)
+                if iri is not None:
+                    yield Valued(iri, property_)

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence, Set
 
 import pyoxigraph as ox
 
+from skillc_compiler.library.closure import reachable
 from skillc_compiler.library.vocabulary import THING, Vocabulary
 from skillc_compiler.turtle.problems import Note, Place, Problem
 from skillc_compiler.turtle.statements import Node, Statement
@@ -187,13 +188,11 @@ def _first(statements: Sequence[Statement]) -> Statement:
 
 def _reached(nodes: Iterable[Node], of_blank: dict[Node, list[Statement]]) -> set[Node]:
     """Return the things without a name among nodes, and all below them."""
-    todo, found = [each for each in nodes if isinstance(each, ox.BlankNode)], set[Node]()
-    while todo:
-        node = todo.pop()
-        if node not in found:
-            found.add(node)
-            todo += [each.object for each in of_blank.get(node, ()) if isinstance(each.object, ox.BlankNode)]
-    return found
+    return reachable(_blank(nodes), lambda node: _blank(each.object for each in of_blank.get(node, ())))
+
+
+def _blank(nodes: Iterable[Node]) -> Iterator[Node]:
+    return (each for each in nodes if isinstance(each, ox.BlankNode))
 
 
 def _problem(term: str, statements: Sequence[Statement], vocabulary: Vocabulary) -> Problem:

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import repeat
 
-from skillc_compiler.library.conditions import And, Anything, Condition, Holds, Individual, Term, Variable
-from skillc_compiler.library.reading import free_variables
+from skillc_compiler.library.conditions import Condition, Holds, Term, Variable
+from skillc_compiler.library.reading import conjuncts, free_variables
 from skillc_runtime.world.conditions import Test, compile_condition
-from skillc_runtime.world.expressions import Bindings
+from skillc_runtime.world.expressions import Bindings, iri_of
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
 
@@ -27,7 +27,7 @@ def solutions(
     at `most_tried` individuals it ends. EvaluationError as in `evaluate`.
     """
     relevant = (condition for condition in conditions if not free_variables(condition).isdisjoint(variables))
-    filters = [_filter(part, variables) for condition in relevant for part in _parts(condition)]
+    filters = [_filter(part, variables) for condition in relevant for part in conjuncts(condition)]
     scope = {**bindings, **dict.fromkeys(variables)}
     if not all(each.test(state, scope) for each in filters if not each.about):
         return
@@ -46,14 +46,6 @@ class _Filter:
 
 def _filter(condition: Condition, variables: Mapping[str, str]) -> _Filter:
     return _Filter(condition, free_variables(condition) & variables.keys(), compile_condition(condition))
-
-
-def _parts(condition: Condition) -> Iterator[Condition]:
-    if isinstance(condition, And):
-        for part in condition.parts:
-            yield from _parts(part)
-    else:
-        yield condition
 
 
 def _extended(
@@ -98,7 +90,7 @@ def _candidates(
 
 
 def _related(name: str, holds: Holds, scope: dict[str, Value | None], state: WorldState) -> frozenset[str] | None:
-    subject, object_ = _known(holds.subject, scope), _known(holds.object, scope)
+    subject, object_ = iri_of(holds.subject, scope), iri_of(holds.object, scope)
     if subject is None and object_ is not None and _is(holds.subject, name):
         return state.subjects(holds.relation, object_)
     if object_ is None and subject is not None and _is(holds.object, name):
@@ -108,14 +100,3 @@ def _related(name: str, holds: Holds, scope: dict[str, Value | None], state: Wor
 
 def _is(term: Term, name: str) -> bool:
     return isinstance(term, Variable) and term.name == name
-
-
-def _known(term: Term, scope: dict[str, Value | None]) -> str | None:
-    match term:
-        case Individual(iri):
-            return iri
-        case Variable(name):
-            value = scope.get(name)
-            return value if isinstance(value, str) else None
-        case Anything():
-            return None

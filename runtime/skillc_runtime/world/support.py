@@ -23,12 +23,13 @@ from skillc_compiler.library.conditions import (
     Same,
     Variable,
 )
-from skillc_compiler.library.vocabulary import local_name
+from skillc_compiler.library.format_condition import format_class, format_property, format_relation
+from skillc_compiler.library.reading import children
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.expressions import EvaluationError, iri_of, property_of
 from skillc_runtime.world.quantifiers import candidates
 from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value, show
+from skillc_runtime.world.values import Value, show_stated
 
 LISTED = 4
 """Of facts about anybody, no more than so many are named."""
@@ -57,7 +58,7 @@ def _facts(item: msgspec.Struct, state: WorldState, bindings: _Names) -> Iterato
         case IsA(subject, cls):
             iri = iri_of(subject, bindings)
             if iri is not None:
-                yield f"{'' if state.is_a(iri, cls) else 'not '}{short(iri)} is {short(cls)}"
+                yield format_class(short(iri), short(cls), state.is_a(iri, cls))
         case Same(left, right):
             one, other = iri_of(left, bindings), iri_of(right, bindings)
             if one is not None and other is not None:
@@ -69,14 +70,14 @@ def _facts(item: msgspec.Struct, state: WorldState, bindings: _Names) -> Iterato
             for individual in _telling(item, state, bindings):
                 yield from _facts(item.body, state, {**bindings, item.variable: individual})
         case _:
-            for part in _parts(item):
+            for part in children(item):
                 yield from _facts(part, state, bindings)
 
 
 def _related(subject: str | None, relation: str, object_: str | None, state: WorldState) -> Iterator[str]:
-    short, name = state.vocabulary.short, local_name(relation)
+    short = state.vocabulary.short
     if subject is not None and object_ is not None:
-        yield f"{'' if state.holds(subject, relation, object_) else 'not '}{short(subject)} {name} {short(object_)}"
+        yield format_relation(short(subject), relation, short(object_), state.holds(subject, relation, object_))
         return
     if subject is not None:
         pairs = [(subject, each) for each in sorted(state.objects(subject, relation))]
@@ -84,21 +85,16 @@ def _related(subject: str | None, relation: str, object_: str | None, state: Wor
         pairs = [(each, object_) for each in sorted(state.subjects(relation, object_))]
     else:
         pairs = nsmallest(LISTED, state.pairs(relation))
-    yield from (f"{short(start)} {name} {short(end)}" for start, end in pairs[:LISTED])
+    yield from (format_relation(short(start), relation, short(end)) for start, end in pairs[:LISTED])
     if not pairs:
-        yield f"not {short(subject) if subject else '_'} {name} {short(object_) if object_ else '_'}"
+        start, end = (short(each) if each else "_" for each in (subject, object_))
+        yield format_relation(start, relation, end, holds=False)
 
 
 def _value(individual: str, property_: str, state: WorldState) -> Iterator[str]:
-    short, name = state.vocabulary.short, local_name(property_)
-    try:
-        value = property_of(state, individual, property_)
-    except EvaluationError:
-        return
-    if value is None or (isinstance(value, tuple) and not value):
-        yield f"not {short(individual)} has {name}"
-    else:
-        yield f"{short(individual)}.{name} == {show(value)}"
+    with suppress(EvaluationError):
+        value = show_stated(property_of(state, individual, property_))
+        yield format_property(state.vocabulary.short(individual), property_, value)
 
 
 def _telling(condition: Exists | Forall, state: WorldState, bindings: _Names) -> list[str]:
@@ -122,10 +118,3 @@ def _true(parts: Sequence[Condition], state: WorldState, bindings: _Names) -> li
         return [part for part in parts if evaluate(part, state, bindings)]
     except EvaluationError:
         return []
-
-
-def _parts(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
-    for name in item.__struct_fields__:
-        value = getattr(item, name)
-        parts = value if isinstance(value, tuple) else (value,)
-        yield from (part for part in parts if isinstance(part, msgspec.Struct))

@@ -54,6 +54,11 @@ def plain(value: Value) -> object:
     return show(value) if isinstance(value, Pose) else value
 
 
+def show_stated(value: Value | None) -> str | None:
+    """Return a value of a property as text, None where it has none."""
+    return None if value is None or (isinstance(value, tuple) and not value) else show(value)
+
+
 def show(value: Value) -> str:
     """Return a value as a reader wants to see it, numbers in SI units."""
     if isinstance(value, bool):

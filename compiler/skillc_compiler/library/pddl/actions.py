@@ -15,10 +15,10 @@ from skillc_compiler.library.pddl.formulas import FALSE, Change, Formula, conjun
 from skillc_compiler.library.pddl.guards import Guards
 from skillc_compiler.library.pddl.names import fresh, kebab
 from skillc_compiler.library.pddl.parameters import Defaults, defaults, planned_parameters
-from skillc_compiler.library.pddl.rewriting import replaced
 from skillc_compiler.library.pddl.symbols import Symbols
 from skillc_compiler.library.pddl.translate import Impossible, Named, Scope, Translator, Untranslatable, negated
 from skillc_compiler.library.reading import free_variables_in_order
+from skillc_compiler.library.rewriting import substitute
 from skillc_compiler.library.skills import Implementation, Parameter, Requirement, Skill
 from skillc_compiler.library.vocabulary import ClassType
 
@@ -130,7 +130,7 @@ class _Builder:
 
     def _duration(self, implementation: Implementation) -> Expression | None:
         duration = duration_of(self.skill, implementation)
-        return None if duration is None else replaced(duration, defaults(implementation.parameters).values)
+        return None if duration is None else substitute(duration, defaults(implementation.parameters).values)
 
     def _defaults(self, parameters: Iterable[Parameter], scope: Scope) -> Iterator[Formula]:
         """Yield that the individuals which optional parameters are by default are of the parameters' classes."""
@@ -201,4 +201,4 @@ class _Builder:
             if changed:
                 said = f"`{changed[0]}`, which its postconditions speak of"
                 raise Untranslatable(f"its implementation `{implementation.name}` has another default for {said}")
-        return tuple(replaced(effect, given.values) for effect in effects)
+        return tuple(substitute(effect, given.values) for effect in effects)

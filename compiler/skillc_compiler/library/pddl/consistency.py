@@ -67,10 +67,9 @@ class Consistency:
                 assert_never(effect)
 
     def _implied(self, effect: Assert) -> Iterator[tuple[RelationTerm, Term, Term]]:
-        relations = self.translator.symbols.relations
-        for each in relations.above(effect.relation):
-            sides = (effect.object, effect.subject) if each.swapped else (effect.subject, effect.object)
-            yield relations.vocabulary.relations[each.relation], *sides
+        vocabulary = self.translator.symbols.vocabulary
+        for each in vocabulary.closure.implied[effect.relation]:
+            yield vocabulary.relations[each.relation], *each.ends(effect.subject, effect.object)
 
     def _irreflexive(self, effect: Assert) -> Iterator[Formula]:
         for term, subject, object_ in self._implied(effect):
@@ -94,7 +93,7 @@ class Consistency:
         symbols = self.translator.symbols
         for term, subject, object_ in self._implied(effect):
             if term.asymmetric and self._takes(term, object_, subject):
-                if symbols.changing_transitive(term.iri):
+                if symbols.follows_over_steps(term.iri):
                     shown = symbols.short(term.iri)
                     raise Untranslatable(f"states `{shown}`, whose opposite may follow over any number of steps")
                 opposite = self.translator.holds(term.iri, self._term(object_), self._term(subject))
@@ -137,12 +136,12 @@ class Consistency:
         """Yield that nothing that is stated makes what is retracted hold."""
         symbols = self.translator.symbols
         sides = [None if isinstance(each, Anything) else self._term(each).name for each in _sides(effect)]
-        if None not in sides and symbols.relations.transitive_below(effect.relation):
+        if None not in sides and effect.relation in symbols.vocabulary.closure.chained:
             shown = symbols.short(effect.relation)
             raise Untranslatable(f"takes back `{shown}`, which may still follow over any number of steps")
-        for reading in symbols.relations.below(effect.relation):
+        for reading in symbols.vocabulary.closure.canonical_sources[effect.relation]:
             predicate = symbols.relation(reading.relation)
-            terms = sides[::-1] if reading.swapped else sides
+            terms = reading.ends(*sides)
             for change in self.changes:
                 if change.positive and change.atom.predicate == predicate:
                     yield negated(self._speaks_of(change, terms))

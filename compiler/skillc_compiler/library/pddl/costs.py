@@ -10,10 +10,10 @@ from numbers import Real
 from skillc_compiler.library.conditions import Expression, Invoke, PropertyOf
 from skillc_compiler.library.pddl.domain import ComputedCost, Cost, CostFunction, FixedCost
 from skillc_compiler.library.pddl.names import fresh, kebab
-from skillc_compiler.library.pddl.rewriting import constant
 from skillc_compiler.library.pddl.symbols import Symbols
 from skillc_compiler.library.pddl.translate import Scope, Untranslatable
 from skillc_compiler.library.reading import free_variables_in_order, walk
+from skillc_compiler.library.rewriting import constant_number
 from skillc_compiler.library.skills import Implementation, Skill
 from skillc_compiler.library.vocabulary import ClassType
 
@@ -95,7 +95,7 @@ def action_cost(
     """
     if duration is None:
         return FixedCost(ASSUMED_SECONDS), None
-    seconds = constant(duration)
+    seconds = constant_number(duration)
     if seconds is not None:
         try:
             return FixedCost(exact_seconds(seconds)), None

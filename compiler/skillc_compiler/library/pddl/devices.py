@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from skillc_compiler.library.conditions import Variable
-from skillc_compiler.library.reading import walk
+from skillc_compiler.library.reading import calls_in
 from skillc_compiler.library.skills import Compound, Skill, SkillLibrary
 from skillc_compiler.library.tree import Call
 
@@ -38,7 +38,7 @@ def _of_calls(skill: Skill, library: SkillLibrary, locked: Mapping[str, frozense
 def _calls(skill: Skill, library: SkillLibrary) -> Iterator[Call]:
     for each in library.implementations_of(skill.name):
         if isinstance(each.body, Compound):
-            yield from (node for node in walk(each.body.node) if isinstance(node, Call))
+            yield from calls_in(each.body.node)
 
 
 def _in_order(skill: Skill, names: frozenset[str]) -> tuple[str, ...]:

@@ -7,15 +7,13 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import assert_never
 
+from skillc_compiler.library.closure import Directed
 from skillc_compiler.library.conditions import (
     Anything,
     Assert,
     Assign,
-    Compare,
     Effect,
-    HasProperty,
     Literal,
-    PropertyOf,
     Retract,
     Term,
 )
@@ -30,59 +28,8 @@ from skillc_compiler.library.pddl.formulas import (
     conjuncts,
 )
 from skillc_compiler.library.pddl.names import variable
-from skillc_compiler.library.pddl.relations import Reading, Relations
 from skillc_compiler.library.pddl.translate import Scope, Translator, Untranslatable
-from skillc_compiler.library.skills import Post
-
-
-@dataclass(frozen=True)
-class Unique:
-    """A relation that follows from an asserted one and lets one thing stand on the other side of `side` only."""
-
-    relation: str
-    swapped: bool
-    side: int
-
-    def fixed(self, subject: Typed, object_: Typed) -> Typed:
-        """Return the term on `side` when the asserted relation links these two."""
-        return (subject, object_)[self.side != self.swapped]
-
-
-def unique_sides(relation: str, relations: Relations) -> tuple[Unique, ...]:
-    """Return what asserting the relation may retract."""
-    found = []
-    for each in relations.above(relation):
-        term = relations.vocabulary.relations[each.relation]
-        found += [Unique(each.relation, each.swapped, 0)] if term.functional else []
-        found += [Unique(each.relation, each.swapped, 1)] if term.inverse_functional else []
-    return tuple(found)
-
-
-def changed_terms(posts: Sequence[Post], relations: Relations) -> frozenset[str]:
-    """Return the canonical relations and the properties that posts change, by themselves or through axioms.
-
-    A measured number counts too: no effect tells its value, yet nothing may take the old one for granted.
-    """
-    changed = {iri for post in posts for effect in post.effects for iri in _changed(effect, relations)}
-    for condition in (post.condition for post in posts if not post.effects):
-        match condition:
-            case Compare(left=PropertyOf(property=measured)) | HasProperty(property=measured):
-                changed.add(measured)
-    return frozenset(changed)
-
-
-def _changed(effect: Effect, relations: Relations) -> set[str]:
-    match effect:
-        case Assign(property=iri):
-            return {iri}
-        case Retract(relation=iri):
-            return {each.relation for each in relations.below(iri)}
-        case Assert(relation=iri):
-            unique = unique_sides(iri, relations)
-            lost = {each.relation for above in unique for each in relations.below(above.relation)}
-            return {relations.canonical(iri).relation} | lost
-        case _:
-            assert_never(effect)
+from skillc_compiler.library.read_write import Unique, unique_sides
 
 
 @dataclass(frozen=True)
@@ -125,13 +72,13 @@ class Effects:
             yield Change(Atom(symbols.value(effect.property, value), (subject,)), value == effect.value.value)
 
     def _assert(self, effect: Assert) -> Iterator[Change]:
-        relations = self.translator.symbols.relations
+        vocabulary = self.translator.symbols.vocabulary
         subject = self.translator.term(effect.subject, self.scope)
         object_ = self.translator.term(effect.object, self.scope)
-        added = self._atom(relations.canonical(effect.relation), subject, object_)
+        added = self._atom(vocabulary.closure.canonical(effect.relation), subject, object_)
         yield Change(added, True)
-        for unique in unique_sides(effect.relation, relations):
-            fixed = unique.fixed(subject, object_)
+        for unique in unique_sides(effect.relation, vocabulary):
+            fixed = (subject, object_)[unique.fixed]
             kept = object_ if fixed is subject else subject
             sides: list[Typed | None] = [None, None]
             sides[unique.side] = fixed
@@ -157,10 +104,10 @@ class Effects:
 
     def _known_partner(self, unique: Unique, fixed: Typed) -> Typed | None:
         """Return what the precondition says stands opposite to the fixed term."""
-        relations = self.translator.symbols.relations
-        for reading in relations.below(unique.relation):
-            predicate = self.translator.symbols.relation(reading.relation)
-            side = unique.side != reading.swapped
+        symbols = self.translator.symbols
+        for reading in symbols.vocabulary.closure.canonical_sources[unique.relation]:
+            predicate = symbols.relation(reading.relation)
+            side = unique.side != reading.flipped
             for each in conjuncts(self.known):
                 match each:
                     case Atom(predicate=name, terms=terms) if name == predicate and terms[side] == fixed.name:
@@ -170,16 +117,16 @@ class Effects:
     def _retract(self, relation: str, subject: Typed | None, object_: Typed | None) -> Iterator[Change]:
         """Delete every fact of which `relation` follows; None stands for whatever is there."""
         symbols = self.translator.symbols
-        for reading in symbols.relations.below(relation):
+        for reading in symbols.vocabulary.closure.canonical_sources[relation]:
             variables: list[Typed] = []
             terms: list[Typed] = []
             for side, term in enumerate((subject, object_)):
                 if term is None:
-                    stored_side = 1 - side if reading.swapped else side
+                    stored_side = 1 - side if reading.flipped else side
                     term = self._variable(reading.relation, stored_side, [each.name for each in terms])
                     variables.append(term)
                 terms.append(term)
-            if symbols.takes(reading.relation, terms[::-1] if reading.swapped else terms):
+            if symbols.takes(reading.relation, reading.ends(*terms)):
                 atom = self._atom(reading, *terms)
                 yield Change(atom, False, tuple(variables), atom) if variables else Change(atom, False)
 
@@ -188,9 +135,8 @@ class Effects:
         taken = {*beside, *(place.variable.name for place in self.scope.values())}
         return Typed(variable("former", taken), symbols.hierarchy.type_name(symbols.side_class(relation, side)))
 
-    def _atom(self, reading: Reading, subject: Typed, object_: Typed) -> Atom:
-        terms = (object_.name, subject.name) if reading.swapped else (subject.name, object_.name)
-        return Atom(self.translator.symbols.relation(reading.relation), terms)
+    def _atom(self, reading: Directed, subject: Typed, object_: Typed) -> Atom:
+        return Atom(self.translator.symbols.relation(reading.relation), reading.ends(subject.name, object_.name))
 
     def _term(self, term: Term) -> Typed | None:
         return None if isinstance(term, Anything) else self.translator.term(term, self.scope)

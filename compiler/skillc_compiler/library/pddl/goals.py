@@ -25,10 +25,9 @@ from skillc_compiler.library.conditions import (
 from skillc_compiler.library.pddl.domain import PlanningDomain, PropertyFact, RelationFact
 from skillc_compiler.library.pddl.formulas import FALSE, TRUE, Formula, Typed, atoms
 from skillc_compiler.library.pddl.hierarchy import Hierarchy
-from skillc_compiler.library.pddl.relations import Relations
-from skillc_compiler.library.pddl.rewriting import replaced
 from skillc_compiler.library.pddl.symbols import Symbols
 from skillc_compiler.library.pddl.translate import Named, Scope, Translator
+from skillc_compiler.library.rewriting import map_children, substitute
 from skillc_compiler.library.skills import SkillLibrary
 
 Members: TypeAlias = Callable[[str], Sequence[str]]
@@ -49,11 +48,11 @@ def ground_goal(
     """
     symbols = _symbols(library, domain)
 
-    def settle(condition: Condition, scope: Scope) -> Formula:
+    def evaluate(condition: Condition, scope: Scope) -> Formula:
         return TRUE if holds(condition) else FALSE
 
     named = {iri: Named(each, frozenset()) for iri, each in objects.items()}
-    return Translator(symbols, settle, named).formula(_ground(goal, symbols, members), {})
+    return Translator(symbols, evaluate, named).formula(_ground(goal, symbols, members), {})
 
 
 def with_predicates_of(goal: Formula, library: SkillLibrary, domain: PlanningDomain) -> PlanningDomain:
@@ -75,17 +74,13 @@ def _symbols(library: SkillLibrary, domain: PlanningDomain) -> Symbols:
                 case RelationFact(relation=iri) | PropertyFact(property=iri):
                     changing.add(iri)
     hierarchy = Hierarchy(vocabulary, {name: term for term, name in domain.names.items()}, domain.combined)
-    return Symbols(vocabulary, domain.names, hierarchy, Relations(vocabulary), frozenset(changing), settled=True)
+    return Symbols(vocabulary, domain.names, hierarchy, frozenset(changing), settled=True)
 
 
 def _ground(condition: Condition, symbols: Symbols, members: Members) -> Condition:
     match condition:
-        case Not(body=body):
-            return Not(_ground(body, symbols, members))
-        case And(parts=parts):
-            return And(tuple(_ground(part, symbols, members) for part in parts))
-        case Or(parts=parts):
-            return Or(tuple(_ground(part, symbols, members) for part in parts))
+        case Not() | And() | Or():
+            return map_children(condition, lambda part: _ground(part, symbols, members))
         case Exists():
             return Or(_cases(condition, symbols, members))
         case Forall():
@@ -105,5 +100,5 @@ def _ground(condition: Condition, symbols: Symbols, members: Members) -> Conditi
 
 
 def _cases(quantified: Exists | Forall, symbols: Symbols, members: Members) -> tuple[Condition, ...]:
-    bodies = (replaced(quantified.body, {quantified.variable: Individual(iri)}) for iri in members(quantified.cls))
+    bodies = (substitute(quantified.body, {quantified.variable: Individual(iri)}) for iri in members(quantified.cls))
     return tuple(_ground(body, symbols, members) for body in bodies)

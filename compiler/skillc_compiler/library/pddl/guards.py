@@ -9,10 +9,11 @@ from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.pddl.domain import GuardFact, Predicate
 from skillc_compiler.library.pddl.formulas import Atom, Formula
 from skillc_compiler.library.pddl.names import fresh, kebab
-from skillc_compiler.library.pddl.rewriting import is_plain
 from skillc_compiler.library.pddl.symbols import Symbols
-from skillc_compiler.library.pddl.translate import Scope, Settle, Untranslatable
-from skillc_compiler.library.reading import free_variables_in_order, terms_read
+from skillc_compiler.library.pddl.translate import Scope, StaticEvaluator, Untranslatable
+from skillc_compiler.library.read_write import terms_read
+from skillc_compiler.library.reading import free_variables_in_order
+from skillc_compiler.library.rewriting import is_plain
 
 
 @dataclass
@@ -27,14 +28,14 @@ class Guards:
     taken: Collection[str]
     found: dict[tuple[Condition, tuple[str, ...]], Predicate] = field(default_factory=dict)
 
-    def labelled(self, label: str, text: str) -> Settle:
+    def labelled(self, label: str, text: str) -> StaticEvaluator:
         """Return what makes guards of the condition with this label, which its author wrote so."""
 
-        def settle(condition: Condition, scope: Scope) -> Formula | None:
+        def evaluate(condition: Condition, scope: Scope) -> Formula | None:
             kept = is_plain(condition) and not any(map(self.symbols.is_computed, terms_read(condition)))
             return None if kept else self._guard(label, text, condition, scope)
 
-        return settle
+        return evaluate
 
     def _guard(self, label: str, text: str, condition: Condition, scope: Scope) -> Atom:
         variables = free_variables_in_order(condition)

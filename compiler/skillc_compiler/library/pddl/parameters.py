@@ -9,8 +9,8 @@ from skillc_compiler.library.conditions import Condition, Expression
 from skillc_compiler.library.pddl.formulas import Typed
 from skillc_compiler.library.pddl.hierarchy import Hierarchy
 from skillc_compiler.library.pddl.names import variable
-from skillc_compiler.library.pddl.rewriting import decided, replaced
 from skillc_compiler.library.pddl.translate import Place, Untranslatable
+from skillc_compiler.library.rewriting import decided, substitute
 from skillc_compiler.library.skills import Parameter
 from skillc_compiler.library.vocabulary import ClassType
 
@@ -24,7 +24,7 @@ class Defaults:
 
     def applied(self, condition: Condition) -> Condition:
         """Return the condition with the defaults put in and every `given` decided."""
-        return decided(replaced(condition, self.values), self.given)
+        return decided(substitute(condition, self.values), self.given)
 
 
 def defaults(parameters: Sequence[Parameter]) -> Defaults:

@@ -13,14 +13,13 @@ from skillc_compiler.library.pddl.constants import Mention, absent, assumed_clas
 from skillc_compiler.library.pddl.costs import common_scale
 from skillc_compiler.library.pddl.devices import devices
 from skillc_compiler.library.pddl.domain import Excluded, FixedCost, PlanningDomain, Predicate
-from skillc_compiler.library.pddl.effects import changed_terms
 from skillc_compiler.library.pddl.formulas import Typed
 from skillc_compiler.library.pddl.hierarchy import Hierarchy
 from skillc_compiler.library.pddl.names import kebab, pddl_names
-from skillc_compiler.library.pddl.relations import Relations
 from skillc_compiler.library.pddl.symbols import Symbols
 from skillc_compiler.library.pddl.translate import Impossible, Named, Untranslatable
 from skillc_compiler.library.pddl.typed import action_terms, typed_atoms
+from skillc_compiler.library.read_write import terms_written
 from skillc_compiler.library.skills import Skill, SkillLibrary
 
 
@@ -55,18 +54,17 @@ def planning_domain(
     by_term = {term: name for name, term in names.items()}
     hierarchy = Hierarchy(library.vocabulary, by_term, combined)
     objects = {iri: Named(Typed(by_term[iri], hierarchy.type_of(each)), each) for iri, each in individuals.items()}
-    relations = Relations(library.vocabulary)
     excluded = tuple(_unnamed(library, named, objects))
     out = {each.skill for each in excluded}
     skills = [skill for name, skill in sorted(library.skills.items()) if skill.planned and name not in out]
     changing: frozenset[str] = frozenset()
     while True:
-        symbols = Symbols(library.vocabulary, names, hierarchy, relations, changing, settled)
+        symbols = Symbols(library.vocabulary, names, hierarchy, changing, settled)
         tried = _try(skills, library, symbols, objects)
         left_out = {each.skill for each in tried.excluded}
         skills = [skill for skill in skills if skill.name not in left_out]
         excluded += tried.excluded
-        now = frozenset().union(*(changed_terms(skill.post, relations) for skill in skills))
+        now = terms_written((post for skill in skills for post in skill.post), library.vocabulary)
         if now == changing and not left_out:
             return replace(_domain(library.name, tried, excluded), combined=frozenset(combined))
         changing = now

@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from skillc_compiler.library.closure import Directed
 from skillc_compiler.library.pddl.domain import ROOT, ClassFact, Predicate, PropertyFact, RelationFact
 from skillc_compiler.library.pddl.formulas import Typed
 from skillc_compiler.library.pddl.hierarchy import Hierarchy
 from skillc_compiler.library.pddl.names import finite_values, fresh, value_key
-from skillc_compiler.library.pddl.relations import Reading, Relations
+from skillc_compiler.library.read_write import may_change
 from skillc_compiler.library.vocabulary import Vocabulary
 
 
@@ -25,7 +26,6 @@ class Symbols:
     vocabulary: Vocabulary
     names: dict[str, str]
     hierarchy: Hierarchy
-    relations: Relations
     changing: frozenset[str]
     settled: bool = False
 
@@ -42,13 +42,11 @@ class Symbols:
 
     def affected(self, iri: str) -> bool:
         """Whether skills change what holds of a relation or property, be it through another relation."""
-        if iri in self.vocabulary.relations:
-            return any(each.relation in self.changing for each in self.relations.below(iri))
-        return iri in self.changing
+        return may_change(iri, self.changing, self.vocabulary)
 
     def is_computed(self, iri: str) -> bool:
         """Whether a relation follows from other facts by a computation."""
-        return self.relations.is_computed(iri)
+        return iri in self.vocabulary.relations and self.vocabulary.is_computed(iri)
 
     def decided_by(self, iri: str) -> tuple[str, ...]:
         """Return what skills change of all that decides a computed relation; all that they change where nobody says."""
@@ -79,18 +77,16 @@ class Symbols:
         """Return the values of the property that have predicates."""
         return finite_values(self.vocabulary.properties[iri])
 
-    def readings(self, relation: str) -> tuple[Reading, ...]:
+    def readings(self, relation: str) -> tuple[Directed, ...]:
         """Return the predicates of which any makes the relation hold: its own and the changing ones below it."""
-        below = (each for each in self.relations.below(relation) if each.relation in self.changing)
-        return tuple(sorted({self.relations.canonical(relation), *below}))
+        closure = self.vocabulary.closure
+        below = (each for each in closure.canonical_sources[relation] if each.relation in self.changing)
+        return tuple(sorted({closure.canonical(relation), *below}))
 
-    def changing_transitive(self, relation: str) -> tuple[str, ...]:
-        """Return those transitive relations below this one whose facts skills change."""
-        return tuple(
-            iri
-            for iri in self.relations.transitive_below(relation)
-            if any(each.relation in self.changing for each in self.relations.below(iri))
-        )
+    def follows_over_steps(self, relation: str) -> bool:
+        """Whether the relation may hold by several facts together which skills change: a transitive one is below it."""
+        below = (each.relation for each in self.vocabulary.closure.sources[relation])
+        return any(self.affected(each) for each in below if each in self.vocabulary.closure.transitive)
 
     def side_class(self, relation: str, side: int) -> str:
         """Return the class of everything on one side (0 subject, 1 object) of the relation."""
@@ -138,6 +134,6 @@ class Symbols:
 
     def _relation_predicate(self, name: str, iri: str) -> Predicate:
         sides = [self.hierarchy.type_name(self.side_class(iri, side)) for side in (0, 1)]
-        narrower = tuple((each.relation, each.swapped) for each in self.readings(iri) if each.relation != iri)
+        narrower = tuple(each for each in self.readings(iri) if each.relation != iri)
         typed = (Typed("?subject", sides[0]), Typed("?value", sides[1]))
         return Predicate(name, typed, RelationFact(iri, narrower), iri in self.changing)

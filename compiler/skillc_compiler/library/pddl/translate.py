@@ -45,7 +45,7 @@ from skillc_compiler.library.pddl.formulas import (
 )
 from skillc_compiler.library.pddl.names import variable
 from skillc_compiler.library.pddl.symbols import Symbols
-from skillc_compiler.library.reading import terms_read
+from skillc_compiler.library.read_write import terms_read
 
 
 class Untranslatable(Exception):
@@ -75,7 +75,7 @@ class Impossible(Untranslatable):
     """Something that can never be done: a skill that is left out for it makes no difference to any plan."""
 
 
-class Settle(Protocol):
+class StaticEvaluator(Protocol):
     """What becomes of a condition that nothing changes."""
 
     def __call__(self, condition: Condition, scope: Scope) -> Formula | None:
@@ -88,7 +88,7 @@ class Translator:
     """Turns conditions into formulas; `objects` are the individuals that may be named, by IRI."""
 
     symbols: Symbols
-    settle: Settle
+    evaluate_static: StaticEvaluator
     objects: Mapping[str, Named]
 
     def formula(self, condition: Condition, scope: Scope) -> Formula:
@@ -111,7 +111,7 @@ class Translator:
         read = terms_read(condition)
         self._refuse_moving(read)
         if not any(self.symbols.affected(iri) for iri in read):
-            settled = self.settle(condition, scope)
+            settled = self.evaluate_static(condition, scope)
             if settled is not None:
                 return settled
         match condition:
@@ -164,7 +164,7 @@ class Translator:
     def holds(self, relation: str, subject: Typed, object_: Typed) -> Iterator[Atom]:
         """Yield the atoms of which any makes the relation hold, without those that no objects of these types have."""
         for each in self.symbols.readings(relation):
-            sides = (object_, subject) if each.swapped else (subject, object_)
+            sides = each.ends(subject, object_)
             if self.symbols.takes(each.relation, sides):
                 yield Atom(self.symbols.relation(each.relation), tuple(side.name for side in sides))
 
@@ -175,8 +175,7 @@ class Translator:
         return place.variable, {place.variable.name: place}
 
     def _refuse_transitive(self, relation: str) -> None:
-        changing = self.symbols.changing_transitive(relation)
-        if changing:
+        if self.symbols.follows_over_steps(relation):
             raise Untranslatable(
                 f"reads `{self.symbols.short(relation)}`, which follows over any number of steps, and skills change it"
             )

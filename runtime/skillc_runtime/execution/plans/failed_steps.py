@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from skillc_compiler.library.read_write import FactPattern, facts_read
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.planning.plan import Step
-from skillc_runtime.planning.touched import Fact, changed_between, read_by
 from skillc_runtime.planning.validation import PlanError, apply_step, find_startable_implementations
+from skillc_runtime.planning.world_changes import changed_between
 from skillc_runtime.world.expressions import EvaluationError
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
@@ -91,9 +92,9 @@ class FailedSteps:
             for fact in changed
         )
 
-    def _reads(self, failed: FailedStep) -> Iterator[Fact]:
+    def _reads(self, failed: FailedStep) -> Iterator[FactPattern]:
         step = failed.step
         implementation = self._library.implementations[f"{step.skill}.{failed.implementation}"]
         skill = self._library.skills[step.skill]
         for requirement in (*skill.pre, *skill.hold, *implementation.pre, *implementation.hold):
-            yield from read_by(requirement.condition, step.arguments, failed.state)
+            yield from facts_read(requirement.condition, step.arguments, failed.state.vocabulary)

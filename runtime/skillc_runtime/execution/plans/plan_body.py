@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TypeVar, assert_never
-
-import msgspec
+from typing import assert_never
 
 from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import And, Condition, Expression, Individual, Not, Variable
+from skillc_compiler.library.conditions import And, Condition, Expression, Individual, Not
 from skillc_compiler.library.reading import free_variables
+from skillc_compiler.library.rewriting import substitute
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSeries
 from skillc_runtime.planning.plan import Plan, Step
-
-S = TypeVar("S", bound=msgspec.Struct)
 
 
 def build_plan_body(plan: Plan, arrangement: Arrangement, library: SkillLibrary) -> tree.Node:
@@ -31,7 +27,7 @@ def achieved_condition(step: Step, library: SkillLibrary) -> Condition | None:
     posts = library.skills[step.skill].post
     if not posts or any(free_variables(post.condition) - individuals.keys() for post in posts):
         return None
-    return And(tuple(_substitute(post.condition, individuals) for post in posts))
+    return And(tuple(substitute(post.condition, individuals) for post in posts))
 
 
 def _build_arrangement(arrangement: Arrangement, steps: tuple[Step, ...], library: SkillLibrary) -> tree.Node:
@@ -57,21 +53,3 @@ def _build_step(step: Step, library: SkillLibrary) -> tree.Node:
         return call
     text = " and ".join(post.text for post in skill.post)
     return tree.If(condition=Not(achieved), text=f"not ({text})", then=call, orelse=None, source=skill.source)
-
-
-def _substitute(item: S, individuals: Mapping[str, Individual]) -> S:
-    """Return a condition or expression with variables replaced by individuals."""
-    fields = {name: _substitute_value(getattr(item, name), individuals) for name in item.__struct_fields__}
-    return msgspec.structs.replace(item, **fields)
-
-
-def _substitute_value(value: object, individuals: Mapping[str, Individual]) -> object:
-    match value:
-        case Variable(name=name):
-            return individuals.get(name, value)
-        case msgspec.Struct():
-            return _substitute(value, individuals)
-        case tuple():
-            return tuple(_substitute_value(each, individuals) for each in value)
-        case _:
-            return value

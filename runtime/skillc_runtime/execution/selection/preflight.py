@@ -8,13 +8,13 @@ from typing import TypeAlias, assert_never
 
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Condition, Expression, Variable
+from skillc_compiler.library.read_write import changing_terms, is_fixed
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Compound, Implementation, Primitive, SkillLibrary
 from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.execution.selection.binding import bind_arguments
 from skillc_runtime.execution.selection.inferred_parameters import infer_fixed_parameters
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_matching_primitive
-from skillc_runtime.execution.selection.reads import changing_terms, is_fixed
 from skillc_runtime.execution.selection.select import explain_none_selected, ranked_implementations
 from skillc_runtime.execution.selection.static_values import StaticValues, check_functions, compute_static_values
 from skillc_runtime.execution.selection.text_names import UnknownName, find_unknown_names

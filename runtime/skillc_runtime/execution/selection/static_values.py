@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from skillc_compiler.library.conditions import Condition, Expression, Invoke, PropertyOf
+from skillc_compiler.library.read_write import is_fixed
 from skillc_compiler.library.reading import free_variables, walk
 from skillc_runtime.execution.selection.python_targets import check_function
-from skillc_runtime.execution.selection.reads import has_fixed_value
 from skillc_runtime.world.expressions import EvaluationError, value_of
 from skillc_runtime.world.frames import MissingFact
 from skillc_runtime.world.state import WorldState
@@ -44,7 +44,7 @@ def compute_static_values(
         missing = next(_describe_missing_facts(expression, bound, state, changing), None)
         if missing is not None:
             known.undefined[name] = missing
-        elif has_fixed_value(expression, changing, state.vocabulary) and bound.keys() >= free_variables(expression):
+        elif is_fixed(expression, changing, state.vocabulary) and bound.keys() >= free_variables(expression):
             try:
                 known.values[name] = value_of(expression, state, bound)
             except EvaluationError as error:

@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Variable
-from skillc_compiler.library.reading import walk
+from skillc_compiler.library.reading import calls_in
 from skillc_compiler.library.skills import Implementation, Primitive, SkillLibrary
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_primitive
@@ -116,8 +116,7 @@ def _paths_of_implementation(
 def _paths_of_body(library: SkillLibrary, body: tree.Node, name: str, enclosing: frozenset[str]) -> frozenset[NamePath]:
     passed = (
         _paths_of_skill(library, call.skill, parameter, enclosing)
-        for call in walk(body)
-        if isinstance(call, tree.Call)
+        for call in calls_in(body)
         for parameter, argument in call.arguments.items()
         if argument == Variable(name)
     )

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
-from skillc_compiler.library.conditions import And, Condition
+from skillc_compiler.library.reading import conjuncts
 from skillc_compiler.library.skills import Post
 from skillc_runtime.execution.tree.lexical_scope import Frame
 from skillc_runtime.world.changes import AddRelation, Change, RemoveRelation, SetProperty
@@ -25,7 +25,7 @@ def drop_sensed_changes(changes: Sequence[Change], world: WorldModel, writes_bef
 
 def explain_not_sensed(post: Post, world: WorldModel, frame: Frame, writes_before: int) -> str | None:
     """Explain why a `sensed` post that holds was not measured since write number `writes_before`; None if it was."""
-    for literal in _literals(post.condition):
+    for literal in conjuncts(post.condition):
         found = grounds(literal, world, frame)
         assumed = next((ground for ground in found if ground.assumed), None)
         if assumed is not None:
@@ -53,14 +53,6 @@ def _is_sensed_since(established: Established | None, writes_before: int) -> boo
     if established is None or established.number <= writes_before:
         return False
     return established.evidence in ("sensed", "reported")
-
-
-def _literals(condition: Condition) -> Iterator[Condition]:
-    if isinstance(condition, And):
-        for part in condition.parts:
-            yield from _literals(part)
-    else:
-        yield condition
 
 
 def _describe_ground(ground: Ground, world: WorldModel) -> str:

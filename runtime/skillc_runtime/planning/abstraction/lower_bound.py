@@ -31,7 +31,6 @@ from skillc_compiler.library.pddl.domain import (
 from skillc_compiler.library.pddl.formulas import Atom, Typed
 from skillc_compiler.library.pddl.names import fresh
 from skillc_compiler.library.pddl.problem import CostValue, Problem
-from skillc_compiler.library.pddl.relations import Relations
 from skillc_runtime.planning.abstraction.relaxation import DomainRelaxation, NotRelaxable
 from skillc_runtime.planning.problem.initial_state import TooManyValues, evaluate_duration_s
 from skillc_runtime.planning.problem.pose import Posed
@@ -53,7 +52,7 @@ def relax_scene(posed: Posed, state: WorldState) -> Problem | None:
     if not posed.narrowed or posed.open_goal:
         return None
     problem = posed.problem
-    weakening = DomainRelaxation(problem.domain, problem.goal, Relations(posed.library.vocabulary))
+    weakening = DomainRelaxation(problem.domain, problem.goal, posed.library.vocabulary)
     try:
         return _StandIns(posed, state).problem(weakening.domain(), weakening)
     except (NotRelaxable, TooManyValues):

@@ -11,7 +11,6 @@ from dataclasses import replace
 from typing import assert_never
 
 from skillc_compiler.library.pddl.domain import ROOT, Action, ClassFact, PlanningDomain, Predicate, RelationFact
-from skillc_compiler.library.pddl.effects import unique_sides
 from skillc_compiler.library.pddl.formulas import (
     TRUE,
     Atom,
@@ -28,7 +27,8 @@ from skillc_compiler.library.pddl.formulas import (
     disjunction,
 )
 from skillc_compiler.library.pddl.names import fresh
-from skillc_compiler.library.pddl.relations import Relations
+from skillc_compiler.library.read_write import unique_sides
+from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_runtime.planning.problem.relevance import list_literals
 
 
@@ -39,8 +39,8 @@ class NotRelaxable(Exception):
 class DomainRelaxation:
     """Weakens the actions of a domain and a goal; `mark` is the predicate that is true of stand-ins."""
 
-    def __init__(self, domain: PlanningDomain, goal: Formula, relations: Relations) -> None:
-        self._domain, self._relations = domain, relations
+    def __init__(self, domain: PlanningDomain, goal: Formula, vocabulary: Vocabulary) -> None:
+        self._domain, self._vocabulary = domain, vocabulary
         taken = {*domain.names, *domain.predicate}
         self.mark = fresh("is-stand-in", taken)
         read = [goal, *(conjunction((each.precondition, each.hold)) for each in domain.actions)]
@@ -108,10 +108,9 @@ class DomainRelaxation:
         predicate = self._domain.predicate[atom.predicate]
         if not isinstance(predicate.meaning, RelationFact):
             return
-        for unique in unique_sides(predicate.meaning.relation, self._relations):
-            fixed = int(unique.side != unique.swapped)
-            former = Typed("?former-other", predicate.parameters[1 - fixed].type)
-            terms = (atom.terms[0], former.name) if fixed == 0 else (former.name, atom.terms[1])
+        for unique in unique_sides(predicate.meaning.relation, self._vocabulary):
+            former = Typed("?former-other", predicate.parameters[1 - unique.fixed].type)
+            terms = (atom.terms[0], former.name) if unique.fixed == 0 else (former.name, atom.terms[1])
             yield from self._deletions(Atom(atom.predicate, terms), (former,))
 
     def _deletions(self, atom: Atom, variables: tuple[Typed, ...], apart: Formula = TRUE) -> Iterator[Change]:

@@ -12,11 +12,11 @@ from dataclasses import dataclass, replace
 
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.pddl.devices import devices
+from skillc_compiler.library.read_write import ReadWriteSet
 from skillc_compiler.library.skills import Implementation, SkillLibrary
-from skillc_runtime.planning.arrangement import touched_by
+from skillc_runtime.planning.arrangement import read_write_set
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.schedule import Schedule, TimedStep
-from skillc_runtime.planning.touched import Touched
 from skillc_runtime.planning.validation import (
     PlanError,
     apply_effects,
@@ -38,7 +38,7 @@ class _ActiveStep:
     """A running step, with the implementations that may be running it."""
 
     step: Step
-    touched: Touched
+    touches: ReadWriteSet
     implementations: tuple[Implementation, ...]
 
 
@@ -91,14 +91,14 @@ class _ScheduleSimulation:
             expected_s = float(compute_step_duration_s(step, library, state, self._before))
             if abs(self._steps[number - 1].duration_s - expected_s) > INSTANT_S:
                 raise PlanError(f"it takes {expected_s:g} s, not {self._steps[number - 1].duration_s:g}")
-            touched = touched_by(step, library, self._locked, state, apply_effects(step, library, state))
+            touches = read_write_set(step, library, self._locked, state, apply_effects(step, library, state))
             for other, active in self._active.items():
-                shared = active.touched.shares_with(touched)
+                shared = active.touches.shares_with(touches)
                 if shared is not None:
                     raise PlanError(f"it overlaps with step {other}, {active.step.skill}: {shared}")
-                if touched.is_disturbed_by(active.touched):
+                if touches.is_disturbed_by(active.touches):
                     raise PlanError(f"it starts while step {other}, {active.step.skill}, changes what it reads")
-            self._active[number] = _ActiveStep(step, touched, implementations)
+            self._active[number] = _ActiveStep(step, touches, implementations)
 
     def _end(self, number: int) -> None:
         active = self._active.pop(number)

@@ -22,7 +22,6 @@ from skillc_compiler.library.pddl.domain import (
 )
 from skillc_compiler.library.pddl.formulas import Atom, Typed
 from skillc_compiler.library.pddl.problem import CostValue
-from skillc_compiler.library.pddl.relations import Relations
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.expressions import EvaluationError, property_of, value_of
 from skillc_runtime.world.state import WorldState
@@ -45,7 +44,6 @@ class InitialState:
         self._domain, self._state = domain, state
         self._iris = names
         self._names = {iri: name for name, iri in names.items()}
-        self._relations = Relations(state.vocabulary)
         self._members = {type_: domain.of_type(objects, type_) for type_ in _types(domain)}
         self.undecided: dict[str, None] = {}
         self.untimed: dict[tuple[str, tuple[str, ...]], str] = {}
@@ -78,7 +76,11 @@ class InitialState:
 
     def _relation(self, relation: str, narrower: tuple[tuple[str, bool], ...]) -> set[tuple[str, ...]]:
         names, others = self._names, {each for each, _ in narrower}
-        pairs = self._state.pairs(relation) if self._relations.is_computed(relation) else self._said(relation, others)
+        pairs = (
+            self._state.pairs(relation)
+            if self._state.vocabulary.is_computed(relation)
+            else self._said(relation, others)
+        )
         return {(names[start], names[end]) for start, end in pairs if start in names and end in names}
 
     def _said(self, relation: str, others: Set[str]) -> Iterator[tuple[str, str]]:
@@ -86,12 +88,12 @@ class InitialState:
 
         Facts that follow over several steps count where skills change none of these: no condition reads them elsewhere.
         """
-        axioms = self._state.axioms
+        axioms, closure = self._state.axioms, self._state.vocabulary.closure
         for source, flipped in axioms.sources[relation]:
             deep = source in axioms.transitive and not any(
-                each.relation in others for each in self._relations.below(source)
+                each.relation in others for each in closure.canonical_sources[source]
             )
-            if deep or self._relations.canonical(source).relation not in others:
+            if deep or closure.canonical(source).relation not in others:
                 links = (self._state.facts if deep else self._state.asserted)[source]
                 found = links.backward if flipped else links.forward
                 yield from ((start, end) for start in self._names for end in found.get(start))

@@ -7,40 +7,38 @@ the sequence works as well.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Set
+from collections.abc import Collection, Iterable, Set
 
-from skillc_compiler.library.conditions import Assert, Condition
+from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.pddl.domain import Excluded
-from skillc_compiler.library.pddl.effects import changed_terms
-from skillc_compiler.library.pddl.relations import Relations
-from skillc_compiler.library.reading import terms_read
-from skillc_compiler.library.skills import Implementation, Skill, SkillLibrary
+from skillc_compiler.library.read_write import terms_read, terms_read_by, terms_written
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_compiler.library.vocabulary import Vocabulary
 
 
 def select_skills_that_may_matter(
     excluded: Collection[Excluded], helpful: Iterable[str], goal: Condition, library: SkillLibrary
 ) -> frozenset[str]:
     """Return those excluded skills that might make a plan possible or cheaper; `helpful` are planned with."""
-    relations = Relations(library.vocabulary)
     open_ = {each.skill for each in excluded if not each.impossible}
-    changed = {name: changed_terms(library.skills[name].post, relations) for name in open_}
-    needed = _Needed(library, relations)
+    changed = {name: terms_written(library.skills[name].post, library.vocabulary) for name in open_}
+    needed = _Needed(library.vocabulary)
     needed.add(terms_read(goal))
     for name in helpful:
-        needed.add(_reads(library.skills[name], library, relations))
+        needed.add(terms_read_by(library.skills[name], library))
     found: set[str] = set()
     while more := {name for name in open_ - found if needed.meets(changed[name])}:
         found |= more
         for name in more:
-            needed.add(_reads(library.skills[name], library, relations))
+            needed.add(terms_read_by(library.skills[name], library))
     return frozenset(found)
 
 
 class _Needed:
     """Relations and properties, with all that decides what holds of them."""
 
-    def __init__(self, library: SkillLibrary, relations: Relations) -> None:
-        self._vocabulary, self._relations = library.vocabulary, relations
+    def __init__(self, vocabulary: Vocabulary) -> None:
+        self._vocabulary = vocabulary
         self._terms: set[str] = set()
         self._everything = False
 
@@ -53,13 +51,10 @@ class _Needed:
         todo = list(terms)
         while todo:
             iri = todo.pop()
-            below = {each.relation for each in self._relations.below(iri)} if self._is_relation(iri) else {iri}
-            for each in below - self._terms:
+            below = self._vocabulary.closure.canonical_sources.get(iri)
+            for each in ({iri} if below is None else {each.relation for each in below}) - self._terms:
                 self._terms.add(each)
                 todo.extend(self._deciding(each))
-
-    def _is_relation(self, iri: str) -> bool:
-        return iri in self._vocabulary.relations
 
     def _deciding(self, iri: str) -> tuple[str, ...]:
         term = self._vocabulary.relations.get(iri) or self._vocabulary.properties[iri]
@@ -68,19 +63,3 @@ class _Needed:
         known: tuple[str, ...] = getattr(term, "computed_from", ())
         self._everything |= not known
         return known
-
-
-def _reads(skill: Skill, library: SkillLibrary, relations: Relations) -> Iterator[str]:
-    """Yield what decides whether a skill can start, how long it takes, and whether its effects are allowed."""
-    described: tuple[Skill | Implementation, ...] = (skill, *library.implementations_of(skill.name))
-    for one in described:
-        for requirement in (*one.pre, *one.hold):
-            yield from terms_read(requirement.condition)
-        if one.duration is not None:
-            yield from terms_read(one.duration)
-    for post in skill.post:
-        yield from terms_read(post.condition)
-        for effect in post.effects:
-            above = relations.above(effect.relation) if isinstance(effect, Assert) else ()
-            implied = (each.relation for each in above)
-            yield from (iri for iri in implied if library.vocabulary.relations[iri].asymmetric)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from itertools import count
-from typing import TypeVar, assert_never
+from typing import Any, TypeVar, assert_never
 
 import msgspec
 
@@ -37,8 +37,25 @@ from skillc_compiler.library.conditions import (
 )
 from skillc_compiler.library.reading import free_variables, walk
 
+S = TypeVar("S", bound=msgspec.Struct)
 T = TypeVar("T", bound=Condition | Effect | Expression | Term)
 ALWAYS, NEVER = And(()), Or(())
+
+
+def map_children(item: S, change: Callable[[Any], msgspec.Struct]) -> S:
+    """Return a struct with each condition, expression or term directly inside it changed; itself if none changes."""
+    changes: dict[str, object] = {}
+    for name in item.__struct_fields__:
+        value = getattr(item, name)
+        if isinstance(value, msgspec.Struct):
+            new = change(value)
+            if new is not value:
+                changes[name] = new
+        elif isinstance(value, tuple):
+            parts = tuple(change(each) if isinstance(each, msgspec.Struct) else each for each in value)
+            if any(one is not other for one, other in zip(parts, value, strict=True)):
+                changes[name] = parts
+    return msgspec.structs.replace(item, **changes) if changes else item
 
 
 def has(item: Condition, *kinds: type[msgspec.Struct]) -> bool:
@@ -46,7 +63,7 @@ def has(item: Condition, *kinds: type[msgspec.Struct]) -> bool:
     return any(isinstance(each, kinds) for each in walk(item))
 
 
-def replaced(item: T, values: Mapping[str, Expression]) -> T:
+def substitute(item: T, values: Mapping[str, Expression]) -> T:
     """Return the condition, effect, expression or term with expressions in the place of these variables.
 
     Where only an individual can stand, the place of a value that is none is taken by an unknown individual: the author
@@ -57,12 +74,13 @@ def replaced(item: T, values: Mapping[str, Expression]) -> T:
     if isinstance(item, Exists | Forall):
         values = {name: value for name, value in values.items() if name != item.variable}
         item = _without_capture(item, values)
-    changes = {name: _replaced(getattr(item, name), values) for name in item.__struct_fields__}
+    changed = map_children(item, lambda part: substitute(part, values))
     for name in _places_of_individuals(item):
-        if not isinstance(changes[name], Variable | Individual | Anything):
+        if not isinstance(getattr(changed, name), Variable | Individual | Anything):
             was = getattr(item, name)
-            changes[name] = Variable(f"{was.name}?" if isinstance(was, Variable) else "?")
-    return msgspec.structs.replace(item, **changes)
+            unknown = Variable(f"{was.name}?" if isinstance(was, Variable) else "?")
+            changed = msgspec.structs.replace(changed, **{name: unknown})
+    return changed
 
 
 def _places_of_individuals(item: Condition | Effect | Expression | Term) -> tuple[str, ...]:
@@ -85,14 +103,8 @@ def _without_capture(item: T, values: Mapping[str, Expression]) -> T:
         return item
     taken = coming | free_variables(item.body)
     new = next(name for number in count(2) if (name := f"{item.variable}_{number}") not in taken)
-    body = replaced(item.body, {item.variable: Variable(new)})
+    body = substitute(item.body, {item.variable: Variable(new)})
     return msgspec.structs.replace(item, variable=new, body=body)
-
-
-def _replaced(value: object, values: Mapping[str, Expression]) -> object:
-    if isinstance(value, tuple):
-        return tuple(_replaced(each, values) for each in value)
-    return replaced(value, values) if isinstance(value, msgspec.Struct) else value  # type: ignore[type-var]
 
 
 def decided(condition: Condition, given: Mapping[str, bool]) -> Condition:
@@ -117,7 +129,14 @@ def decided(condition: Condition, given: Mapping[str, bool]) -> Condition:
             assert_never(condition)
 
 
-def constant(expression: Expression) -> float | None:
+def fold(item: T) -> T:
+    """Return a condition or expression with the arithmetic on constants in it carried out; no division by zero is."""
+    folded = map_children(item, fold)
+    value = constant_number(folded) if isinstance(folded, Arithmetic) else None
+    return folded if value is None else Literal(value)  # type: ignore[return-value]
+
+
+def constant_number(expression: Expression | None) -> float | None:
     """Return the value of a number made of constants alone, None when it depends on anything."""
     match expression:
         case Literal(value=bool() | str()):
@@ -125,9 +144,9 @@ def constant(expression: Expression) -> float | None:
         case Literal(value=value):
             return float(value)
         case Arithmetic(operator=operator, left=left, right=right):
-            a, b = constant(left), constant(right)
+            a, b = constant_number(left), constant_number(right)
             return None if a is None or b is None else _applied(operator, a, b)
-        case Variable() | Individual() | PropertyOf() | Invoke():
+        case Variable() | Individual() | PropertyOf() | Invoke() | None:
             return None
         case _:
             assert_never(expression)
