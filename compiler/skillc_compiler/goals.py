@@ -17,9 +17,9 @@ from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.reading import is_deeper
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Position, Vocabulary
+from skillc_compiler.logic.folding import fold_condition
 from skillc_compiler.lower.bodies import node
-from skillc_compiler.lower.folding import fold_condition
-from skillc_compiler.program import Program, Task
+from skillc_compiler.program.typed import Program, Task
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.names import KINDS, Names
 from skillc_compiler.resolve.scope import Setting

@@ -5,20 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
-from skillc_compiler.allowances import heeded
 from skillc_compiler.checks import check
-from skillc_compiler.collecting import no_collection
-from skillc_compiler.consequences import without_consequences
-from skillc_compiler.followers import without_followers
+from skillc_compiler.diagnostics.consequences import without_consequences
+from skillc_compiler.diagnostics.followers import without_followers
+from skillc_compiler.diagnostics.suppressions import heeded
+from skillc_compiler.diagnostics.unplannable import unplannable
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.lower.library import lower
-from skillc_compiler.program import Program, ReadFile
+from skillc_compiler.program.typed import Program, ReadFile
 from skillc_compiler.resolve.files import Parse, read
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve
-from skillc_compiler.unplannable import unplannable
 from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 
@@ -41,7 +41,7 @@ def compile(
     The result holds everything in which no error was found; diagnostics are in the order of the files and lines, those
     of the shelf only where they are errors.
     """
-    with no_collection():
+    with gc_disabled():
         return finish(understand(sources, vocabulary, shelf, name, scenes, parsed_by), sources)
 
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from skillc_compiler.families import REST, family
 from skillc_compiler.manual import pages
+from skillc_compiler.manual.families import REST, family
 from skillc_runtime.commands.main import skillc
 
 SKILL = """use skiros

@@ -14,7 +14,7 @@ from skillc_compiler.library import codec
 from skillc_compiler.library.conditions import And, Arithmetic, Assign, Given, Literal, Not, Or, Retract
 from skillc_compiler.library.skills import Compound, SkillLibrary
 from skillc_compiler.library.tree import Sequence, Wait
-from skillc_compiler.lower.folding import number
+from skillc_compiler.logic.folding import number
 from skillc_compiler.pipeline import compile
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from random import Random
 
-from skillc_compiler.enclosing import Disjoint, Places
+from skillc_compiler.program.spans import Disjoint, Places
 from skillc_dsl.source import Span
 
 

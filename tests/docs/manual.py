@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from docs.pages import ROOT
-from skillc_compiler.families import by_family
 from skillc_compiler.manual import Page, pages
+from skillc_compiler.manual.families import by_family
 
 MANUAL = ROOT / "docs/diagnostics.md"
 INTRODUCTION = """\

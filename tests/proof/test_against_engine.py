@@ -20,7 +20,8 @@ from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Position, Vocabulary
 from skillc_compiler.lower.library import lower
-from skillc_compiler.program import Implementation, Program, Step, position
+from skillc_compiler.program.typed import Implementation, Program, Step, position
+from skillc_compiler.program.walk import within
 from skillc_compiler.proof.findings import BrokenHold, Undecided, Unproved, Unverified, Violated
 from skillc_compiler.proof.opening import opening, requirements_of
 from skillc_compiler.proof.proving import Prover
@@ -30,7 +31,6 @@ from skillc_compiler.proof.state import State
 from skillc_compiler.proof.trail import Ends
 from skillc_compiler.resolve.files import read
 from skillc_compiler.resolve.program import resolve
-from skillc_compiler.walk import within
 from skillc_dsl.source import Source
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.trace.events import Event, ImplementationChosen, NodeEnded, NodeStarted

@@ -7,11 +7,11 @@ from collections.abc import Mapping
 from skillc_compiler.library import skills as library
 from skillc_compiler.library.conditions import Expression, Literal
 from skillc_compiler.library.vocabulary import Position, Vocabulary
-from skillc_compiler.program import Parameter, Skill, Valued
+from skillc_compiler.program.typed import Parameter, Skill, Valued
+from skillc_compiler.program.types import Type, of_library
 from skillc_compiler.resolve.individuals import Individuals, narrowest
 from skillc_compiler.resolve.names import Names, bare_terms
 from skillc_compiler.resolve.scope import Setting
-from skillc_compiler.types import Type, of_library
 from skillc_dsl.source import Span
 
 

@@ -11,7 +11,7 @@ from importlib import import_module
 from pkgutil import iter_modules
 from typing import Protocol, cast
 
-from skillc_compiler.program import Program
+from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic
 
 

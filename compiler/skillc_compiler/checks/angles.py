@@ -23,9 +23,9 @@ import math
 from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import Literal
-from skillc_compiler.program import Program
-from skillc_compiler.types import Measure
-from skillc_compiler.walk import values
+from skillc_compiler.program.typed import Program
+from skillc_compiler.program.types import Measure
+from skillc_compiler.program.walk import values
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.units import ANGLE
 

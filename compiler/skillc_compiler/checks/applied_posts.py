@@ -49,8 +49,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from skillc_compiler.program import Program, Requirement, Step
-from skillc_compiler.walk import within
+from skillc_compiler.program.typed import Program, Requirement, Step
+from skillc_compiler.program.walk import within
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label, did_you_mean
 

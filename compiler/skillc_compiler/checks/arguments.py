@@ -111,8 +111,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import Invoke
-from skillc_compiler.program import Call, Program, Skill, Valued
-from skillc_compiler.walk import calls, steps, values
+from skillc_compiler.program.typed import Call, Program, Skill, Valued
+from skillc_compiler.program.walk import calls, steps, values
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 

@@ -46,7 +46,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Program, Task
+from skillc_compiler.program.typed import Program, Task
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("missing-body", "no-implementation")

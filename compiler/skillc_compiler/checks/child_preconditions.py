@@ -40,7 +40,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Program
+from skillc_compiler.program.typed import Program
 from skillc_compiler.proof.findings import Unguaranteed
 from skillc_compiler.proof.proving import found
 from skillc_compiler.proof.trail import labels

@@ -31,9 +31,9 @@ from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import IsA, Same
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.program import Program
-from skillc_compiler.types import Thing, Type, describe
-from skillc_compiler.walk import clauses
+from skillc_compiler.program.typed import Program
+from skillc_compiler.program.types import Thing, Type, describe
+from skillc_compiler.program.walk import clauses
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("disjoint-types",)

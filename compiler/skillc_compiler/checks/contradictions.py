@@ -32,9 +32,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.conflicts import Conflicts
-from skillc_compiler.conjuncts import Fact, Together, names_of, renamed, together
-from skillc_compiler.program import Program
+from skillc_compiler.logic.conflicts import Conflicts
+from skillc_compiler.logic.conjunctions import Fact, Together, names_of, renamed, together
+from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("contradicting-conditions",)

@@ -49,11 +49,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from skillc_compiler.intervals import Interval, interval_of, intervals
 from skillc_compiler.library.conditions import Arithmetic, Literal
-from skillc_compiler.lower.folding import MOST_ROUNDS, number
-from skillc_compiler.program import Program, Step, Valued
-from skillc_compiler.walk import steps, values, within
+from skillc_compiler.logic.folding import MOST_ROUNDS, number
+from skillc_compiler.logic.intervals import Interval, interval_of, intervals
+from skillc_compiler.program.typed import Program, Step, Valued
+from skillc_compiler.program.walk import steps, values, within
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span

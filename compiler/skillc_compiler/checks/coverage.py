@@ -31,10 +31,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
-from skillc_compiler.program import Argument, Call, Implementation, Parameter, Program, Skill
-from skillc_compiler.selecting import overlap
-from skillc_compiler.types import Thing, describe, fits
-from skillc_compiler.walk import calls
+from skillc_compiler.logic.subsumption import overlap
+from skillc_compiler.program.typed import Argument, Call, Implementation, Parameter, Program, Skill
+from skillc_compiler.program.types import Thing, describe, fits
+from skillc_compiler.program.walk import calls
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("no-fitting-implementation",)

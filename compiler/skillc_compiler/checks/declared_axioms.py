@@ -47,7 +47,7 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
-from skillc_compiler.program import Program
+from skillc_compiler.program.typed import Program
 from skillc_compiler.resolve.declared import namespace
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label

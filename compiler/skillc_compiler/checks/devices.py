@@ -28,8 +28,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.library.vocabulary import THING, Vocabulary
-from skillc_compiler.program import Parameter, Program, Skill
-from skillc_compiler.types import UNKNOWN, Thing, describe, fits
+from skillc_compiler.program.typed import Parameter, Program, Skill
+from skillc_compiler.program.types import UNKNOWN, Thing, describe, fits
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 

@@ -32,10 +32,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from skillc_compiler.conjuncts import Fact, conjuncts
 from skillc_compiler.library.conditions import Condition
-from skillc_compiler.program import Clause, Program, Requirement
-from skillc_compiler.walk import steps
+from skillc_compiler.logic.conjunctions import Fact, conjuncts
+from skillc_compiler.program.typed import Clause, Program, Requirement
+from skillc_compiler.program.walk import steps
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("duplicate-condition",)

@@ -27,8 +27,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Program
-from skillc_compiler.walk import steps
+from skillc_compiler.program.typed import Program
+from skillc_compiler.program.walk import steps
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.source import Span

@@ -15,7 +15,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from skillc_compiler.program import Program
+from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 

@@ -63,9 +63,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import assert_never
 
-from skillc_compiler.program import Call, Implementation, Program, Skill, Step
+from skillc_compiler.program.typed import Call, Implementation, Program, Skill, Step
+from skillc_compiler.program.walk import within
 from skillc_compiler.python.returns import returned
-from skillc_compiler.walk import within
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 

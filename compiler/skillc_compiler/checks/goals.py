@@ -32,9 +32,9 @@ from collections.abc import Iterator, Set
 
 from skillc_compiler.library.conditions import Assert, Assign, Compare, Holds, PropertyOf, Retract
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
-from skillc_compiler.lower.effects import NoEffect, effects
-from skillc_compiler.program import Clause, Program
-from skillc_compiler.walk import clauses_in
+from skillc_compiler.logic.effects import NoEffect, effects
+from skillc_compiler.program.typed import Clause, Program
+from skillc_compiler.program.walk import clauses_in
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("unachievable-goal",)

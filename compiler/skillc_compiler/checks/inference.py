@@ -32,7 +32,7 @@ from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import And, Compare, Exists, HasProperty, Holds, IsA, Or, Same
 from skillc_compiler.library.reading import free_variables
-from skillc_compiler.program import Clause, Program, Skill
+from skillc_compiler.program.typed import Clause, Program, Skill
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("unlinked-inference",)

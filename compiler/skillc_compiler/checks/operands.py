@@ -56,10 +56,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import Arithmetic, Compare
-from skillc_compiler.program import Clause, Program, Valued
+from skillc_compiler.program.typed import Clause, Program, Valued
+from skillc_compiler.program.types import INT, UNKNOWN, Direction, Measure, Type, Vector, describe, fits
+from skillc_compiler.program.walk import clauses, values
 from skillc_compiler.resolve.values import result_type
-from skillc_compiler.types import INT, UNKNOWN, Direction, Measure, Type, Vector, describe, fits
-from skillc_compiler.walk import clauses, values
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 

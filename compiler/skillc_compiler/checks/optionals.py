@@ -28,8 +28,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from skillc_compiler.library.conditions import And, Given, Not, Or, Variable
-from skillc_compiler.program import Clause, Implementation, Parameter, Program, Skill, Step, Valued
-from skillc_compiler.walk import implementation_values, skill_values, step_values, values_in
+from skillc_compiler.program.typed import Clause, Implementation, Parameter, Program, Skill, Step, Valued
+from skillc_compiler.program.walk import implementation_values, skill_values, step_values, values_in
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 

@@ -109,9 +109,9 @@ from collections.abc import Iterator
 from skillc_compiler.library.conditions import Assign
 from skillc_compiler.library.pddl.names import kebab
 from skillc_compiler.library.vocabulary import local_name
-from skillc_compiler.lower.effects import effects
-from skillc_compiler.program import Program, Skill
-from skillc_compiler.types import INT, Measure, Thing, Unknown, describe, of_library
+from skillc_compiler.logic.effects import effects
+from skillc_compiler.program.typed import Program, Skill
+from skillc_compiler.program.types import INT, Measure, Thing, Unknown, describe, of_library
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("no-effect", "unplannable-parameter", "numeric-effect", "colliding-names")

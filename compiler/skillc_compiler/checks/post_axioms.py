@@ -34,11 +34,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from skillc_compiler.conflicts import Conflicts, covers
-from skillc_compiler.conjuncts import Fact, conjuncts, equal_names, renamed
 from skillc_compiler.library.conditions import Holds
 from skillc_compiler.library.vocabulary import local_name
-from skillc_compiler.program import Program, Requirement
+from skillc_compiler.logic.conflicts import Conflicts, covers
+from skillc_compiler.logic.conjunctions import Fact, conjuncts, equal_names, renamed
+from skillc_compiler.program.typed import Program, Requirement
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
 

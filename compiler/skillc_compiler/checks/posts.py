@@ -116,8 +116,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from skillc_compiler.conflicts import Conflicts, covers
-from skillc_compiler.conjuncts import Fact, conjuncts, equal_names, renamed
 from skillc_compiler.library.conditions import (
     Assert,
     Assign,
@@ -131,8 +129,10 @@ from skillc_compiler.library.conditions import (
 )
 from skillc_compiler.library.pddl.rewriting import replaced
 from skillc_compiler.library.vocabulary import PropertyTerm, RelationTerm, Vocabulary, local_name
-from skillc_compiler.lower.effects import NoEffect, effects
-from skillc_compiler.program import Program, Requirement
+from skillc_compiler.logic.conflicts import Conflicts, covers
+from skillc_compiler.logic.conjunctions import Fact, conjuncts, equal_names, renamed
+from skillc_compiler.logic.effects import NoEffect, effects
+from skillc_compiler.program.typed import Program, Requirement
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("post-not-literal", "computed-property", "two-values", "contradicting-posts")

@@ -27,12 +27,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.causes import declared
 from skillc_compiler.library.conditions import HasProperty, PropertyOf
 from skillc_compiler.library.vocabulary import local_name
-from skillc_compiler.program import Program, Valued
-from skillc_compiler.types import Thing, describe, fits
-from skillc_compiler.walk import clauses, values
+from skillc_compiler.program.labels import declared
+from skillc_compiler.program.typed import Program, Valued
+from skillc_compiler.program.types import Thing, describe, fits
+from skillc_compiler.program.walk import clauses, values
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("property-domain",)

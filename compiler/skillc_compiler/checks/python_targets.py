@@ -78,7 +78,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from typing import TypeAlias
 
-from skillc_compiler.program import Implementation, Program
+from skillc_compiler.program.typed import Implementation, Program
 from skillc_compiler.python.found import (
     BrokenModule,
     ClassFound,

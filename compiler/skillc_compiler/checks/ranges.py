@@ -54,10 +54,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import isfinite
 
-from skillc_compiler.lower.folding import number
-from skillc_compiler.program import Parameter, Program, Valued
-from skillc_compiler.types import INT, Measure, Type
-from skillc_compiler.walk import calls
+from skillc_compiler.logic.folding import number
+from skillc_compiler.program.typed import Parameter, Program, Valued
+from skillc_compiler.program.types import INT, Measure, Type
+from skillc_compiler.program.walk import calls
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
 from skillc_dsl.units import NUMBER, UNITS

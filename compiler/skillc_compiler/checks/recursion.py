@@ -27,8 +27,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from skillc_compiler.program import Call, Implementation, Program, Step
-from skillc_compiler.walk import within
+from skillc_compiler.program.typed import Call, Implementation, Program, Step
+from skillc_compiler.program.walk import within
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("recursion",)

@@ -32,9 +32,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.lower.folding import number
-from skillc_compiler.program import Parameter, Program, Refinement, Valued
-from skillc_compiler.types import describe, fits
+from skillc_compiler.logic.folding import number
+from skillc_compiler.program.typed import Parameter, Program, Refinement, Valued
+from skillc_compiler.program.types import describe, fits
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("not-narrower",)

@@ -62,11 +62,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from skillc_compiler.conflicts import Conflicts
-from skillc_compiler.lower.ranking import more_specific, ranked
-from skillc_compiler.program import Implementation, Program
-from skillc_compiler.selecting import asks, both_fit, takes_all_of
-from skillc_compiler.walk import calls
+from skillc_compiler.logic.conflicts import Conflicts
+from skillc_compiler.logic.ranking import more_specific, ranked
+from skillc_compiler.logic.subsumption import asks, both_fit, takes_all_of
+from skillc_compiler.program.typed import Implementation, Program
+from skillc_compiler.program.walk import calls
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("ambiguous-selection", "never-selected")

@@ -32,7 +32,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Program
+from skillc_compiler.program.typed import Program
 from skillc_compiler.proof.findings import Unreachable
 from skillc_compiler.proof.proving import found
 from skillc_dsl.diagnostics import Diagnostic

@@ -40,8 +40,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Implementation, Program, Skill, Step
-from skillc_compiler.walk import within
+from skillc_compiler.program.typed import Implementation, Program, Skill, Step
+from skillc_compiler.program.walk import within
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 

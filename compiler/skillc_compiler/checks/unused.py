@@ -120,8 +120,8 @@ from collections.abc import Iterable, Iterator
 
 from skillc_compiler.library.conditions import Given, Variable
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
-from skillc_compiler.program import Clause, Implementation, Program, ReadFile, Skill, Step, Valued
-from skillc_compiler.walk import clauses_in, implementation_values, skill_values, step_values, values_in, within
+from skillc_compiler.program.typed import Clause, Implementation, Program, ReadFile, Skill, Step, Valued
+from skillc_compiler.program.walk import clauses_in, implementation_values, skill_values, step_values, values_in, within
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span

@@ -49,14 +49,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from skillc_compiler.bounds import Bound, bound, decided, exclude
-from skillc_compiler.conflicts import Conflicts
-from skillc_compiler.conjuncts import conjuncts
 from skillc_compiler.library.conditions import Compare, Given, Holds, IsA, Literal, Or, Same, Variable
-from skillc_compiler.lower.folding import fold, number
-from skillc_compiler.program import Clause, Implementation, Parameter, Program, Skill, Step
-from skillc_compiler.types import Thing, describe
-from skillc_compiler.walk import clauses_in, within
+from skillc_compiler.logic.bounds import Bound, bound, decided, exclude
+from skillc_compiler.logic.conflicts import Conflicts
+from skillc_compiler.logic.conjunctions import conjuncts
+from skillc_compiler.logic.folding import fold, number
+from skillc_compiler.program.typed import Clause, Implementation, Parameter, Program, Skill, Step
+from skillc_compiler.program.types import Thing, describe
+from skillc_compiler.program.walk import clauses_in, within
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("always-true", "always-false")

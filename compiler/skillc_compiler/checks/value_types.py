@@ -60,11 +60,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from skillc_compiler.expected import Place, places
 from skillc_compiler.library.conditions import Individual, Literal, Variable
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
-from skillc_compiler.program import Program
-from skillc_compiler.types import INT, TEXT, Direction, Measure, Thing, Vector, describe, fits, of_library
+from skillc_compiler.program.expected import Place, places
+from skillc_compiler.program.typed import Program
+from skillc_compiler.program.types import INT, TEXT, Direction, Measure, Thing, Vector, describe, fits, of_library
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.units import NUMBER, UNITS, Dimension
 

@@ -7,8 +7,8 @@ from typing import assert_never
 
 from skillc_compiler.library import tree as t
 from skillc_compiler.library.conditions import Condition, Expression
-from skillc_compiler.lower.folding import fold, fold_condition, rounds_of
-from skillc_compiler.program import Step, position
+from skillc_compiler.logic.folding import fold, fold_condition, rounds_of
+from skillc_compiler.program.typed import Step, position
 from skillc_dsl import syntax as s
 
 

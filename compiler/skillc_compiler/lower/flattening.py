@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 from skillc_compiler.library import skills as library
 from skillc_compiler.library.conditions import Expression
+from skillc_compiler.logic.effects import NoEffect, effects
+from skillc_compiler.logic.folding import fold, fold_condition, number
 from skillc_compiler.lower.bodies import node
-from skillc_compiler.lower.effects import NoEffect, effects
-from skillc_compiler.lower.folding import fold, fold_condition, number
 from skillc_compiler.lower.properties import verified
-from skillc_compiler.program import (
+from skillc_compiler.program.typed import (
     Implementation,
     Parameter,
     Requirement,

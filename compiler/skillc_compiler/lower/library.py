@@ -8,13 +8,13 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import msgspec
 
-from skillc_compiler.enclosing import Places
 from skillc_compiler.library import skills as library
 from skillc_compiler.library.pddl.names import pddl_names
 from skillc_compiler.library.skills import SkillLibrary
+from skillc_compiler.logic.ranking import ranked
 from skillc_compiler.lower import flattening
-from skillc_compiler.lower.ranking import ranked
-from skillc_compiler.program import Call, Implementation, Program, ReadFile, Step
+from skillc_compiler.program.spans import Places
+from skillc_compiler.program.typed import Call, Implementation, Program, ReadFile, Step
 from skillc_dsl.diagnostics import Diagnostic
 
 

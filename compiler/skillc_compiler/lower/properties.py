@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from skillc_compiler.library import properties as library
-from skillc_compiler.lower.folding import fold, fold_condition
-from skillc_compiler.program import Event, Property, position
+from skillc_compiler.logic.folding import fold, fold_condition
+from skillc_compiler.program.typed import Event, Property, position
 
 
 def verified(understood: Property) -> library.Property:

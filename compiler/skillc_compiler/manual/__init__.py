@@ -45,7 +45,7 @@ def pages() -> Mapping[str, Page]:
 
 
 def _in(package: ModuleType) -> Iterator[Page]:
-    for name in sorted(module.name for module in iter_modules(package.__path__)):
+    for name in sorted(module.name for module in iter_modules(package.__path__) if module.name != "families"):
         yield from of_module(import_module(f"{package.__name__}.{name}"))
 
 

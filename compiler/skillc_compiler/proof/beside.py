@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from skillc_compiler.program import Call, Step
+from skillc_compiler.program.typed import Call, Step
 from skillc_compiler.proof.binding import bound, required
 from skillc_compiler.proof.forgetting import forgotten
 from skillc_compiler.proof.learning import learned

@@ -21,8 +21,8 @@ from skillc_compiler.library.conditions import (
 )
 from skillc_compiler.library.pddl.rewriting import ALWAYS, NEVER, replaced
 from skillc_compiler.library.vocabulary import THING, ClassType
-from skillc_compiler.lower.effects import NoEffect, effects
-from skillc_compiler.program import Call, Implementation, Parameter, Program, Requirement, Skill
+from skillc_compiler.logic.effects import NoEffect, effects
+from skillc_compiler.program.typed import Call, Implementation, Parameter, Program, Requirement, Skill
 from skillc_compiler.proof.sorts import Sorts
 from skillc_compiler.proof.state import State, Thing
 from skillc_compiler.proof.truth import canonical

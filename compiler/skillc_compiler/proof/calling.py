@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from skillc_compiler.library.conditions import Variable
 from skillc_compiler.library.reading import free_variables
-from skillc_compiler.program import Call, Requirement
+from skillc_compiler.program.typed import Call, Requirement
 from skillc_compiler.proof.binding import Binding, bound, candidates, changes, class_of, made_up, required
 from skillc_compiler.proof.forgetting import forgotten
 from skillc_compiler.proof.learning import learned, merged

@@ -7,13 +7,13 @@ from itertools import combinations
 
 from skillc_compiler.library.conditions import Individual, Literal, Variable
 from skillc_compiler.library.vocabulary import local_name
-from skillc_compiler.program import Call, Program, Step
+from skillc_compiler.program.typed import Call, Program, Step
+from skillc_compiler.program.walk import within
 from skillc_compiler.proof.axioms import Axioms
 from skillc_compiler.proof.binding import candidates
 from skillc_compiler.proof.findings import Clash
 from skillc_compiler.proof.summaries import Summaries, calls_in
 from skillc_compiler.proof.writes import Related, Valued, Write
-from skillc_compiler.walk import within
 from skillc_dsl import syntax as s
 
 

@@ -19,7 +19,8 @@ from skillc_compiler.library.conditions import (
     Variable,
 )
 from skillc_compiler.library.reading import free_variables, walk
-from skillc_compiler.program import Body, Call, Implementation, Requirement, Step
+from skillc_compiler.program.typed import Body, Call, Implementation, Requirement, Step
+from skillc_compiler.program.walk import within
 from skillc_compiler.proof.binding import changes
 from skillc_compiler.proof.findings import Finding, NeverAssigned, Undeclared, Unproved, Unreleased
 from skillc_compiler.proof.learning import learned
@@ -32,7 +33,6 @@ from skillc_compiler.proof.trail import Ends, Way, Ways, length
 from skillc_compiler.proof.truth import truth
 from skillc_compiler.proof.writes import Related, Valued, Write, condition_of, write_of
 from skillc_compiler.proof.writing import applied
-from skillc_compiler.walk import within
 from skillc_dsl import syntax as s
 
 

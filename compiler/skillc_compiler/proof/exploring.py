@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import assert_never
 
-from skillc_compiler.program import Step
+from skillc_compiler.program.typed import Step
+from skillc_compiler.program.walk import within
 from skillc_compiler.proof import beside, loops
 from skillc_compiler.proof.binding import changes
 from skillc_compiler.proof.calling import called
@@ -18,7 +19,6 @@ from skillc_compiler.proof.undoing import scoped
 from skillc_compiler.proof.waiting import awaited
 from skillc_compiler.proof.writes import Assigned
 from skillc_compiler.proof.writing import applied
-from skillc_compiler.walk import within
 from skillc_dsl import syntax as s
 
 MOST_STEPS = 5_000

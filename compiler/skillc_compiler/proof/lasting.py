@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Implementation, Step, Task
+from skillc_compiler.program.typed import Implementation, Step, Task
 from skillc_compiler.proof.findings import Unreleased
 from skillc_dsl import syntax as s
 

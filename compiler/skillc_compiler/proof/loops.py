@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import reduce
 from typing import assert_never
 
-from skillc_compiler.lower.folding import rounds_of
-from skillc_compiler.program import Step
+from skillc_compiler.logic.folding import rounds_of
+from skillc_compiler.program.typed import Step
 from skillc_compiler.proof.learning import learned
 from skillc_compiler.proof.run import Around, Run, disturbed, in_order
 from skillc_compiler.proof.state import State, joined

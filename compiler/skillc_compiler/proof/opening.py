@@ -6,13 +6,13 @@ from collections.abc import Iterable
 
 from skillc_compiler.library.conditions import Compare, Condition, Given, Individual, Literal, Variable
 from skillc_compiler.library.vocabulary import THING
-from skillc_compiler.lower.folding import number
-from skillc_compiler.program import Implementation, Parameter, Requirement, Task
+from skillc_compiler.logic.folding import number
+from skillc_compiler.program.typed import Implementation, Parameter, Requirement, Task
+from skillc_compiler.program.types import Thing as ThingType
 from skillc_compiler.proof.binding import class_of
 from skillc_compiler.proof.learning import learned
 from skillc_compiler.proof.sorts import Sorts
 from skillc_compiler.proof.state import State, Thing
-from skillc_compiler.types import Thing as ThingType
 
 
 def requirements_of(implementation: Implementation, kind: str) -> tuple[Requirement, ...]:

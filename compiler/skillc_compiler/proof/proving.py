@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TypeVar
 
-from skillc_compiler.program import Implementation, Let, Program, Step, Task
+from skillc_compiler.program.typed import Implementation, Let, Program, Step, Task
+from skillc_compiler.program.walk import within
 from skillc_compiler.proof import ending
 from skillc_compiler.proof.axioms import Axioms, axioms_of
 from skillc_compiler.proof.clashes import clashes
@@ -23,7 +24,6 @@ from skillc_compiler.proof.truth import truth
 from skillc_compiler.proof.understood import Understood
 from skillc_compiler.proof.watching import PropertyWatch
 from skillc_compiler.proof.writes import Write
-from skillc_compiler.walk import within
 from skillc_dsl import syntax as s
 
 F = TypeVar("F", bound=Finding)

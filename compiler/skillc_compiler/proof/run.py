@@ -8,7 +8,8 @@ from typing import Protocol, TypeAlias
 
 from skillc_compiler.library.conditions import Effect
 from skillc_compiler.library.reading import free_variables
-from skillc_compiler.program import Call, Clause, Implementation, Program, Requirement, Step, Valued
+from skillc_compiler.program.typed import Call, Clause, Implementation, Program, Requirement, Step, Valued
+from skillc_compiler.program.walk import clauses_in, values_in
 from skillc_compiler.proof.findings import BrokenHold, Finding, Unassigned, Unguaranteed
 from skillc_compiler.proof.forgetting import forgotten
 from skillc_compiler.proof.opening import requirements_of
@@ -18,7 +19,6 @@ from skillc_compiler.proof.summaries import Summaries, hidden
 from skillc_compiler.proof.trail import Ends, Trail, Way, Ways, length
 from skillc_compiler.proof.truth import truth
 from skillc_compiler.proof.writes import Write
-from skillc_compiler.walk import clauses_in, values_in
 from skillc_dsl.source import Span
 
 Explore: TypeAlias = Callable[["Run", Step, Ways, "Around"], Ends]

@@ -6,16 +6,16 @@ from collections.abc import Iterable, Iterator
 
 from skillc_compiler.library.conditions import HasProperty, Holds, IsA, PropertyOf
 from skillc_compiler.library.reading import walk
-from skillc_compiler.lower.effects import NoEffect, effects
-from skillc_compiler.program import Call, Clause, Implementation, Program, Requirement, Skill, Step, Task, Valued
+from skillc_compiler.logic.effects import NoEffect, effects
+from skillc_compiler.program.typed import Call, Clause, Implementation, Program, Requirement, Skill, Step, Task, Valued
+from skillc_compiler.program.types import UNKNOWN, fits
+from skillc_compiler.program.walk import clauses_in, step_values, values_in, within
 from skillc_compiler.proof.axioms import Axioms
 from skillc_compiler.proof.findings import Finding, NeverAssigned, Unassigned
 from skillc_compiler.proof.learning import learned
 from skillc_compiler.proof.opening import requirements_of
 from skillc_compiler.proof.sorts import Sorts
 from skillc_compiler.proof.state import State
-from skillc_compiler.types import UNKNOWN, fits
-from skillc_compiler.walk import clauses_in, step_values, values_in, within
 from skillc_dsl import syntax as s
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import Anything
-from skillc_compiler.program import Call, Step
+from skillc_compiler.program.typed import Call, Step
 from skillc_compiler.proof.calling import called
 from skillc_compiler.proof.forgetting import forgotten
 from skillc_compiler.proof.run import Around, Run

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from skillc_compiler.program import Call, Event, Implementation, Program, Property, Step
+from skillc_compiler.program.typed import Call, Event, Implementation, Program, Property, Step
 from skillc_compiler.proof.binding import candidates
 from skillc_compiler.proof.opening import opening
 from skillc_compiler.proof.run import Around, Run

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Argument, Call, Parameter, Skill
+from skillc_compiler.program.typed import Argument, Call, Parameter, Skill
+from skillc_compiler.program.types import UNKNOWN, Type, fits
 from skillc_compiler.resolve.scope import Scope, Setting, Variable
 from skillc_compiler.resolve.values import ANYTHING, Wanted, value
-from skillc_compiler.types import UNKNOWN, Type, fits
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 

@@ -25,10 +25,10 @@ from skillc_compiler.library.conditions import (
 )
 from skillc_compiler.library.conditions import Variable as VariableTerm
 from skillc_compiler.library.vocabulary import THING
-from skillc_compiler.program import Clause, Valued
+from skillc_compiler.program.typed import Clause, Valued
+from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, Type, fits
 from skillc_compiler.resolve.scope import Scope, Setting, Variable
 from skillc_compiler.resolve.values import ANYTHING, Wanted, property_of, value
-from skillc_compiler.types import BOOL, UNKNOWN, Thing, Type, fits
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.source import Span

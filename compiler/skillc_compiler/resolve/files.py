@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
-from skillc_compiler.program import ReadFile
+from skillc_compiler.program.typed import ReadFile
 from skillc_compiler.resolve.near import correction
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from skillc_compiler.program import Body, Implementation, Let, Parameter, Property, Refinement, Skill
+from skillc_compiler.program.typed import Body, Implementation, Let, Parameter, Property, Refinement, Skill
+from skillc_compiler.program.types import of_library
 from skillc_compiler.resolve.members import constant, duration, only, requirements
 from skillc_compiler.resolve.nodes import assignable, step
 from skillc_compiler.resolve.properties import verified
@@ -13,7 +14,6 @@ from skillc_compiler.resolve.scope import Scope, Setting, Variable
 from skillc_compiler.resolve.skills import scopes
 from skillc_compiler.resolve.typenames import value_type
 from skillc_compiler.resolve.values import value
-from skillc_compiler.types import of_library
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.source import Span

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TypeVar
 
-from skillc_compiler.program import Requirement, Valued
+from skillc_compiler.program.typed import Requirement, Valued
+from skillc_compiler.program.types import Measure, Type
 from skillc_compiler.resolve.conditions import clause
 from skillc_compiler.resolve.scope import Scope, Setting
 from skillc_compiler.resolve.values import Wanted, value
-from skillc_compiler.types import Measure, Type
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.units import TIME

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import assert_never
 
-from skillc_compiler.program import Step
+from skillc_compiler.program.typed import Step
+from skillc_compiler.program.types import UNKNOWN, ListOf, Measure
 from skillc_compiler.resolve.calls import call
 from skillc_compiler.resolve.conditions import clause
 from skillc_compiler.resolve.scope import Scope, Setting, Variable
 from skillc_compiler.resolve.values import Wanted, value
-from skillc_compiler.types import UNKNOWN, ListOf, Measure
 from skillc_dsl import syntax as s
 from skillc_dsl.units import TIME
 

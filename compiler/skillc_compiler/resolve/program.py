@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.program import Implementation, Program, ReadFile, Skill, Task
+from skillc_compiler.program.typed import Implementation, Program, ReadFile, Skill, Task
 from skillc_compiler.resolve.declared import Declared, bare_in, declare, prefixes_in, visible
 from skillc_compiler.resolve.implementations import implementation
 from skillc_compiler.resolve.individuals import Individuals, narrowest

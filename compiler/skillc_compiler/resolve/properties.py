@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from skillc_compiler.program import Event, Measured, Property
+from skillc_compiler.program.typed import Event, Measured, Property
+from skillc_compiler.program.types import Measure, describe, fits
 from skillc_compiler.resolve.conditions import clause
 from skillc_compiler.resolve.scope import Scope, Setting
 from skillc_compiler.resolve.values import Wanted, value
-from skillc_compiler.types import Measure, describe, fits
 from skillc_dsl import syntax as s
 from skillc_dsl.units import FORCE
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
 
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.program import Skill
+from skillc_compiler.program.typed import Skill
+from skillc_compiler.program.types import UNKNOWN, Type
 from skillc_compiler.resolve.names import Names
 from skillc_compiler.resolve.near import correction
-from skillc_compiler.types import UNKNOWN, Type
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label, did_you_mean
 from skillc_dsl.source import Span

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Parameter, Skill
+from skillc_compiler.program.typed import Parameter, Skill
+from skillc_compiler.program.types import of_library
 from skillc_compiler.resolve.members import constant, duration, requirements
 from skillc_compiler.resolve.scope import Scope, Setting, Variable
 from skillc_compiler.resolve.typenames import value_type
-from skillc_compiler.types import of_library
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from skillc_compiler.program import Task
+from skillc_compiler.program.typed import Task
 from skillc_compiler.resolve.conditions import clause
 from skillc_compiler.resolve.nodes import step
 from skillc_compiler.resolve.scope import Scope, Setting

@@ -14,9 +14,8 @@ from skillc_compiler.library.conditions import (
     PropertyOf,
     Variable,
 )
-from skillc_compiler.program import Valued
-from skillc_compiler.resolve.scope import Scope, Setting
-from skillc_compiler.types import (
+from skillc_compiler.program.typed import Valued
+from skillc_compiler.program.types import (
     BOOL,
     INT,
     TEXT,
@@ -29,6 +28,7 @@ from skillc_compiler.types import (
     fits,
     of_library,
 )
+from skillc_compiler.resolve.scope import Scope, Setting
 from skillc_dsl import syntax as s
 from skillc_dsl.units import NUMBER, dimension_of, to_si
 

@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from skillc_compiler.allowances import without_allowed
+from skillc_compiler.diagnostics.suppressions import without_allowed
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.program import Program
+from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.source import Source
 from skillc_runtime.commands import _library, _named_texts, _telling

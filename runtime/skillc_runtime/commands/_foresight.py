@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from skillc_compiler.library.skills import SkillLibrary, Task
 from skillc_compiler.library.vocabulary import Position
-from skillc_compiler.program import Program
+from skillc_compiler.program.typed import Program
 from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_dsl.diagnostics import Diagnostic, Label, Outcome, Severity, did_you_mean
 from skillc_dsl.source import Span

@@ -9,8 +9,8 @@ from dataclasses import asdict
 
 import click
 
-from skillc_compiler.families import by_family, family
 from skillc_compiler.manual import Page
+from skillc_compiler.manual.families import by_family, family
 from skillc_runtime.commands import _telling
 
 _WIDEST = 100

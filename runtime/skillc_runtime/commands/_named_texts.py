@@ -8,11 +8,11 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from skillc_compiler import walk
 from skillc_compiler.library.conditions import Literal
 from skillc_compiler.library.skills import Compound, SkillLibrary
 from skillc_compiler.library.vocabulary import Position
-from skillc_compiler.program import Implementation, Program, Valued, position
+from skillc_compiler.program import walk
+from skillc_compiler.program.typed import Implementation, Program, Valued, position
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label, Outcome, Severity, did_you_mean
 from skillc_dsl.source import Span
 

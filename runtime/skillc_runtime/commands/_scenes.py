@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 from skillc_compiler.library.skills import Task
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.program import Program
+from skillc_compiler.program.typed import Program
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
 from skillc_ontology import catalogue

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from skillc_compiler.allowances import without_allowed
-from skillc_compiler.assist.analysis import Analysis
+from skillc_compiler.diagnostics.suppressions import without_allowed
+from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.program import Program
+from skillc_compiler.program.typed import Program
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_ontology import catalogue
