@@ -1,21 +1,4 @@
-"""An angle of more than two turns, which was probably meant in degrees.
-
-Bad:
-
-    skill Tilt {
-        opt angle: Angle = 90 rad
-        noplan
-    }
-    impl waiting of Tilt { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    skill Tilt {
-        opt angle: Angle = 90 deg
-        noplan
-    }
-    impl waiting of Tilt { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""An angle of more than two turns, which was probably meant in degrees."""
 
 from __future__ import annotations
 

@@ -1,30 +1,4 @@
-"""A class that a skill promises to work with, and that none of its implementations takes.
-
-An error where such a thing is passed in a call, a warning where a description allows it.
-
-## no-fitting-implementation: no implementation takes things of a class
-
-Bad:
-
-    use rparts, skillc
-    skill Close {
-        in gripper: GripperEffector
-        noplan
-    }
-    impl by_three of Close {
-        refine gripper: ThreeFingerGripper
-        run    python "skillc_runtime.primitives.stand_in:StandIn"
-    }
-
-Good:
-
-    use skillc
-    skill Close {
-        in gripper: ThreeFingerGripper
-        noplan
-    }
-    impl by_three of Close { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""A class that a skill promises to work with, and that none of its implementations takes."""
 
 from __future__ import annotations
 

@@ -1,27 +1,4 @@
-"""What is locked by `uses`, or shared, and is no device.
-
-Bad:
-
-    use rparts
-    skill Press {
-        in arm:   ArmDevice
-        in force: Force
-        uses force
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use rparts
-    skill Press {
-        in arm:   ArmDevice
-        in force: Force
-        uses arm
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""What is locked by `uses`, or shared, and is no device."""
 
 from __future__ import annotations
 

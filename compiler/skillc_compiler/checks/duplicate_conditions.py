@@ -1,32 +1,4 @@
-"""A condition that is stated twice.
-
-Conditions are a set: their order means nothing, and a second one adds nothing. A `pre` and a `hold` may say the same:
-the one is asked at the start, and parameters are inferred by it; the other is asked at every tick.
-
-Bad:
-
-    use skiros, rparts
-    skill Take {
-        in   gripper: GripperEffector
-        in   object:  Product
-        pre  held: gripper contain object
-        pre  kept: gripper contain object
-        noplan
-    }
-    impl waiting of Take { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skiros, rparts
-    skill Take {
-        in   gripper: GripperEffector
-        in   object:  Product
-        pre  held: gripper contain object
-        hold kept: gripper contain object
-        noplan
-    }
-    impl waiting of Take { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""A condition that is stated twice."""
 
 from __future__ import annotations
 

@@ -1,14 +1,4 @@
-"""A file with nothing in it but comments.
-
-Bad:
-
-    # skill Knock is still to be written
-
-Good:
-
-    skill Knock { noplan }
-    impl waiting of Knock { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""A file with nothing in it but comments."""
 
 from __future__ import annotations
 

@@ -1,30 +1,4 @@
-"""A goal that no skill of the library can bring about.
-
-A planner takes only skills whose posts say what they achieve, and which are not `noplan`.
-
-Bad:
-
-    use wiping
-    prefix lab: <http://example.org/lab#>
-    task clean {
-        scene "ur5e_whiteboard.ttl"
-        goal  lab:Whiteboard-1.isClean == true
-    }
-
-Good:
-
-    use wiping
-    prefix lab: <http://example.org/lab#>
-    skill Wipe {
-        in   board: WipeableSurface
-        post board.isClean == true
-    }
-    impl waiting of Wipe { run python "skillc_runtime.primitives.stand_in:StandIn" }
-    task clean {
-        scene "ur5e_whiteboard.ttl"
-        goal  lab:Whiteboard-1.isClean == true
-    }
-"""
+"""A goal that no skill of the library can bring about."""
 
 from __future__ import annotations
 

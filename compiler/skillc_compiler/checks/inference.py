@@ -1,30 +1,4 @@
-"""An inferred parameter that no precondition links to anything.
-
-The value of an `infer` parameter is looked up through the preconditions: relations, values of properties and classes.
-Without one, any individual of its class would do, which is rarely meant. What something is not, as in
-`pre not slot contain _`, says enough only for `infer any`, which takes the first of several.
-
-Bad:
-
-    use rparts
-    skill Open {
-        in    arm:     ArmDevice
-        infer gripper: GripperEffector
-        noplan
-    }
-    impl waiting of Open { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use rparts
-    skill Open {
-        in    arm:     ArmDevice
-        infer gripper: GripperEffector
-        pre   arm skiros:hasA gripper
-        noplan
-    }
-    impl waiting of Open { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""An inferred parameter that no precondition links to anything."""
 
 from __future__ import annotations
 

@@ -1,27 +1,4 @@
-"""An optional parameter without a default, read where it may be unset.
-
-Bad:
-
-    use skillc
-    skill Mark {
-        in   surface: Surface
-        opt  width:   Length
-        pre  width > 1 cm
-        noplan
-    }
-    impl waiting of Mark { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skillc
-    skill Mark {
-        in   surface: Surface
-        opt  width:   Length
-        pre  given width implies width > 1 cm
-        noplan
-    }
-    impl waiting of Mark { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""An optional parameter without a default, read where it may be unset."""
 
 from __future__ import annotations
 

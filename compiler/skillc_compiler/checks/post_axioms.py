@@ -1,34 +1,4 @@
-"""A postcondition that an axiom of its relation forbids, so that the world model would refuse it.
-
-A relation with one value only takes care of itself: the new value takes the place of the old one. But nothing is
-related to itself by an irreflexive relation, and an asymmetric one goes one way only: where a precondition says that it
-goes the other way, the skill has to say that it does so no longer.
-
-## breaks-axiom: a post makes a relation go both ways, or from a thing to itself
-
-Bad:
-
-    use skiros
-    skill Swap {
-        in   inner: Container
-        in   outer: Container
-        pre  outer contain inner
-        post inner contain outer
-    }
-    impl waiting of Swap { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skiros
-    skill Swap {
-        in   inner: Container
-        in   outer: Container
-        pre  outer contain inner
-        post inner contain outer
-        post not outer contain inner
-    }
-    impl waiting of Swap { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""A postcondition that an axiom of its relation forbids, so that the world model would refuse it."""
 
 from __future__ import annotations
 

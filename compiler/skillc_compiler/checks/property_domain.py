@@ -1,27 +1,4 @@
-"""A property read of an individual whose class does not have it.
-
-Bad:
-
-    use rparts, skillc
-    skill Press {
-        in gripper: GripperEffector
-        in surface: Surface
-        pre gripper.located == true
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use rparts, skillc
-    skill Press {
-        in gripper: GripperEffector
-        in surface: Surface
-        pre surface.located == true
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""A property read of an individual whose class does not have it."""
 
 from __future__ import annotations
 

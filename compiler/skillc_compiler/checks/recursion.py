@@ -1,27 +1,4 @@
-"""A skill that calls itself, directly or through others, and so never begins.
-
-Bad:
-
-    use rparts
-    skill Fold {
-        in arm: ArmDevice
-        noplan
-    }
-    impl again of Fold { do Fold(arm) }
-
-Good:
-
-    use rparts
-    skill Fold {
-        in arm: ArmDevice
-        noplan
-    }
-    impl plain of Fold { run python "skillc_runtime.primitives.stand_in:StandIn" }
-    impl again of Fold {
-        prefer 1
-        do retry 2 { Fold[plain](arm) }
-    }
-"""
+"""A skill that calls itself, directly or through others, and so never begins."""
 
 from __future__ import annotations
 

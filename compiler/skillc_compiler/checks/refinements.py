@@ -1,32 +1,4 @@
-"""A refinement that does not narrow what the description says.
-
-An implementation may ask for a subclass or a smaller range and give another default, but not ask for something else:
-whoever calls the skill knows its description only.
-
-Bad:
-
-    use rparts
-    skill Close {
-        in gripper: GripperEffector
-        noplan
-    }
-    impl gently of Close {
-        refine gripper: EndEffector
-        run python "skillc_runtime.primitives.stand_in:StandIn"
-    }
-
-Good:
-
-    use rparts
-    skill Close {
-        in gripper: GripperEffector
-        noplan
-    }
-    impl gently of Close {
-        refine gripper: GripperEffector
-        run python "skillc_runtime.primitives.stand_in:StandIn"
-    }
-"""
+"""A refinement that does not narrow what the description says."""
 
 from __future__ import annotations
 

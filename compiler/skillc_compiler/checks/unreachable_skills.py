@@ -1,40 +1,4 @@
-"""A skill that no task of the library can reach.
-
-A task reaches what its body calls; one with a goal reaches what a planner may take, which is every skill with a post
-and without `noplan`; and both reach what those call. A library without tasks is for others, who may call everything.
-
-## unreachable-skill: no task calls or plans a skill
-
-Bad:
-
-    use rparts
-    import "motion.skill"
-    prefix lab: <http://example.org/lab#>
-    skill Fold {
-        in arm: ArmDevice
-        noplan
-    }
-    impl folded of Fold { do TakePosture(arm) }
-    task rest {
-        scene "iiwa_table.ttl"
-        do    TakePosture(arm: lab:Iiwa-1)
-    }
-
-Good:
-
-    use rparts
-    import "motion.skill"
-    prefix lab: <http://example.org/lab#>
-    skill Fold {
-        in arm: ArmDevice
-        noplan
-    }
-    impl folded of Fold { do TakePosture(arm) }
-    task rest {
-        scene "iiwa_table.ttl"
-        do    Fold(arm: lab:Iiwa-1)
-    }
-"""
+"""A skill that no task of the library can reach."""
 
 from __future__ import annotations
 

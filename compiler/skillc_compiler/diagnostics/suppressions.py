@@ -5,9 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache
 
-from skillc_compiler.manual import foresight, of_module, pages
+from skillc_compiler.manual import page, page_names
 from skillc_compiler.resolve.near import correction
 from skillc_dsl import syntax as s
 from skillc_dsl.comments import Comment, find_comments
@@ -67,7 +66,7 @@ def allowances(source: Source) -> Iterator[Allowance]:
 
 def _is_meant(match: re.Match[str]) -> bool:
     """Whether this is an allowance and not prose that begins with the word."""
-    return bool(match["colon"]) or "-" in match["name"] or match["name"] in pages()
+    return bool(match["colon"]) or "-" in match["name"] or match["name"] in page_names()
 
 
 def _name(comment: Comment, match: re.Match[str]) -> s.Name:
@@ -78,28 +77,27 @@ def _name(comment: Comment, match: re.Match[str]) -> s.Name:
 
 def _flaws(each: Allowance, used: set[tuple[str, int, str]], errors: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
     name = each.name.text
-    if name not in pages():
+    if name not in page_names():
         yield Diagnostic(
             "unknown-allow",
             each.name.span,
             f"there is no warning called `{name}`",
-            did_you_mean(name, pages()) or "`skillc explain` lists them all",
+            did_you_mean(name, page_names()) or "`skillc explain` lists them all",
             "warning",
-            fix=correction(each.name, pages()),
+            fix=correction(each.name, page_names()),
         )
     elif any(_place(error) == (each.comment.path, each.line, name) for error in errors):
         yield _unused(each, f"`{name}` is an error here, which cannot be allowed", "cure it, and delete this comment")
-    elif not errors and name not in _found_later() and (each.comment.path, each.line, name) not in used:
+    elif not errors and not _is_found_later(name) and (each.comment.path, each.line, name) not in used:
         yield _unused(each, f"there is no `{name}` to be allowed on line {each.line}", "delete this comment")
     elif not each.reason:
         help_ = f"write `# allow {name}: ` and why"
         yield Diagnostic("allow-without-reason", each.comment, "this says not why it is allowed", help_, "warning")
 
 
-@cache
-def _found_later() -> frozenset[str]:
-    """Return the names of the warnings that are not the compiler's, which cannot tell whether there is one."""
-    return frozenset(("unknown-value", *(page.name for page in of_module(foresight))))
+def _is_found_later(name: str) -> bool:
+    """Whether the compiler cannot tell if there is such a warning, because `skillc check` looks for it afterwards."""
+    return name == "unknown-value" or page(name).found_by == "check"
 
 
 def _unused(each: Allowance, message: str, help_: str) -> Diagnostic:

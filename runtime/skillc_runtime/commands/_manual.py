@@ -9,8 +9,7 @@ from dataclasses import asdict
 
 import click
 
-from skillc_compiler.manual import Page
-from skillc_compiler.manual.families import by_family, family
+from skillc_compiler.manual import Page, by_family
 from skillc_runtime.commands import _telling
 
 _WIDEST = 100
@@ -19,7 +18,7 @@ _WIDEST = 100
 
 def page(shown: Page) -> str:
     """Return a page as text, in colours if the terminal has some."""
-    lines = [f"{_styled(shown.name, fg='cyan')}: {shown.title}", f"family: {family(shown.name)}", ""]
+    lines = [f"{_styled(shown.name, fg='cyan')}: {shown.title}", f"family: {shown.family}", ""]
     for paragraph in filter(None, shown.prose.split("\n\n")):
         lines += [*_paragraph(paragraph), ""]
     lines += [_styled("Bad", fg="red"), "", *_indented(shown.bad), ""]
@@ -31,11 +30,11 @@ def contents(pages: Mapping[str, Page]) -> str:
     """Return the names and titles of all pages by family."""
     widest = max(len(name) for name in pages)
     lines: list[str] = []
-    for title, names in by_family(pages).items():
-        lines.append(_styled(title, fg="cyan"))
-        for name in names:
-            first, *rest = textwrap.wrap(pages[name].title, max(_width() - widest - 4, 24))
-            lines.append(f"  {name:{widest}}  {first}")
+    for family, members in by_family(pages.values()).items():
+        lines.append(_styled(family, fg="cyan"))
+        for each in members:
+            first, *rest = textwrap.wrap(each.title, max(_width() - widest - 4, 24))
+            lines.append(f"  {each.name:{widest}}  {first}")
             lines += (f"  {'':{widest}}  {line}" for line in rest)
         lines.append("")
     return "".join(f"{line}\n" for line in (*lines, "skillc explain NAME shows a page with examples."))
@@ -43,7 +42,7 @@ def contents(pages: Mapping[str, Page]) -> str:
 
 def as_data(shown: Page) -> dict[str, str]:
     """Return the fields of a page."""
-    return {**asdict(shown), "family": family(shown.name)}
+    return asdict(shown)
 
 
 def _paragraph(text: str) -> Iterator[str]:
