@@ -25,7 +25,7 @@ from skillc_runtime.world.documents import SceneError
 from skillc_runtime.world.scene import read_scene
 
 ROOT = Path(__file__).parent.parent.parent
-GIVERS = {"Diagnostic", "report", "report_unknown", "Problem", "Breach", "Flaw", "_problem_name"}
+GIVERS = {"Diagnostic", "report", "report_unknown", "Breach", "Flaw", "_problem_name"}
 PLACES = ("dsl", "compiler", "runtime/skillc_runtime/world", "runtime/skillc_runtime/commands")
 NAME = re.compile(r"[a-z]+(-[a-z]+)*")
 LAB = "http://example.org/lab#"

@@ -58,8 +58,8 @@ def read(path: Path, vocabulary: Vocabulary, text: str | None = None) -> Outcome
         document = Document.read(path) if text is None else Document(str(path), text)
         scene = scene_in(document, vocabulary)
     except SceneError as error:
-        return Outcome(None, tuple(_diagnostics.of_problems(error.problems)))
-    return Outcome(scene, tuple(_diagnostics.of_problems(scene.problems)))
+        return Outcome(None, tuple(_diagnostics.with_shown_paths(error.problems)))
+    return Outcome(scene, tuple(_diagnostics.with_shown_paths(scene.problems)))
 
 
 def populated(program: Program, desk: Desk, others: Collection[Path] = (), read_by: Read = read) -> Populated:

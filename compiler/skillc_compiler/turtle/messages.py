@@ -12,7 +12,7 @@ LONGEST = 40
 COMMENTS = ("//", "/*", "--", ";;", "%")
 
 
-class Complaint(NamedTuple):
+class SyntaxMessage(NamedTuple):
     """What is wrong with a token, what to write instead, and the text that would be right in its place, if known."""
 
     message: str
@@ -26,105 +26,109 @@ def shown(token: Token) -> str:
     return f"`{first if len(first) <= LONGEST else first[:LONGEST] + '..'}`" if first else "the end of the file"
 
 
-def no_term(token: Token, names: Iterable[str]) -> Complaint | None:
+def no_term(token: Token, names: Iterable[str]) -> SyntaxMessage | None:
     """Say why a token is no term at all, wherever it stands; `names` are those the text has. None for one that is."""
     match token.kind:
         case "open-text":
-            return Complaint("the text that begins here has no closing quote", f"end it with `{_quote(token)}`")
+            return SyntaxMessage("the text that begins here has no closing quote", f"end it with `{_quote(token)}`")
         case "open-iri" if token.text.startswith("<<"):
-            return Complaint(
+            return SyntaxMessage(
                 "statements about statements are not Turtle 1.1", "name what it is about, and say it of that"
             )
         case "open-iri":
-            return Complaint("the IRI that begins here has no `>`", "an IRI has no spaces and ends with `>`")
+            return SyntaxMessage("the IRI that begins here has no `>`", "an IRI has no spaces and ends with `>`")
         case "stray" if token.text.startswith(COMMENTS):
-            return Complaint(f"{shown(token)} is no Turtle", "a comment begins with `#`")
+            return SyntaxMessage(f"{shown(token)} is no Turtle", "a comment begins with `#`")
         case "stray" if token.text.startswith(("{", "}")):
-            return Complaint("named graphs are not Turtle", "a scene is one graph: remove the braces and the name")
+            return SyntaxMessage("named graphs are not Turtle", "a scene is one graph: remove the braces and the name")
         case "stray":
-            return Complaint(f"{shown(token)} is no Turtle", "delete it, or put it in quotes if it is a text")
+            return SyntaxMessage(f"{shown(token)} is no Turtle", "delete it, or put it in quotes if it is a text")
         case "word" if token.text not in ("a", "true", "false"):
             return _bare_word(token, names)
         case _:
             return None
 
 
-def _bare_word(token: Token, names: Iterable[str]) -> Complaint:
+def _bare_word(token: Token, names: Iterable[str]) -> SyntaxMessage:
     word = token.text
     near = get_close_matches(word.lower(), ("true", "false"), n=1, cutoff=0.7)
     if near:
-        return Complaint(f"`{word}` is no value", f"did you mean `{near[0]}`?", near[0])
+        return SyntaxMessage(f"`{word}` is no value", f"did you mean `{near[0]}`?", near[0])
     same = sorted({name for name in names if name.partition(":")[2] == word})
     if same:
         instead = same[0] if len(same) == 1 else None
-        return Complaint(f"`{word}` has no prefix", f"did you mean {' or '.join(f'`{s}`' for s in same[:3])}?", instead)
-    return Complaint(f"`{word}` has no prefix", f'write `prefix:{word}`, or `"{word}"` if it is a text')
+        return SyntaxMessage(
+            f"`{word}` has no prefix", f"did you mean {' or '.join(f'`{s}`' for s in same[:3])}?", instead
+        )
+    return SyntaxMessage(f"`{word}` has no prefix", f'write `prefix:{word}`, or `"{word}"` if it is a text')
 
 
-def no_subject(token: Token) -> Complaint:
+def no_subject(token: Token) -> SyntaxMessage:
     """Say why a token cannot begin a statement."""
     if token.is_mark(";,"):
         help_ = f"`{token.text}` goes on with a statement; did a `.` end it too early?"
-        return Complaint(f"there is nothing that `{token.text}` could go on with", help_)
+        return SyntaxMessage(f"there is nothing that `{token.text}` could go on with", help_)
     if token.is_mark("."):
-        return Complaint("there is no statement that this `.` could end", "delete it")
-    return Complaint(f"a statement begins with the thing that it is about, and this is {shown(token)}")
+        return SyntaxMessage("there is no statement that this `.` could end", "delete it")
+    return SyntaxMessage(f"a statement begins with the thing that it is about, and this is {shown(token)}")
 
 
-def nothing_said(subject: Token) -> Complaint:
+def nothing_said(subject: Token) -> SyntaxMessage:
     """Say that a statement ends behind its subject."""
-    return Complaint(f"nothing is said of {shown(subject)}", "say of which class it is, `a CLASS`, or delete it")
+    return SyntaxMessage(f"nothing is said of {shown(subject)}", "say of which class it is, `a CLASS`, or delete it")
 
 
-def no_declaration(word: str) -> Complaint:
+def no_declaration(word: str) -> SyntaxMessage:
     """Say that a prefix or a base is not declared like that."""
     form = "prefix name: <IRI>" if word == "prefix" else "base <IRI>"
-    return Complaint(f"this is no declaration of a {word}", f"it is written `@{form} .`")
+    return SyntaxMessage(f"this is no declaration of a {word}", f"it is written `@{form} .`")
 
 
-def new_statement(subject: Token) -> Complaint:
+def new_statement(subject: Token) -> SyntaxMessage:
     """Say that a `;` stands before a new statement."""
-    return Complaint(f"a `.` ends the statement, and {shown(subject)} begins another", "write `.`")
+    return SyntaxMessage(f"a `.` ends the statement, and {shown(subject)} begins another", "write `.`")
 
 
-def no_predicate(token: Token) -> Complaint:
+def no_predicate(token: Token) -> SyntaxMessage:
     """Say why a token cannot be what is said of a thing."""
     message = f"a relation or a property stands here, and this is {shown(token)}"
-    return Complaint(message, "is there a `;` or `.` before it that should be a `,`, or is the relation missing?")
+    return SyntaxMessage(message, "is there a `;` or `.` before it that should be a `,`, or is the relation missing?")
 
 
-def no_object(token: Token, predicate: Token) -> Complaint:
+def no_object(token: Token, predicate: Token) -> SyntaxMessage:
     """Say why a predicate has no object."""
     if token.kind == "word":
-        return Complaint(f"{shown(predicate)} has no value: `a` stands before a class")
+        return SyntaxMessage(f"{shown(predicate)} has no value: `a` stands before a class")
     article = "it is" if predicate.text == "a" else "there is"
     help_ = f"write what {article} after {shown(predicate)}"
     if predicate.kind == "name":
         help_ += f", or `a {predicate.text}` if it is the class of the thing"
-    return Complaint(f"{shown(predicate)} has no value", help_)
+    return SyntaxMessage(f"{shown(predicate)} has no value", help_)
 
 
-def goes_on() -> Complaint:
+def goes_on() -> SyntaxMessage:
     """Say that a `.` ends a statement that goes on behind it."""
-    return Complaint("this `.` ends the statement, and it goes on behind", "`;` says more of the same thing", ";")
+    return SyntaxMessage("this `.` ends the statement, and it goes on behind", "`;` says more of the same thing", ";")
 
 
-def surplus(token: Token, before: Token) -> Complaint:
+def surplus(token: Token, before: Token) -> SyntaxMessage:
     """Say that a term stands where a mark should."""
     help_ = "a `;` stands before the next thing that is said"
-    return Complaint(f"{shown(token)} stands behind {shown(before)}", help_, ";")
+    return SyntaxMessage(f"{shown(token)} stands behind {shown(before)}", help_, ";")
 
 
-def missing_mark(mark: str, after: Token) -> Complaint:
+def missing_mark(mark: str, after: Token) -> SyntaxMessage:
     """Say that a mark is missing."""
     what = {".": "ends the statement", ";": "says more of the same thing", ",": "gives another value"}
     close = {"]": "ends what is in brackets", ")": "ends the list"}
-    return Complaint(f"a `{mark}` is missing after {shown(after)}", f"`{mark}` {(what | close)[mark]}")
+    return SyntaxMessage(f"a `{mark}` is missing after {shown(after)}", f"`{mark}` {(what | close)[mark]}")
 
 
-def number_with_unit(number: Token, unit: Token) -> Complaint:
+def number_with_unit(number: Token, unit: Token) -> SyntaxMessage:
     """Say that a number has no unit."""
-    return Complaint(f"{shown(unit)} stands behind the number {number.text}", "numbers are in SI units and stand alone")
+    return SyntaxMessage(
+        f"{shown(unit)} stands behind the number {number.text}", "numbers are in SI units and stand alone"
+    )
 
 
 def _quote(token: Token) -> str:
