@@ -20,7 +20,7 @@ from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Position, Vocabulary
 from skillc_compiler.lower.library import lower
-from skillc_compiler.program.typed import Implementation, Program, Step, position
+from skillc_compiler.program.typed import Implementation, Program, TypedNode, position
 from skillc_compiler.program.walk import within
 from skillc_compiler.proof.findings import BrokenHold, Undecided, Unproved, Unverified, Violated
 from skillc_compiler.proof.opening import opening, requirements_of
@@ -79,7 +79,7 @@ def understood(text: str) -> Program:
     return program.value
 
 
-def claims_of(prover: Prover, implementation: Implementation, body: Step) -> Claims:
+def claims_of(prover: Prover, implementation: Implementation, body: TypedNode) -> Claims:
     """Explore a body and return everything that is claimed of it."""
     run = prover.run(implementation, body)
     prover.leaks(implementation)
@@ -110,7 +110,9 @@ def test_what_is_proved_holds_when_it_runs(block: int) -> None:
         text = Writer(Random(seed)).library()
         program = understood(text)
         prover = Prover(program)
-        claims = [claims_of(prover, one, one.body) for one in program.implementations if isinstance(one.body, Step)]
+        claims = [
+            claims_of(prover, one, one.body) for one in program.implementations if isinstance(one.body, TypedNode)
+        ]
         assert claims
         library = lower(program, ())
         for claim in claims:

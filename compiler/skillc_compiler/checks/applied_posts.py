@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from skillc_compiler.program.typed import Program, Requirement, Step
+from skillc_compiler.program.typed import Program, Requirement, TypedNode
 from skillc_compiler.program.walk import within
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label, did_you_mean
@@ -15,7 +15,7 @@ NAMES = ("unknown-label", "sensed-post-applied")
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each label that cannot be applied where it is."""
     for implementation in program.implementations:
-        if isinstance(implementation.body, Step):
+        if isinstance(implementation.body, TypedNode):
             requirements = (*implementation.skill.requirements, *implementation.requirements)
             yield from _labels(implementation.body, [r for r in requirements if r.kind == "post"])
     for task in program.tasks:
@@ -23,7 +23,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
             yield from _labels(task.body, [])
 
 
-def _labels(body: Step, posts: Sequence[Requirement]) -> Iterator[Diagnostic]:
+def _labels(body: TypedNode, posts: Sequence[Requirement]) -> Iterator[Diagnostic]:
     labelled = {post.label.text: post for post in posts if post.label}
     for step in within(body):
         if isinstance(step.written, s.ApplyPosts):

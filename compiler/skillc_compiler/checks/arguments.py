@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import Invoke
-from skillc_compiler.program.typed import Call, Program, Skill, Valued
+from skillc_compiler.program.typed import Call, Program, Skill, TypedExpression
 from skillc_compiler.program.walk import calls, steps, values
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -68,7 +68,7 @@ def _scoped(call: Call, skill: Skill) -> Iterator[Diagnostic]:
         )
 
 
-def _counted(program: Program, value: Valued, meaning: Invoke) -> Iterator[Diagnostic]:
+def _counted(program: Program, value: TypedExpression, meaning: Invoke) -> Iterator[Diagnostic]:
     function = program.vocabulary.functions.get(meaning.function)
     if function and len(function.parameters) != len(meaning.arguments):
         names = ", ".join(name for name, _ in function.parameters)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.logic.conflicts import Conflicts
-from skillc_compiler.logic.conjunctions import Fact, Together, names_of, renamed, together
+from skillc_compiler.logic.conjunctions import ConjunctionGroup, Fact, names_of, renamed, together
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -19,7 +19,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
         yield from _in_group(conflicts, group)
 
 
-def _in_group(conflicts: Conflicts, group: Together) -> Iterator[Diagnostic]:
+def _in_group(conflicts: Conflicts, group: ConjunctionGroup) -> Iterator[Diagnostic]:
     names = names_of((*group.given, *group.own))
     earlier = [renamed(fact, names) for fact in group.given]
     for fact in (renamed(each, names) for each in group.own):

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from skillc_compiler.library.conditions import Arithmetic, Literal
 from skillc_compiler.logic.folding import MOST_ROUNDS, number
 from skillc_compiler.logic.intervals import Interval, interval_of, intervals
-from skillc_compiler.program.typed import Program, Step, Valued
+from skillc_compiler.program.typed import Program, TypedExpression, TypedNode
 from skillc_compiler.program.walk import steps, values, within
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
@@ -52,14 +52,14 @@ def _times(program: Program) -> Iterator[Diagnostic]:
         known = intervals(implementation.parameters, implementation.lets)
         if implementation.duration:
             yield from _time(implementation.duration, known, "duration")
-        if isinstance(implementation.body, Step):
+        if isinstance(implementation.body, TypedNode):
             yield from _in_body(within(implementation.body), known)
     for task in program.tasks:
         if task.body:
             yield from _in_body(within(task.body), {})
 
 
-def _in_body(nodes: Iterable[Step], known: Mapping[str, Interval]) -> Iterator[Diagnostic]:
+def _in_body(nodes: Iterable[TypedNode], known: Mapping[str, Interval]) -> Iterator[Diagnostic]:
     for step in nodes:
         match step.written:
             case s.Timeout():
@@ -70,7 +70,7 @@ def _in_body(nodes: Iterable[Step], known: Mapping[str, Interval]) -> Iterator[D
                 pass
 
 
-def _time(value: Valued, known: Mapping[str, Interval], word: str) -> Iterator[Diagnostic]:
+def _time(value: TypedExpression, known: Mapping[str, Interval], word: str) -> Iterator[Diagnostic]:
     found = interval_of(value.meaning, known)
     if found is None:
         return
@@ -87,7 +87,7 @@ def _bad_time(span: Span, message: str, help_: str) -> Diagnostic:
     return Diagnostic("bad-time", span, message, help_)
 
 
-def _number(value: Valued) -> Iterator[Diagnostic]:
+def _number(value: TypedExpression) -> Iterator[Diagnostic]:
     match value.meaning:
         case Literal(value=int() as found) if not -LARGEST_INTEGER <= found <= LARGEST_INTEGER:
             yield Diagnostic("bad-number", value.span, "this number is too large", "write a smaller number")

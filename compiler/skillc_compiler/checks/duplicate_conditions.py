@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.logic.conjunctions import Fact, conjuncts
-from skillc_compiler.program.typed import Clause, Program, Requirement
+from skillc_compiler.program.typed import Program, Requirement, TypedCondition
 from skillc_compiler.program.walk import steps
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -26,7 +26,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
         yield from _repeated(conjuncts(clause), ())
 
 
-def _alone(program: Program) -> Iterator[Clause]:
+def _alone(program: Program) -> Iterator[TypedCondition]:
     yield from (task.goal for task in program.tasks if task.goal)
     for step in steps(program):
         yield from step.clauses

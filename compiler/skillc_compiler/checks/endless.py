@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import assert_never
 
-from skillc_compiler.program.typed import Call, Implementation, Program, Skill, Step
+from skillc_compiler.program.typed import Call, Implementation, Program, Skill, TypedNode
 from skillc_compiler.program.walk import within
 from skillc_compiler.python.returns import returned
 from skillc_dsl import syntax as s
@@ -22,9 +22,9 @@ def check(program: Program) -> Iterator[Diagnostic]:
     for implementation in program.implementations:
         endless = "endless" in implementation.skill.flags
         match implementation.body:
-            case Step() as body if endless:
+            case TypedNode() as body if endless:
                 yield from _lasting(implementation, body)
-            case Step() as body:
+            case TypedNode() as body:
                 yield from _ending(body)
             case s.RunPython() as target:
                 yield from _in_python(implementation, target, endless)
@@ -37,7 +37,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
             yield from _ending(task.body)
 
 
-def unending(step: Step) -> Iterator[Call]:
+def unending(step: TypedNode) -> Iterator[Call]:
     """Yield the calls of endless skills in a node that nothing in it halts."""
     match step.written:
         case s.Timeout():
@@ -58,7 +58,7 @@ def unending(step: Step) -> Iterator[Call]:
                 yield from unending(child)
 
 
-def _may_change(step: Step) -> bool:
+def _may_change(step: TypedNode) -> bool:
     """Whether a node that has ended may end otherwise when it is looked at again."""
     for each in within(step):
         if each.clauses:
@@ -68,7 +68,7 @@ def _may_change(step: Step) -> bool:
     return False
 
 
-def _ending(body: Step) -> Iterator[Diagnostic]:
+def _ending(body: TypedNode) -> Iterator[Diagnostic]:
     call = next(unending(body), None)
     if call is not None and call.skill is not None:
         yield Diagnostic(
@@ -80,7 +80,7 @@ def _ending(body: Step) -> Iterator[Diagnostic]:
         )
 
 
-def _lasting(implementation: Implementation, body: Step) -> Iterator[Diagnostic]:
+def _lasting(implementation: Implementation, body: TypedNode) -> Iterator[Diagnostic]:
     if next(unending(body), None) is None:
         skill = implementation.skill
         yield Diagnostic(

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Set
 from skillc_compiler.library.conditions import Assert, Assign, Compare, Holds, PropertyOf, Retract
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
 from skillc_compiler.logic.effects import NoEffect, effects
-from skillc_compiler.program.typed import Clause, Program
+from skillc_compiler.program.typed import Program, TypedCondition
 from skillc_compiler.program.walk import clauses_in
 from skillc_dsl.diagnostics import Diagnostic
 
@@ -34,7 +34,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 )
 
 
-def _term(clause: Clause) -> str | None:
+def _term(clause: TypedCondition) -> str | None:
     match clause.meaning:
         case Holds(relation=relation):
             return relation

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import And, Compare, Exists, HasProperty, Holds, IsA, Or, Same
 from skillc_compiler.library.reading import free_variables
-from skillc_compiler.program.typed import Clause, Program, Skill
+from skillc_compiler.program.typed import Program, Skill, TypedCondition
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("unlinked-inference",)
@@ -33,7 +33,7 @@ def _problem(skill: Skill, name: str, linked: set[str]) -> Diagnostic:
     )
 
 
-def _linked(clause: Clause) -> set[str]:
+def _linked(clause: TypedCondition) -> set[str]:
     """Return the variables of which a condition, when it holds, says something that is not so of everybody."""
     match clause.meaning:
         case And() | Exists():

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import Arithmetic, Compare
-from skillc_compiler.program.typed import Clause, Program, Valued
+from skillc_compiler.program.typed import Program, TypedCondition, TypedExpression
 from skillc_compiler.program.types import INT, UNKNOWN, Direction, Measure, Type, Vector, describe, fits
 from skillc_compiler.program.walk import clauses, values
 from skillc_compiler.resolve.values import result_type
@@ -25,13 +25,13 @@ def check(program: Program) -> Iterator[Diagnostic]:
             yield from _compared(program, clause, clause.meaning)
 
 
-def _arithmetic(value: Valued, meaning: Arithmetic) -> Iterator[Diagnostic]:
+def _arithmetic(value: TypedExpression, meaning: Arithmetic) -> Iterator[Diagnostic]:
     left, right = (part.type for part in value.parts)
     if result_type(meaning.operator, left, right) is None:
         yield _problem(value.span, meaning.operator, left, right)
 
 
-def _compared(program: Program, clause: Clause, meaning: Compare) -> Iterator[Diagnostic]:
+def _compared(program: Program, clause: TypedCondition, meaning: Compare) -> Iterator[Diagnostic]:
     if len(clause.values) != 2:
         return
     left, right = (side.type for side in clause.values)

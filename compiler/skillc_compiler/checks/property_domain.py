@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from skillc_compiler.library.conditions import HasProperty, PropertyOf
 from skillc_compiler.library.vocabulary import local_name
 from skillc_compiler.program.labels import declared
-from skillc_compiler.program.typed import Program, Valued
+from skillc_compiler.program.typed import Program, TypedExpression
 from skillc_compiler.program.types import Thing, describe, fits
 from skillc_compiler.program.walk import clauses, values
 from skillc_dsl.diagnostics import Diagnostic
@@ -25,7 +25,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
             yield from _fits(program, clause.meaning.property, clause.values[0])
 
 
-def _fits(program: Program, iri: str, of: Valued) -> Iterator[Diagnostic]:
+def _fits(program: Program, iri: str, of: TypedExpression) -> Iterator[Diagnostic]:
     term = program.vocabulary.properties.get(iri)
     if term is None or any(fits(program.vocabulary, of.type, Thing(domain)) for domain in term.domains):
         return

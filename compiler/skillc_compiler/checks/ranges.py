@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import isfinite
 
 from skillc_compiler.logic.folding import number
-from skillc_compiler.program.typed import Parameter, Program, Valued
+from skillc_compiler.program.typed import Parameter, Program, TypedExpression
 from skillc_compiler.program.types import INT, Measure, Type
 from skillc_compiler.program.walk import calls
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -47,7 +47,7 @@ def _empty(parameter: Parameter) -> Iterator[Diagnostic]:
         )
 
 
-def _outside(parameter: Parameter, value: Valued | None, place: Span | None = None) -> Iterator[Diagnostic]:
+def _outside(parameter: Parameter, value: TypedExpression | None, place: Span | None = None) -> Iterator[Diagnostic]:
     """Report a constant outside the range; `place` is where to report it if not at the value."""
     low, high = _bounds(parameter)
     known = _number(value, parameter.type)
@@ -75,7 +75,7 @@ def _bounds(parameter: Parameter) -> tuple[float | None, float | None]:
     return _number(parameter.low, parameter.type), _number(parameter.high, parameter.type)
 
 
-def _number(value: Valued | None, kind: Type) -> float | None:
+def _number(value: TypedExpression | None, kind: Type) -> float | None:
     """Return a bound, None if there is none or it is of another type, which is reported elsewhere."""
     return number(value.meaning) if value and _same(value.type, kind) else None
 

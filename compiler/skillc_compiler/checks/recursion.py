@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from skillc_compiler.program.typed import Call, Implementation, Program, Step
+from skillc_compiler.program.typed import Call, Implementation, Program, TypedNode
 from skillc_compiler.program.walk import within
 from skillc_dsl.diagnostics import Diagnostic
 
@@ -25,7 +25,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 
 def _edges(program: Program, implementation: Implementation) -> Iterator[tuple[str, Call]]:
-    if not isinstance(implementation.body, Step):
+    if not isinstance(implementation.body, TypedNode):
         return
     for step in within(implementation.body):
         if step.call and step.call.skill:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.logic.folding import number
-from skillc_compiler.program.typed import Parameter, Program, Refinement, Valued
+from skillc_compiler.program.typed import Parameter, Program, Refinement, TypedExpression
 from skillc_compiler.program.types import describe, fits
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -41,5 +41,5 @@ def _wider(new: Refinement, of: Parameter) -> bool:
     return below or above
 
 
-def _number(value: Valued | None) -> float | None:
+def _number(value: TypedExpression | None) -> float | None:
     return number(value.meaning) if value else None

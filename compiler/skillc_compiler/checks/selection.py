@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from skillc_compiler.logic.conflicts import Conflicts
 from skillc_compiler.logic.ranking import more_specific, ranked
-from skillc_compiler.logic.subsumption import asks, both_fit, takes_all_of
+from skillc_compiler.logic.subsumption import asks, both_fit, subsumes
 from skillc_compiler.program.typed import Implementation, Program
 from skillc_compiler.program.walk import calls
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -29,7 +29,7 @@ def _placed(
     conflicts: Conflicts, late: Implementation, before: Sequence[Implementation], called: bool
 ) -> Iterator[Diagnostic]:
     for early in before:
-        shadowed = takes_all_of(conflicts.vocabulary, early, late) and asks(early) != asks(late)
+        shadowed = subsumes(conflicts.vocabulary, early, late) and asks(early) != asks(late)
         if shadowed and not called and "fallback" not in late.skill.flags:
             yield _never(late, early)
             return

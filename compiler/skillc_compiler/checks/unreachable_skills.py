@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program.typed import Implementation, Program, Skill, Step
+from skillc_compiler.program.typed import Implementation, Program, Skill, TypedNode
 from skillc_compiler.program.walk import within
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
@@ -54,8 +54,8 @@ def _achieves_nothing(skill: Skill) -> bool:
 
 
 def _calls(implementation: Implementation) -> Iterator[str]:
-    return _called(implementation.body) if isinstance(implementation.body, Step) else iter(())
+    return _called(implementation.body) if isinstance(implementation.body, TypedNode) else iter(())
 
 
-def _called(body: Step) -> Iterator[str]:
+def _called(body: TypedNode) -> Iterator[str]:
     return (step.call.skill.name for step in within(body) if step.call and step.call.skill)

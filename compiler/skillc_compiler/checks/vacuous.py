@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from skillc_compiler.library.conditions import Compare, Given, Holds, IsA, Literal, Or, Same, Variable
-from skillc_compiler.logic.bounds import Bound, bound, decided, exclude
+from skillc_compiler.logic.bounds import Bound, are_disjoint, bound, decided
 from skillc_compiler.logic.conflicts import Conflicts
 from skillc_compiler.logic.conjunctions import conjuncts
 from skillc_compiler.logic.folding import fold, number
-from skillc_compiler.program.typed import Clause, Implementation, Parameter, Program, Skill, Step
+from skillc_compiler.program.typed import Implementation, Parameter, Program, Skill, TypedCondition, TypedNode
 from skillc_compiler.program.types import Thing, describe
 from skillc_compiler.program.walk import clauses_in, within
 from skillc_dsl.diagnostics import Diagnostic
@@ -26,7 +26,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
             yield from _judged(conflicts, part, parameters)
 
 
-def _conditions(program: Program) -> Iterator[tuple[Clause, _Parameters]]:
+def _conditions(program: Program) -> Iterator[tuple[TypedCondition, _Parameters]]:
     """Yield every condition with the parameters it may speak of."""
     owners: tuple[Skill | Implementation, ...] = (*program.skills.values(), *program.implementations)
     for owner in owners:
@@ -39,14 +39,14 @@ def _conditions(program: Program) -> Iterator[tuple[Clause, _Parameters]]:
             yield from ((clause, {}) for clause in step.clauses)
 
 
-def _written_in(owner: Skill | Implementation) -> Iterator[Clause]:
+def _written_in(owner: Skill | Implementation) -> Iterator[TypedCondition]:
     yield from (requirement.clause for requirement in owner.requirements if requirement.kind != "post")
-    if isinstance(owner, Implementation) and isinstance(owner.body, Step):
+    if isinstance(owner, Implementation) and isinstance(owner.body, TypedNode):
         for step in within(owner.body):
             yield from step.clauses
 
 
-def _judged(conflicts: Conflicts, clause: Clause, parameters: _Parameters) -> Iterator[Diagnostic]:
+def _judged(conflicts: Conflicts, clause: TypedCondition, parameters: _Parameters) -> Iterator[Diagnostic]:
     found = _truth(conflicts, clause, parameters)
     if found is not None:
         answer, reason = found
@@ -59,7 +59,7 @@ def _judged(conflicts: Conflicts, clause: Clause, parameters: _Parameters) -> It
         )
 
 
-def _truth(conflicts: Conflicts, clause: Clause, parameters: _Parameters) -> tuple[bool, str] | None:
+def _truth(conflicts: Conflicts, clause: TypedCondition, parameters: _Parameters) -> tuple[bool, str] | None:
     """Return whether a condition always or never holds, and why; None if it depends."""
     match clause.meaning:
         case Holds() as fact if conflicts.impossible(fact):
@@ -79,7 +79,7 @@ def _truth(conflicts: Conflicts, clause: Clause, parameters: _Parameters) -> tup
     return None
 
 
-def _any_way(conflicts: Conflicts, clause: Clause) -> tuple[bool, str] | None:
+def _any_way(conflicts: Conflicts, clause: TypedCondition) -> tuple[bool, str] | None:
     """Find two parts of an `or` of which one holds whenever the other does not."""
     denied = [(fact, part) for part in clause.parts for fact in conjuncts(part, holds=False)]
     pairs = ((one, other) for i, (one, _) in enumerate(denied) for other, _ in denied[:i])
@@ -98,9 +98,9 @@ def _compared(comparison: Compare, parameters: _Parameters) -> tuple[bool, str] 
     if limit is None or not isinstance(limit.of, Variable) or limit.of.name not in parameters:
         return None
     name, range_ = limit.of.name, tuple(_range(parameters[limit.of.name]))
-    if any(exclude(limit, end) for end in range_):
+    if any(are_disjoint(limit, end) for end in range_):
         return False, f"no value in the range of `{name}` is such"
-    if any(exclude(limit.opposite(), end) for end in range_):
+    if any(are_disjoint(limit.opposite(), end) for end in range_):
         return True, f"every value in the range of `{name}` is such"
     return None
 

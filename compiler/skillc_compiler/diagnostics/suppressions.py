@@ -13,11 +13,11 @@ from skillc_dsl.comments import Comment, find_comments
 from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean
 from skillc_dsl.source import Source, Span
 
-_ALLOWANCE = re.compile(r"#\s*allow\s+(?P<name>[\w-]+)\s*(?P<colon>:?)\s*(?P<reason>.*)")
+_SUPPRESSION = re.compile(r"#\s*allow\s+(?P<name>[\w-]+)\s*(?P<colon>:?)\s*(?P<reason>.*)")
 
 
 @dataclass(frozen=True, slots=True)
-class Allowance:
+class Suppression:
     """A comment that allows the warnings called `name` on `line`; `reason` may be missing."""
 
     name: s.Name
@@ -26,12 +26,12 @@ class Allowance:
     comment: Span
 
 
-def heeded(problems: Sequence[Diagnostic], sources: Iterable[Source]) -> tuple[Diagnostic, ...]:
-    """Return the problems without the warnings that `sources` allow, and with what is wrong with the allowances.
+def apply_suppressions(problems: Sequence[Diagnostic], sources: Iterable[Source]) -> tuple[Diagnostic, ...]:
+    """Return the problems without the warnings that `sources` allow, and with what is wrong with the suppressions.
 
     Which of them are unused is told only where there is no error, because errors leave things unchecked.
     """
-    found = tuple(allowance for source in sources for allowance in allowances(source))
+    found = tuple(suppression for source in sources for suppression in find_suppressions(source))
     if not found:
         return tuple(problems)
     allowed = {(each.comment.path, each.line, each.name.text) for each in found}
@@ -42,30 +42,32 @@ def heeded(problems: Sequence[Diagnostic], sources: Iterable[Source]) -> tuple[D
     return (*left, *(flaw for each in found for flaw in _flaws(each, used, errors)))
 
 
-def without_allowed(problems: Iterable[Diagnostic], sources: Iterable[Source]) -> tuple[Diagnostic, ...]:
+def without_suppressed(problems: Iterable[Diagnostic], sources: Iterable[Source]) -> tuple[Diagnostic, ...]:
     """Leave out the warnings that `sources` allow, of problems that are found when a library has been compiled."""
-    allowed = {(each.comment.path, each.line, each.name.text) for source in sources for each in allowances(source)}
+    allowed = {
+        (each.comment.path, each.line, each.name.text) for source in sources for each in find_suppressions(source)
+    }
     return tuple(each for each in problems if each.severity != "warning" or _place(each) not in allowed)
 
 
-def allowances(source: Source) -> Iterator[Allowance]:
-    """Yield the allowances in a text; each is for the first line below that is no comment."""
+def find_suppressions(source: Source) -> Iterator[Suppression]:
+    """Yield the suppressions in a text; each is for the first line below that is no comment."""
     if "allow" not in source.text:
         return
     every = find_comments(source)
     alone = {comment.span.line for comment in every if comment.alone}
     for comment in every:
-        match = _ALLOWANCE.fullmatch(comment.written)
+        match = _SUPPRESSION.fullmatch(comment.written)
         if match is None or not comment.alone or not _is_meant(match):
             continue
         line = comment.span.line + 1
         while line in alone:
             line += 1
-        yield Allowance(_name(comment, match), match["reason"].strip(), line, comment.span)
+        yield Suppression(_name(comment, match), match["reason"].strip(), line, comment.span)
 
 
 def _is_meant(match: re.Match[str]) -> bool:
-    """Whether this is an allowance and not prose that begins with the word."""
+    """Whether this is a suppression and not prose that begins with the word."""
     return bool(match["colon"]) or "-" in match["name"] or match["name"] in page_names()
 
 
@@ -75,7 +77,7 @@ def _name(comment: Comment, match: re.Match[str]) -> s.Name:
     return s.Name(match["name"], Span(span.path, span.line, start, span.line, end))
 
 
-def _flaws(each: Allowance, used: set[tuple[str, int, str]], errors: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
+def _flaws(each: Suppression, used: set[tuple[str, int, str]], errors: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
     name = each.name.text
     if name not in page_names():
         yield Diagnostic(
@@ -100,7 +102,7 @@ def _is_found_later(name: str) -> bool:
     return name == "unknown-value" or page(name).found_by == "check"
 
 
-def _unused(each: Allowance, message: str, help_: str) -> Diagnostic:
+def _unused(each: Suppression, message: str, help_: str) -> Diagnostic:
     span = each.comment
     whole = Span(span.path, span.line, 1, span.line + 1, 1)
     fix = Fix(whole, "", "delete the comment")

@@ -24,14 +24,14 @@ from skillc_dsl.source import Source, Span
 
 @dataclass(frozen=True, slots=True)
 class Library:
-    """What is analysed: the texts of a library, the shelf beside it, the ontology, the scenes of its tasks.
+    """What is analysed: the texts of a library, the files that it may import, the ontology, the scenes of its tasks.
 
-    `sources` are keyed by path relative to the library, `shelf` by the name that an import gives.
+    `sources` are keyed by path relative to the library, `importable` by the name that an import gives.
     """
 
     name: str
     sources: Mapping[str, Source]
-    shelf: Mapping[str, Source]
+    importable: Mapping[str, Source]
     vocabulary: Vocabulary
     scenes: Mapping[str, Individuals] = field(default_factory=lambda: dict(NO_SCENES))
 
@@ -97,7 +97,7 @@ class Analysis:
 
 def analyse(library: Library, parsed_by: Parse = parse) -> Analysis:
     """Understand a library; `parsed_by` may remember what it parsed before."""
-    files = read(_ordered(library), library.shelf, library.name, parsed_by)
+    files = read(_ordered(library), library.importable, library.name, parsed_by)
     program = resolve(files.value, library.vocabulary, library.name, library.scenes)
     return Analysis(library, files, program, parsed_by)
 

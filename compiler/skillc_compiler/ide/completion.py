@@ -17,7 +17,7 @@ from skillc_compiler.ide.offers import Offer
 from skillc_compiler.ide.surroundings import Surroundings, surroundings
 from skillc_compiler.ide.term_pages import type_text
 from skillc_compiler.program.types import Measure, Thing
-from skillc_compiler.resolve.values import Wanted
+from skillc_compiler.resolve.values import ExpectedType
 from skillc_dsl.parsing.grammar import END, fixed_texts, list_fitting_terminals, shift
 from skillc_dsl.source import Span
 from skillc_dsl.tokens import KEYWORDS
@@ -55,7 +55,7 @@ def _offers(
             if text.lstrip("#").split()[:1] == ["allow"] and ":" not in text:
                 yield from (Offer(name, "diagnostic") for name in warnings)
         case InText(opener="import"):
-            names = [name for name in (*analysis.library.sources, *analysis.library.shelf) if name != path]
+            names = [name for name in (*analysis.library.sources, *analysis.library.importable) if name != path]
             yield from (Offer(name, "file", written=f'"{name}') for name in dict.fromkeys(names))
         case InText(opener="scene"):
             yield from (Offer(name, "file", "scene", written=f'"{name}') for name in scenes)
@@ -155,7 +155,7 @@ def _in_values(analysis: Analysis, around: Surroundings, cursor: InCode) -> Iter
         yield from offers.relations(around, around.type_of(before))
     elif cursor.fits("UNDERSCORE") and not cursor.fits("UNDERSCORE", "SENSED"):
         for cls in ranges(around, before[-1].value, around.type_of(before[:-1])):
-            yield from offers.values(around, Wanted(Thing(cls)))
+            yield from offers.values(around, ExpectedType(Thing(cls)))
     elif cursor.fits("NAME", "LSQB"):
         yield from offers.skills(analysis, around, scoped=types[-1] == "WITH")
         yield from offers.skills_elsewhere(analysis, cursor.word.path, scoped=types[-1] == "WITH")

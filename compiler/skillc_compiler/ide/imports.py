@@ -10,7 +10,7 @@ from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Fix
 from skillc_dsl.source import Span
 
-SHELF = "std/"
+STANDARD_LIBRARY = "std/"
 
 
 def importable(analysis: Analysis, path: str) -> Iterator[tuple[s.SkillDeclaration, str]]:
@@ -38,6 +38,6 @@ def _files(analysis: Analysis, path: str) -> Mapping[str, s.File]:
         for unit in analysis.program.files
         if unit.file.path in analysis.library.sources and unit.file.path != path
     }
-    shipped = (item for item in analysis.library.shelf.items() if item[1].path.startswith(SHELF))
-    shelf = {name: analysis.parsed_by(source).value for name, source in shipped if name not in own}
-    return {**own, **shelf}
+    shipped = (item for item in analysis.library.importable.items() if item[1].path.startswith(STANDARD_LIBRARY))
+    standard = {name: analysis.parsed_by(source).value for name, source in shipped if name not in own}
+    return {**own, **standard}

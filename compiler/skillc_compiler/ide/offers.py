@@ -16,7 +16,7 @@ from skillc_compiler.program.typed import Parameter
 from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, Type, describe, fits, of_library
 from skillc_compiler.resolve.names import Kind
 from skillc_compiler.resolve.typenames import BUILT_IN
-from skillc_compiler.resolve.values import Wanted
+from skillc_compiler.resolve.values import ExpectedType
 from skillc_dsl import syntax as s
 from skillc_dsl.units import DIMENSIONS
 
@@ -87,7 +87,7 @@ def properties(around: Surroundings, of: Type) -> Iterator[Offer]:
         yield Offer(text, "property", type_text(term.type), term.comment, rank=_generality(term))
 
 
-def values(around: Surroundings, wanted: Wanted) -> Iterator[Offer]:
+def values(around: Surroundings, wanted: ExpectedType) -> Iterator[Offer]:
     """Offer what has a value of the wanted type: choices, local names, their properties, functions, individuals."""
     vocabulary = around.visible.vocabulary
     yield from (Offer(text, "value", "a value of the property") for text in wanted.values)

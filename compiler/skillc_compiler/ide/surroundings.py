@@ -10,7 +10,7 @@ from lark import Token
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.cursor import InCode
 from skillc_compiler.ide.visible import Visible
-from skillc_compiler.program.typed import Implementation, Skill, Step, Task
+from skillc_compiler.program.typed import Implementation, Skill, Task, TypedNode
 from skillc_compiler.program.types import UNKNOWN, ListOf, Thing, Type, of_library
 from skillc_compiler.program.walk import within
 from skillc_compiler.resolve.individuals import narrowest
@@ -85,12 +85,12 @@ def _locals(
         return
     for let in implementation.lets:
         yield let.name.text, let.value.type
-    if isinstance(implementation.body, Step):
+    if isinstance(implementation.body, TypedNode):
         for step in within(implementation.body):
             yield from _bound(step)
 
 
-def _bound(step: Step) -> Iterator[tuple[str, Type]]:
+def _bound(step: TypedNode) -> Iterator[tuple[str, Type]]:
     if isinstance(step.written, s.For):
         items = step.values[0].type
         yield step.written.variable.text, items.element if isinstance(items, ListOf) else UNKNOWN

@@ -42,7 +42,7 @@ def bound(condition: Condition) -> Bound | None:
     return None
 
 
-def exclude(one: Bound, other: Bound) -> bool:
+def are_disjoint(one: Bound, other: Bound) -> bool:
     """Whether no value is allowed by both; they must be about the same thing."""
     first, second = one.value, other.value
     if isinstance(first, str | bool) or isinstance(second, str | bool):

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from skillc_compiler.library.conditions import Anything, HasProperty, Holds, Individual, IsA, PropertyOf, Term
 from skillc_compiler.library.pddl.relations import Reading, Relations
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.logic.bounds import Bound, bound, exclude
+from skillc_compiler.logic.bounds import Bound, are_disjoint, bound
 from skillc_compiler.logic.conjunctions import Fact
 
 
@@ -96,7 +96,7 @@ class Conflicts:
     def _valued(self, one: Fact, other: Fact) -> bool:
         mine, theirs = bound(one.meaning), bound(other.meaning)
         if mine is not None and theirs is not None and mine.of == theirs.of:
-            return exclude(mine, theirs if other.holds else theirs.opposite())
+            return are_disjoint(mine, theirs if other.holds else theirs.opposite())
         match mine, other.meaning:
             case Bound(of=PropertyOf(of=of, property=name)), HasProperty(subject=subject, property=absent):
                 return not other.holds and (of, name) == (subject, absent)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from skillc_compiler.library.conditions import And, Condition, Expression, Individual, Not, Or, Same, Variable
 from skillc_compiler.library.pddl.rewriting import replaced
-from skillc_compiler.program.typed import Clause, Implementation, Program, Requirement, Skill
+from skillc_compiler.program.typed import Implementation, Program, Requirement, Skill, TypedCondition
 from skillc_compiler.program.walk import clauses_in, steps
 
 
@@ -15,9 +15,9 @@ from skillc_compiler.program.walk import clauses_in, steps
 class Fact:
     """A condition without `and` and `not`, and whether it holds; `source` is what was written for that."""
 
-    clause: Clause
+    clause: TypedCondition
     holds: bool
-    source: Clause
+    source: TypedCondition
 
     @property
     def meaning(self) -> Condition:
@@ -26,14 +26,14 @@ class Fact:
 
 
 @dataclass(frozen=True, slots=True)
-class Together:
+class ConjunctionGroup:
     """Facts that shall be true at the same time; of those `given` no problem is told again."""
 
     own: tuple[Fact, ...]
     given: tuple[Fact, ...] = ()
 
 
-def conjuncts(clause: Clause, holds: bool = True, source: Clause | None = None) -> Iterator[Fact]:
+def conjuncts(clause: TypedCondition, holds: bool = True, source: TypedCondition | None = None) -> Iterator[Fact]:
     """Yield what certainly is the case when the condition holds, or when it does not."""
     match clause.meaning:
         case Not():
@@ -72,21 +72,21 @@ def renamed(fact: Fact, names: Mapping[str, Expression]) -> Fact:
     return replace(fact, clause=replace(fact.clause, meaning=replaced(fact.meaning, names))) if names else fact
 
 
-def together(program: Program) -> Iterator[Together]:
+def together(program: Program) -> Iterator[ConjunctionGroup]:
     """Yield every group of facts that a description, implementation, goal, node or part of a condition joins."""
     for skill in program.skills.values():
-        yield Together(_facts(skill.requirements))
+        yield ConjunctionGroup(_facts(skill.requirements))
     for implementation in program.implementations:
-        yield Together(_facts(implementation.requirements), _facts(implementation.skill.requirements))
+        yield ConjunctionGroup(_facts(implementation.requirements), _facts(implementation.skill.requirements))
     alone = [task.goal for task in program.tasks if task.goal]
     alone += [clause for step in steps(program) for clause in step.clauses]
     for clause in alone:
-        yield Together(tuple(conjuncts(clause)))
+        yield ConjunctionGroup(tuple(conjuncts(clause)))
     for clause in (*alone, *_conditions(program)):
         yield from _inner(clause)
 
 
-def _conditions(program: Program) -> Iterator[Clause]:
+def _conditions(program: Program) -> Iterator[TypedCondition]:
     owners: tuple[Skill | Implementation, ...] = (*program.skills.values(), *program.implementations)
     for owner in owners:
         yield from (requirement.clause for requirement in owner.requirements)
@@ -96,9 +96,9 @@ def _facts(requirements: tuple[Requirement, ...]) -> tuple[Fact, ...]:
     return tuple(fact for r in requirements if r.kind != "post" for fact in conjuncts(r.clause))
 
 
-def _inner(clause: Clause) -> Iterator[Together]:
+def _inner(clause: TypedCondition) -> Iterator[ConjunctionGroup]:
     """Yield the groups inside `or` and quantifiers."""
     for part in clauses_in(clause):
         if not isinstance(part.meaning, And | Not):
             for below in part.parts:
-                yield Together(tuple(conjuncts(below)))
+                yield ConjunctionGroup(tuple(conjuncts(below)))

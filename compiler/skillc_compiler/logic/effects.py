@@ -20,7 +20,7 @@ from skillc_compiler.library.conditions import (
     Retract,
     Variable,
 )
-from skillc_compiler.program.typed import Clause
+from skillc_compiler.program.typed import TypedCondition
 from skillc_dsl.source import Span
 
 
@@ -32,7 +32,7 @@ class NoEffect:
     reason: str
 
 
-def effects(post: Clause) -> tuple[Effect | NoEffect, ...]:
+def effects(post: TypedCondition) -> tuple[Effect | NoEffect, ...]:
     """Return what a post, a conjunction of literals, changes; a part that is no literal gives a NoEffect."""
     match post.meaning:
         case And():
@@ -43,7 +43,7 @@ def effects(post: Clause) -> tuple[Effect | NoEffect, ...]:
             return (_positive(post),)
 
 
-def _positive(post: Clause) -> Effect | NoEffect:
+def _positive(post: TypedCondition) -> Effect | NoEffect:
     match post.meaning:
         case Holds(subject=Anything()) | Holds(object=Anything()):
             return NoEffect(post.span, "it does not say which individual is related")
@@ -61,7 +61,7 @@ def _positive(post: Clause) -> Effect | NoEffect:
     return NoEffect(post.span, "only relations and `property == value` can be made true")
 
 
-def _negative(whole: Clause, body: Clause) -> Effect | NoEffect:
+def _negative(whole: TypedCondition, body: TypedCondition) -> Effect | NoEffect:
     match body.meaning:
         case Holds(subject=subject, relation=relation, object=object_):
             return Retract(subject, relation, object_)
@@ -72,7 +72,7 @@ def _negative(whole: Clause, body: Clause) -> Effect | NoEffect:
     return NoEffect(whole.span, "only relations and truth values can be made false")
 
 
-def _assign(post: Clause, of: Expression, name: str, value: Expression) -> Effect | NoEffect:
+def _assign(post: TypedCondition, of: Expression, name: str, value: Expression) -> Effect | NoEffect:
     if isinstance(of, Variable | Individual):
         return Assign(of, name, value)
     return NoEffect(post.span, "only a parameter's or an individual's property can be set")

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from skillc_compiler.library.conditions import Condition, Literal
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.logic.bounds import Bound, exclude
+from skillc_compiler.logic.bounds import Bound, are_disjoint
 from skillc_compiler.logic.conflicts import Conflicts
 from skillc_compiler.logic.conjunctions import Fact, conjuncts
 from skillc_compiler.logic.folding import number
-from skillc_compiler.program.typed import Implementation, Parameter, Valued
+from skillc_compiler.program.typed import Implementation, Parameter, TypedExpression
 from skillc_compiler.program.types import Thing, Type, fits
 
 _ANY = Literal(0.0)
@@ -32,7 +32,7 @@ def both_fit(conflicts: Conflicts, one: Implementation, other: Implementation) -
     return not any(conflicts.between(a, b) for a in _own(one) for b in _own(other))
 
 
-def takes_all_of(vocabulary: Vocabulary, one: Implementation, other: Implementation) -> bool:
+def subsumes(vocabulary: Vocabulary, one: Implementation, other: Implementation) -> bool:
     """Whether an implementation fits wherever the other does: it asks for no more."""
     pairs = zip(one.parameters, other.parameters, strict=True)
     return all(fits(vocabulary, b.type, a.type) and _range_holds(a, b) for a, b in pairs) and asks(one) <= asks(other)
@@ -49,13 +49,13 @@ def _own(implementation: Implementation) -> list[Fact]:
 
 def _ranges_meet(one: Parameter, other: Parameter) -> bool:
     pairs = ((_low(one), _high(other)), (_low(other), _high(one)))
-    return not any(low and high and exclude(low, high) for low, high in pairs)
+    return not any(low and high and are_disjoint(low, high) for low, high in pairs)
 
 
 def _range_holds(wide: Parameter, narrow: Parameter) -> bool:
     """Whether all values in the range of one parameter are in that of another."""
     ends = ((_low(wide), _low(narrow)), (_high(wide), _high(narrow)))
-    return all(outer is None or (inner is not None and exclude(inner, outer.opposite())) for outer, inner in ends)
+    return all(outer is None or (inner is not None and are_disjoint(inner, outer.opposite())) for outer, inner in ends)
 
 
 def _low(parameter: Parameter) -> Bound | None:
@@ -66,7 +66,7 @@ def _high(parameter: Parameter) -> Bound | None:
     return _end(parameter.high, "<=")
 
 
-def _end(value: Valued | None, operator: str) -> Bound | None:
+def _end(value: TypedExpression | None, operator: str) -> Bound | None:
     known = number(value.meaning) if value else None
     if known is None:
         return None

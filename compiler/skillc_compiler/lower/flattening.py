@@ -15,9 +15,9 @@ from skillc_compiler.program.typed import (
     Parameter,
     Requirement,
     Skill,
-    Step,
     Task,
-    Valued,
+    TypedExpression,
+    TypedNode,
     position,
 )
 from skillc_dsl import syntax as s
@@ -44,7 +44,7 @@ def skill(understood: Skill, implementations: Sequence[str]) -> library.Skill:
     )
 
 
-def implementation(understood: Implementation, body: Step | s.RunPython) -> library.Implementation:
+def implementation(understood: Implementation, body: TypedNode | s.RunPython) -> library.Implementation:
     """Return an implementation with the description's conditions before its own."""
     labelled = label((*understood.skill.requirements, *understood.requirements))
     return library.Implementation(
@@ -58,7 +58,7 @@ def implementation(understood: Implementation, body: Step | s.RunPython) -> libr
         duration=_expression(understood.duration or understood.skill.duration),
         prefer=understood.prefer,
         lets=tuple(library.Let(let.name.text, fold(let.value.meaning)) for let in understood.lets),
-        body=library.Compound(node(body)) if isinstance(body, Step) else library.Primitive(body.target.value),
+        body=library.Compound(node(body)) if isinstance(body, TypedNode) else library.Primitive(body.target.value),
         verify=tuple(verified(each) for each in understood.verify),
         source=position(understood.span),
     )
@@ -131,7 +131,7 @@ def _parameter(understood: Parameter) -> library.Parameter:
     )
 
 
-def _expression(valued: Valued | None) -> Expression | None:
+def _expression(valued: TypedExpression | None) -> Expression | None:
     return fold(valued.meaning) if valued else None
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from skillc_compiler.library.conditions import Invoke
-from skillc_compiler.program.typed import Call, Parameter, Program, Refinement, Valued
+from skillc_compiler.program.typed import Call, Parameter, Program, Refinement, TypedExpression
 from skillc_compiler.program.types import UNKNOWN, ListOf, Measure, Type, of_library
 from skillc_compiler.program.walk import calls, steps, values
 from skillc_dsl import syntax as s
@@ -20,7 +20,7 @@ SECONDS = Measure(TIME)
 class Place:
     """A value and the type expected of it; `by` reads on from "is expected", `cause` is where that is said."""
 
-    value: Valued
+    value: TypedExpression
     wanted: Type
     by: str
     cause: Span | None = None
@@ -68,12 +68,12 @@ def _head(parameter: Parameter | Refinement, name: str, declared: Span) -> Itera
             yield Place(bound, parameter.type, f"as a bound of `{name}`", declared)
 
 
-def _seconds(value: Valued | None, by: str) -> Iterator[Place]:
+def _seconds(value: TypedExpression | None, by: str) -> Iterator[Place]:
     if value is not None:
         yield Place(value, SECONDS, by)
 
 
-def _applied(program: Program, value: Valued, meaning: Invoke) -> Iterator[Place]:
+def _applied(program: Program, value: TypedExpression, meaning: Invoke) -> Iterator[Place]:
     function = program.vocabulary.functions.get(meaning.function)
     if function is None:
         return

@@ -16,23 +16,23 @@ from skillc_dsl.source import Span
 
 
 @dataclass(frozen=True, slots=True)
-class Valued:
+class TypedExpression:
     """A value: what it means, its type, its place and the values it is made of. `_` is a variable of that name."""
 
     meaning: Expression
     type: Type
     span: Span
-    parts: tuple[Valued, ...] = ()
+    parts: tuple[TypedExpression, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
-class Clause:
+class TypedCondition:
     """A condition: what it means, where it stands, the values it speaks of and the conditions it is made of."""
 
     meaning: Condition
     span: Span
-    values: tuple[Valued, ...] = ()
-    parts: tuple[Clause, ...] = ()
+    values: tuple[TypedExpression, ...] = ()
+    parts: tuple[TypedCondition, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,9 +44,9 @@ class Parameter:
     any_: bool
     declared: ValueType
     type: Type
-    default: Valued | None
-    low: Valued | None
-    high: Valued | None
+    default: TypedExpression | None
+    low: TypedExpression | None
+    high: TypedExpression | None
     doc: str
     span: Span
 
@@ -63,7 +63,7 @@ class Requirement:
     kind: OneOf["pre", "hold", "post"]
     label: s.Name | None
     sensed: bool
-    clause: Clause
+    clause: TypedCondition
     text: str
     span: Span
 
@@ -76,7 +76,7 @@ class Skill:
     doc: str
     parameters: tuple[Parameter, ...]
     requirements: tuple[Requirement, ...]
-    duration: Valued | None
+    duration: TypedExpression | None
     devices: tuple[s.DeviceUse, ...]
     flags: frozenset[str]
     name_span: Span
@@ -92,7 +92,7 @@ class Argument:
     """A value for a parameter of a called skill or function."""
 
     name: s.Name
-    value: Valued
+    value: TypedExpression
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,15 +107,15 @@ class Call:
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class TypedNode:
     """A node of a body: as written, with its values, conditions and call understood."""
 
     written: s.Node
-    values: tuple[Valued, ...] = ()
-    clauses: tuple[Clause, ...] = ()
+    values: tuple[TypedExpression, ...] = ()
+    clauses: tuple[TypedCondition, ...] = ()
     call: Call | None = None
-    children: tuple[Step, ...] = ()
-    orelse: tuple[Step, ...] = ()
+    children: tuple[TypedNode, ...] = ()
+    orelse: tuple[TypedNode, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,9 +125,9 @@ class Refinement:
     of: Parameter | None
     declared: ValueType
     type: Type
-    default: Valued | None
-    low: Valued | None
-    high: Valued | None
+    default: TypedExpression | None
+    low: TypedExpression | None
+    high: TypedExpression | None
     written: s.Refinement
 
 
@@ -136,7 +136,7 @@ class Let:
     """A named value."""
 
     name: s.Name
-    value: Valued
+    value: TypedExpression
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,7 +144,7 @@ class Measured:
     """The measured contact force, compared with a limit."""
 
     operator: OneOf["==", "!=", "<", "<=", ">", ">="]
-    limit: Valued
+    limit: TypedExpression
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,7 +153,7 @@ class Event:
 
     span: Span
     skill: str | None = None
-    clause: Clause | None = None
+    clause: TypedCondition | None = None
     measured: Measured | None = None
 
 
@@ -168,7 +168,7 @@ class Property:
     span: Span
 
 
-Body: TypeAlias = Step | s.RunPython | None
+Body: TypeAlias = TypedNode | s.RunPython | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,7 +181,7 @@ class Implementation:
     refinements: tuple[Refinement, ...]
     parameters: tuple[Parameter, ...]
     requirements: tuple[Requirement, ...]
-    duration: Valued | None
+    duration: TypedExpression | None
     prefer: float
     lets: tuple[Let, ...]
     body: Body
@@ -202,9 +202,9 @@ class Task:
     name: str
     doc: str
     scene: str | None
-    goal: Clause | None
+    goal: TypedCondition | None
     goal_text: str
-    body: Step | None
+    body: TypedNode | None
     name_span: Span
     span: Span
 

@@ -4,20 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program.typed import Call, Clause, Event, Implementation, Program, Requirement, Skill, Step, Valued
+from skillc_compiler.program.typed import (
+    Call,
+    Event,
+    Implementation,
+    Program,
+    Requirement,
+    Skill,
+    TypedCondition,
+    TypedExpression,
+    TypedNode,
+)
 
 
-def steps(program: Program) -> Iterator[Step]:
+def steps(program: Program) -> Iterator[TypedNode]:
     """Yield every node of every body."""
     for implementation in program.implementations:
-        if isinstance(implementation.body, Step):
+        if isinstance(implementation.body, TypedNode):
             yield from within(implementation.body)
     for task in program.tasks:
         if task.body:
             yield from within(task.body)
 
 
-def within(step: Step) -> Iterator[Step]:
+def within(step: TypedNode) -> Iterator[TypedNode]:
     """Yield a step and all steps in it."""
     yield step
     for child in (*step.children, *step.orelse):
@@ -37,7 +47,7 @@ def requirements(program: Program) -> Iterator[Requirement]:
         yield from implementation.requirements
 
 
-def clauses(program: Program) -> Iterator[Clause]:
+def clauses(program: Program) -> Iterator[TypedCondition]:
     """Yield every condition and its parts."""
     for requirement in requirements(program):
         yield from clauses_in(requirement.clause)
@@ -59,14 +69,14 @@ def events(program: Program) -> Iterator[Event]:
             yield from (event for event in (line.first, line.second) if event)
 
 
-def clauses_in(clause: Clause) -> Iterator[Clause]:
+def clauses_in(clause: TypedCondition) -> Iterator[TypedCondition]:
     """Yield a condition and its parts."""
     yield clause
     for part in clause.parts:
         yield from clauses_in(part)
 
 
-def values(program: Program) -> Iterator[Valued]:
+def values(program: Program) -> Iterator[TypedExpression]:
     """Yield every value and what it is made of."""
     for skill in program.skills.values():
         yield from _all(*skill_values(skill))
@@ -81,7 +91,7 @@ def values(program: Program) -> Iterator[Valued]:
         yield from _all(*step_values(step))
 
 
-def skill_values(skill: Skill) -> Iterator[Valued]:
+def skill_values(skill: Skill) -> Iterator[TypedExpression]:
     """Yield the values in a skill's head, without those in its conditions."""
     for parameter in skill.parameters:
         yield from (value for value in (parameter.default, parameter.low, parameter.high) if value)
@@ -89,7 +99,7 @@ def skill_values(skill: Skill) -> Iterator[Valued]:
         yield skill.duration
 
 
-def implementation_values(implementation: Implementation) -> Iterator[Valued]:
+def implementation_values(implementation: Implementation) -> Iterator[TypedExpression]:
     """Yield the values an implementation adds, without those in its conditions and body."""
     for new in implementation.refinements:
         yield from (value for value in (new.default, new.low, new.high) if value)
@@ -98,20 +108,20 @@ def implementation_values(implementation: Implementation) -> Iterator[Valued]:
     yield from (let.value for let in implementation.lets)
 
 
-def step_values(step: Step) -> Iterator[Valued]:
+def step_values(step: TypedNode) -> Iterator[TypedExpression]:
     """Yield the values of one node, those in its conditions excepted."""
     yield from step.values
     if step.call:
         yield from (argument.value for argument in step.call.arguments)
 
 
-def values_in(value: Valued) -> Iterator[Valued]:
+def values_in(value: TypedExpression) -> Iterator[TypedExpression]:
     """Yield a value and what it is made of."""
     yield value
     for part in value.parts:
         yield from values_in(part)
 
 
-def _all(*whole: Valued) -> Iterator[Valued]:
+def _all(*whole: TypedExpression) -> Iterator[TypedExpression]:
     for value in whole:
         yield from values_in(value)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from skillc_compiler.program.typed import Call, Step
+from skillc_compiler.program.typed import Call, TypedNode
 from skillc_compiler.proof.binding import bound, required
 from skillc_compiler.proof.forgetting import forgotten
 from skillc_compiler.proof.learning import learned
@@ -14,7 +14,7 @@ from skillc_compiler.proof.writes import Assigned, Write
 from skillc_dsl import syntax as s
 
 
-def parallel(run: Run, node: Step, kind: str, ways: Ways, around: Around) -> Ends:
+def parallel(run: Run, node: TypedNode, kind: str, ways: Ways, around: Around) -> Ends:
     """`par`: how it ends, by which of the children decides."""
     writes = [run.writes(child) for child in node.children]
     if not node.children:
@@ -42,7 +42,7 @@ def _place(kind: str, number: int, around: Around, several: Around) -> Around:
     return around.catching() if kind == "par lead" and number else several
 
 
-def _all(run: Run, node: Step, writes: list[frozenset[Write]], ways: Ways, around: Around) -> Ends:
+def _all(run: Run, node: TypedNode, writes: list[frozenset[Write]], ways: Ways, around: Around) -> Ends:
     """All must succeed: the ends are followed as if one ran after the other, each keeping what no other may write."""
     ends = Ends(success=dict(ways))
     known = frozenset.intersection(*(state.assigned for state in ways))
@@ -67,7 +67,7 @@ def _all(run: Run, node: Step, writes: list[frozenset[Write]], ways: Ways, aroun
     return ends
 
 
-def _while_others_run(run: Run, node: Step, number: int, ways: Ways, around: Around) -> Ends:
+def _while_others_run(run: Run, node: TypedNode, number: int, ways: Ways, around: Around) -> Ends:
     """Look at a child as it begins, when what the others will have reached is not there yet."""
     return run.explore(run, node.children[number], mixed(run, ways, *_siblings(node, number)), around)
 
@@ -87,7 +87,7 @@ def _not_yet(state: State, others: frozenset[Write], known: frozenset[str]) -> S
     return state.replaced(assigned=state.assigned - (assigned - known))
 
 
-def _siblings(node: Step, number: int) -> tuple[Step, ...]:
+def _siblings(node: TypedNode, number: int) -> tuple[TypedNode, ...]:
     return (*node.children[:number], *node.children[number + 1 :])
 
 
@@ -95,12 +95,12 @@ def _others(writes: list[frozenset[Write]], number: int) -> frozenset[Write]:
     return frozenset().union(*(each for index, each in enumerate(writes) if index != number))
 
 
-def stopped(run: Run, node: Step, ways: Ways, around: Around) -> dict[State, Way]:
+def stopped(run: Run, node: TypedNode, ways: Ways, around: Around) -> dict[State, Way]:
     """Return what is known after a node was halted, wherever it was."""
     return after(run.sorts, mixed(run, ways, node), run.writes(node) | around.disturbing)
 
 
-def reactive_sequence(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
+def reactive_sequence(run: Run, node: TypedNode, ways: Ways, around: Around) -> Ends:
     """`reactive seq`: children before a running one may run again; in the end the result of each still holds."""
     writes = [run.writes(child) for child in node.children]
     together = frozenset[Write]().union(*writes)
@@ -115,7 +115,7 @@ def reactive_sequence(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
     return ends
 
 
-def _lasting(run: Run, node: Step, writes: list[frozenset[Write]], ways: Ways) -> dict[State, Way]:
+def _lasting(run: Run, node: TypedNode, writes: list[frozenset[Write]], ways: Ways) -> dict[State, Way]:
     found: dict[State, Way] = {}
     for state, way in ways.items():
         known = state
@@ -127,7 +127,7 @@ def _lasting(run: Run, node: Step, writes: list[frozenset[Write]], ways: Ways) -
     return found
 
 
-def _still(run: Run, child: Step, state: State) -> State:
+def _still(run: Run, child: TypedNode, state: State) -> State:
     """Return the state, knowing that the child would end in success again."""
     match child.written:
         case s.CheckNode() | s.WaitUntil():
@@ -144,7 +144,7 @@ def _promised(run: Run, call: Call, state: State, sorts: Sorts) -> State:
     return state
 
 
-def reactive_selector(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
+def reactive_selector(run: Run, node: TypedNode, ways: Ways, around: Around) -> Ends:
     """`reactive sel`: children before a running one are tried again each tick."""
     writes = [run.writes(child) for child in node.children]
     together = frozenset[Write]().union(*writes)

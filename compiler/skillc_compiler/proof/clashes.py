@@ -7,7 +7,7 @@ from itertools import combinations
 
 from skillc_compiler.library.conditions import Individual, Literal, Variable
 from skillc_compiler.library.vocabulary import local_name
-from skillc_compiler.program.typed import Call, Program, Step
+from skillc_compiler.program.typed import Call, Program, TypedNode
 from skillc_compiler.program.walk import within
 from skillc_compiler.proof.axioms import Axioms
 from skillc_compiler.proof.binding import candidates
@@ -17,7 +17,7 @@ from skillc_compiler.proof.writes import Related, Valued, Write
 from skillc_dsl import syntax as s
 
 
-def clashes(program: Program, summaries: Summaries, axioms: Axioms, body: Step) -> Iterator[Clash]:
+def clashes(program: Program, summaries: Summaries, axioms: Axioms, body: TypedNode) -> Iterator[Clash]:
     """Yield for each two children of a `par` the first calls that clash."""
     for step in within(body):
         if isinstance(step.written, s.Block) and step.written.kind.startswith("par"):
@@ -25,7 +25,7 @@ def clashes(program: Program, summaries: Summaries, axioms: Axioms, body: Step) 
                 yield from _first(program, summaries, axioms, one, other)
 
 
-def _first(program: Program, summaries: Summaries, axioms: Axioms, one: Step, other: Step) -> Iterator[Clash]:
+def _first(program: Program, summaries: Summaries, axioms: Axioms, one: TypedNode, other: TypedNode) -> Iterator[Clash]:
     for first in calls_in(one):
         for second in calls_in(other):
             devices = _devices(program, first) & _devices(program, second)
@@ -45,7 +45,7 @@ def _devices(program: Program, call: Call, around: tuple[str, ...] = ()) -> froz
     passed = {argument.name.text: argument.value.meaning for argument in call.arguments}
     names = {device.parameter.text for device in call.skill.devices if device.kind == "uses"}
     for implementation in candidates(program, call):
-        if isinstance(implementation.body, Step):
+        if isinstance(implementation.body, TypedNode):
             for inner in calls_in(implementation.body):
                 found = _devices(program, inner, (*around, call.skill.name))
                 names |= {device.name for device in found if isinstance(device, Variable)}

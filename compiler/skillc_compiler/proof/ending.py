@@ -19,7 +19,7 @@ from skillc_compiler.library.conditions import (
     Variable,
 )
 from skillc_compiler.library.reading import free_variables, walk
-from skillc_compiler.program.typed import Body, Call, Implementation, Requirement, Step
+from skillc_compiler.program.typed import Body, Call, Implementation, Requirement, TypedNode
 from skillc_compiler.program.walk import within
 from skillc_compiler.proof.binding import changes
 from skillc_compiler.proof.findings import Finding, NeverAssigned, Undeclared, Unproved, Unreleased
@@ -181,7 +181,7 @@ def _speaks_of_unnamed(effect: Effect) -> bool:
 
 def _repeated(body: Body) -> Iterator[Call]:
     """Yield the calls in loops: what they do to others in each round, no postcondition can say."""
-    for step in within(body) if isinstance(body, Step) else ():
+    for step in within(body) if isinstance(body, TypedNode) else ():
         if isinstance(step.written, s.While | s.Counted):
             yield from calls_in(step)
 

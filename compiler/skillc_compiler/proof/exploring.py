@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import assert_never
 
-from skillc_compiler.program.typed import Step
+from skillc_compiler.program.typed import TypedNode
 from skillc_compiler.program.walk import within
 from skillc_compiler.proof import beside, loops
 from skillc_compiler.proof.binding import changes
@@ -25,7 +25,7 @@ MOST_STEPS = 5_000
 """So often nodes of one body are followed from a state; what is then left is only taken for what it may write."""
 
 
-def explore(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
+def explore(run: Run, node: TypedNode, ways: Ways, around: Around) -> Ends:
     """Return how a node can end from each of these states; nothing starts where there is none.
 
     Loops and parallel nodes follow their children several times. What is followed again from the same states ends in
@@ -48,7 +48,7 @@ def explore(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
     return Ends(dict(ends.success), dict(ends.failure), dict(ends.broken))
 
 
-def _explored(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
+def _explored(run: Run, node: TypedNode, ways: Ways, around: Around) -> Ends:
     run.steps += len(ways)
     if run.steps > MOST_STEPS:
         return _unfollowed(run, node, ways, around)
@@ -76,7 +76,7 @@ def _explored(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
             assert_never(written)
 
 
-def _unfollowed(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
+def _unfollowed(run: Run, node: TypedNode, ways: Ways, around: Around) -> Ends:
     """Return how a node can end that is not looked into: in any way, wherever it was."""
     run.crowded = run.crowded or node.written.span
     run.reached.update(id(inner) for inner in within(node))
@@ -88,7 +88,7 @@ def _unfollowed(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
     return Ends(assigned, left, dict(left))
 
 
-def _block(run: Run, node: Step, written: s.Block, ways: Ways, around: Around) -> Ends:
+def _block(run: Run, node: TypedNode, written: s.Block, ways: Ways, around: Around) -> Ends:
     match written.kind:
         case "seq":
             return in_order(run, node.children, ways, around)
@@ -108,7 +108,7 @@ def _block(run: Run, node: Step, written: s.Block, ways: Ways, around: Around) -
             assert_never(written.kind)
 
 
-def _selector(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
+def _selector(run: Run, node: TypedNode, ways: Ways, around: Around) -> Ends:
     """One must succeed; when none does, a hold that broke in any of them has broken."""
     ends, broken = Ends(), False
     for number, child in enumerate(node.children, 1):
@@ -121,7 +121,7 @@ def _selector(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
     return ends
 
 
-def _turned(run: Run, node: Step, written: s.Block, ways: Ways, around: Around) -> Ends:
+def _turned(run: Run, node: TypedNode, written: s.Block, ways: Ways, around: Around) -> Ends:
     inner = in_order(run, node.children, ways, around.catching())
     ends = Ends(broken=inner.broken)
     for state, way in inner.failure.items():
@@ -134,7 +134,7 @@ def _turned(run: Run, node: Step, written: s.Block, ways: Ways, around: Around) 
     return ends
 
 
-def _once(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
+def _once(run: Run, node: TypedNode, ways: Ways, around: Around) -> Ends:
     key, ends = key_of(node), Ends()
     fresh = {state: way for state, way in ways.items() if state.done.get(key) is None}
     for state, way in ways.items():
@@ -153,14 +153,14 @@ def _once(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
     return ends
 
 
-def _timeout(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
+def _timeout(run: Run, node: TypedNode, ways: Ways, around: Around) -> Ends:
     ends = in_order(run, node.children, ways, around)
     for state, way in beside.stopped(run, node, ways, around).items():
         add(ends.failure, state, step(way, node.written.span, "the time is up"))
     return ends
 
 
-def _leaf(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
+def _leaf(run: Run, node: TypedNode, ways: Ways, around: Around) -> Ends:
     ends = Ends()
     for state, way in ways.items():
         match node.written:
@@ -178,7 +178,7 @@ def _leaf(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
     return ends
 
 
-def _if(run: Run, node: Step, written: s.If, ways: Ways, around: Around) -> Ends:
+def _if(run: Run, node: TypedNode, written: s.If, ways: Ways, around: Around) -> Ends:
     ends = Ends()
     for holds, branch in ((True, node.children), (False, node.orelse)):
         chosen: dict[State, Way] = {}
@@ -193,7 +193,7 @@ def _if(run: Run, node: Step, written: s.If, ways: Ways, around: Around) -> Ends
     return ends
 
 
-def _apply(run: Run, node: Step, written: s.ApplyPosts, ways: Ways, around: Around) -> Ends:
+def _apply(run: Run, node: TypedNode, written: s.ApplyPosts, ways: Ways, around: Around) -> Ends:
     ends = Ends()
     if run.implementation is None:
         return Ends(success=dict(ways))

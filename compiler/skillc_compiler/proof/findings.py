@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from skillc_compiler.program.typed import Call, Implementation, Parameter, Property, Requirement, Step
+from skillc_compiler.program.typed import Call, Implementation, Parameter, Property, Requirement, TypedNode
 from skillc_compiler.proof.trail import Way
 from skillc_dsl.source import Span
 
@@ -58,7 +58,7 @@ class Undeclared:
 class Unreachable:
     """A node that never starts."""
 
-    step: Step
+    step: TypedNode
 
 
 @dataclass(frozen=True, slots=True)

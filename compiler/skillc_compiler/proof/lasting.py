@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program.typed import Implementation, Step, Task
+from skillc_compiler.program.typed import Implementation, Task, TypedNode
 from skillc_compiler.proof.findings import Unreleased
 from skillc_dsl import syntax as s
 
 
-def lasting(of: Implementation | Task, body: Step) -> Iterator[Unreleased]:
+def lasting(of: Implementation | Task, body: TypedNode) -> Iterator[Unreleased]:
     """Yield the calls of scoped skills that no `with` around them ends; a skill that is scoped itself may set up."""
     if not isinstance(of, Implementation) or "scoped" not in of.skill.flags:
         yield from _outside(body)
 
 
-def _outside(step: Step) -> Iterator[Unreleased]:
+def _outside(step: TypedNode) -> Iterator[Unreleased]:
     if isinstance(step.written, s.CallSkill) and step.call and step.call.skill and "scoped" in step.call.skill.flags:
         yield Unreleased(step.call, None, None)
     if not isinstance(step.written, s.With):

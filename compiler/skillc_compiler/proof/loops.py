@@ -6,7 +6,7 @@ from functools import reduce
 from typing import assert_never
 
 from skillc_compiler.logic.folding import rounds_of
-from skillc_compiler.program.typed import Step
+from skillc_compiler.program.typed import TypedNode
 from skillc_compiler.proof.learning import learned
 from skillc_compiler.proof.run import Around, Run, disturbed, in_order
 from skillc_compiler.proof.state import State, joined
@@ -19,7 +19,7 @@ TRIALS = 2
 """So often what every round keeps is narrowed down."""
 
 
-def rounds(run: Run, node: Step, written: s.Counted | s.While | s.For, ways: Ways, around: Around) -> Ends:
+def rounds(run: Run, node: TypedNode, written: s.Counted | s.While | s.For, ways: Ways, around: Around) -> Ends:
     """Return how a loop ends; a number of rounds that is none is told elsewhere."""
     match written:
         case s.Counted(kind="retry", count=count):
@@ -34,7 +34,7 @@ def rounds(run: Run, node: Step, written: s.Counted | s.While | s.For, ways: Way
             assert_never(written)
 
 
-def _retried(run: Run, node: Step, count: int, ways: Ways, around: Around) -> Ends:
+def _retried(run: Run, node: TypedNode, count: int, ways: Ways, around: Around) -> Ends:
     """`retry`: a failed round is followed by another one until there is none left."""
     ends = Ends()
     for number in range(1, min(count, ROUNDS) + 1):
@@ -50,7 +50,7 @@ def _retried(run: Run, node: Step, count: int, ways: Ways, around: Around) -> En
     return ends
 
 
-def _repeated(run: Run, node: Step, count: int, ways: Ways, around: Around) -> Ends:
+def _repeated(run: Run, node: TypedNode, count: int, ways: Ways, around: Around) -> Ends:
     """`repeat`: a round that succeeded is followed by another one."""
     ends = Ends(success=dict(ways))
     for _ in range(min(count, ROUNDS)):
@@ -64,7 +64,7 @@ def _repeated(run: Run, node: Step, count: int, ways: Ways, around: Around) -> E
     return ends
 
 
-def _while(run: Run, node: Step, limit: int, ways: Ways, around: Around) -> Ends:
+def _while(run: Run, node: TypedNode, limit: int, ways: Ways, around: Around) -> Ends:
     """`while`: a round for as long as the condition holds; a failure when it still does after the last."""
     ends = Ends()
     for _ in range(min(limit, ROUNDS)):
@@ -87,7 +87,7 @@ def _while(run: Run, node: Step, limit: int, ways: Ways, around: Around) -> Ends
     return ends
 
 
-def _each(run: Run, node: Step, written: s.For, ways: Ways, around: Around) -> Ends:
+def _each(run: Run, node: TypedNode, written: s.For, ways: Ways, around: Around) -> Ends:
     """`for`: any number of rounds, each with an item of its own."""
     ends, name = Ends(success=dict(ways)), written.variable.text
     run.sorts.classes.pop(name, None)
@@ -112,7 +112,7 @@ def _without(ways: Ways, name: str) -> dict[State, Way]:
     return found
 
 
-def _asked(run: Run, node: Step, ways: Ways, around: Around) -> tuple[dict[State, Way], dict[State, Way]]:
+def _asked(run: Run, node: TypedNode, ways: Ways, around: Around) -> tuple[dict[State, Way], dict[State, Way]]:
     """Return the states in which the condition holds and those in which it does not."""
     found: tuple[dict[State, Way], dict[State, Way]] = ({}, {})
     for state, way in ways.items():
@@ -128,7 +128,7 @@ def _asked(run: Run, node: Step, ways: Ways, around: Around) -> tuple[dict[State
     return found
 
 
-def _any_number(run: Run, node: Step, ways: Ways, around: Around, target: dict[State, Way]) -> Ends:
+def _any_number(run: Run, node: TypedNode, ways: Ways, around: Around, target: dict[State, Way]) -> Ends:
     """Follow one round after any number of others; its successes go to `target`."""
     writes = run.writes(node)
     kept = _kept(run, node, ways, around)
@@ -138,12 +138,12 @@ def _any_number(run: Run, node: Step, ways: Ways, around: Around, target: dict[S
     return one
 
 
-def _is_retry(node: Step) -> bool:
+def _is_retry(node: TypedNode) -> bool:
     """Whether it is a failure that another round follows, not a success."""
     return isinstance(node.written, s.Counted) and node.written.kind == "retry"
 
 
-def _kept(run: Run, node: Step, ways: Ways, around: Around) -> State | None:
+def _kept(run: Run, node: TypedNode, ways: Ways, around: Around) -> State | None:
     """Return what is known before each further round because every round keeps it; None where nothing was found."""
     if run.watch is not None or not ways:
         return None

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TypeVar
 
-from skillc_compiler.program.typed import Implementation, Let, Program, Step, Task
+from skillc_compiler.program.typed import Implementation, Let, Program, Task, TypedNode
 from skillc_compiler.program.walk import within
 from skillc_compiler.proof import ending
 from skillc_compiler.proof.axioms import Axioms, axioms_of
@@ -70,7 +70,7 @@ class Prover:
 
     def leaks(self, implementation: Implementation) -> frozenset[Write]:
         """Return what an implementation changes beyond its postconditions when it succeeds."""
-        if not isinstance(implementation.body, Step) or implementation.key in self._busy:
+        if not isinstance(implementation.body, TypedNode) or implementation.key in self._busy:
             return NOWHERE
         if implementation.key not in self.done:
             self._busy.add(implementation.key)
@@ -86,7 +86,7 @@ class Prover:
             findings = self._kept(task, task.body, run, ())
             self.done[f"task {task.name}"] = Proof(task, findings)
 
-    def run(self, implementation: Implementation | None, body: Step) -> Run:
+    def run(self, implementation: Implementation | None, body: TypedNode) -> Run:
         """Return a fresh exploration."""
         sorts = Sorts(self.program.vocabulary, self._axioms)
         lets: tuple[Let, ...] = implementation.lets if implementation else ()
@@ -107,7 +107,7 @@ class Prover:
             stable=frozenset(stable),
         )
 
-    def _implementation(self, implementation: Implementation, body: Step) -> Proof:
+    def _implementation(self, implementation: Implementation, body: TypedNode) -> Proof:
         run = self.run(implementation, body)
         start = opening(run.sorts, implementation)
         ends = explore(run, body, {start: None}, Around())
@@ -116,7 +116,7 @@ class Prover:
         leaks = ending.leaks(run, implementation, start, ends)
         return Proof(implementation, self._kept(implementation, body, run, told), leaks)
 
-    def _verified(self, implementation: Implementation, body: Step, start: State) -> Iterator[Finding]:
+    def _verified(self, implementation: Implementation, body: TypedNode, start: State) -> Iterator[Finding]:
         for line in implementation.verify:
             run = self.run(implementation, body)
             run.watch = watch = PropertyWatch(line, self.program, self.summaries, self.run)
@@ -128,7 +128,9 @@ class Prover:
             elif watch.open_ or run.crowded is not None:
                 yield Unverified(line)
 
-    def _kept(self, of: Implementation | Task, body: Step, run: Run, told: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    def _kept(
+        self, of: Implementation | Task, body: TypedNode, run: Run, told: tuple[Finding, ...]
+    ) -> tuple[Finding, ...]:
         found = [
             *run.found.values(),
             *run.unguaranteed(),
@@ -143,7 +145,7 @@ class Prover:
         return tuple(self.understood.sound(of, found, clear))
 
 
-def unreachable(run: Run, node: Step, start: State) -> Iterator[Unreachable]:
+def unreachable(run: Run, node: TypedNode, start: State) -> Iterator[Unreachable]:
     """Yield the nodes that never start, of those inside each other the outer, of those after each other the first.
 
     A branch whose condition is decided whatever is required is told as such a condition.

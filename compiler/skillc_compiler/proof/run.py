@@ -8,7 +8,15 @@ from typing import Protocol, TypeAlias
 
 from skillc_compiler.library.conditions import Effect
 from skillc_compiler.library.reading import free_variables
-from skillc_compiler.program.typed import Call, Clause, Implementation, Program, Requirement, Step, Valued
+from skillc_compiler.program.typed import (
+    Call,
+    Implementation,
+    Program,
+    Requirement,
+    TypedCondition,
+    TypedExpression,
+    TypedNode,
+)
 from skillc_compiler.program.walk import clauses_in, values_in
 from skillc_compiler.proof.findings import BrokenHold, Finding, Unassigned, Unguaranteed
 from skillc_compiler.proof.forgetting import forgotten
@@ -21,7 +29,7 @@ from skillc_compiler.proof.truth import truth
 from skillc_compiler.proof.writes import Write
 from skillc_dsl.source import Span
 
-Explore: TypeAlias = Callable[["Run", Step, Ways, "Around"], Ends]
+Explore: TypeAlias = Callable[["Run", TypedNode, Ways, "Around"], Ends]
 Leaks: TypeAlias = Callable[[Implementation], frozenset[Write]]
 NOWHERE: frozenset[Write] = frozenset()
 
@@ -61,7 +69,7 @@ class Watch(Protocol):
         """Return the states between two nodes."""
         ...
 
-    def beside(self, ways: Ways, others: tuple[Step, ...]) -> dict[State, Way]:
+    def beside(self, ways: Ways, others: tuple[TypedNode, ...]) -> dict[State, Way]:
         """Return the states, each also as it is after what others may have done meanwhile."""
         ...
 
@@ -120,7 +128,7 @@ class Run:
     steps: int = 0
     known: dict[object, tuple[bool, Ends]] = field(default_factory=dict)
 
-    def writes(self, step: Step) -> frozenset[Write]:
+    def writes(self, step: TypedNode) -> frozenset[Write]:
         """Return what a node may write; names that change their meaning within the body stand for anything fitting."""
         return hidden(self.summaries.of_step(step, self.implementation), self.stable)
 
@@ -132,7 +140,7 @@ class Run:
         if known is None or length(way) < length(getattr(known, "way", None)):
             self.found[key] = finding
 
-    def read(self, values: Iterable[Valued], clauses: Iterable[Clause], ways: Ways) -> None:
+    def read(self, values: Iterable[TypedExpression], clauses: Iterable[TypedCondition], ways: Ways) -> None:
         """Look whether outputs that are read have a value."""
         every = [part for value in values for part in values_in(value)]
         every += [
@@ -185,7 +193,7 @@ def disturbed(run: Run, state: State, around: Around) -> State:
     return forgotten(run.sorts, state, around.disturbing) if around.disturbing else state
 
 
-def in_order(run: Run, children: Sequence[Step], ways: Ways, around: Around) -> Ends:
+def in_order(run: Run, children: Sequence[TypedNode], ways: Ways, around: Around) -> Ends:
     """Return how children one after the other end."""
     ends = Ends(success=dict(ways))
     for child in children:
@@ -195,6 +203,6 @@ def in_order(run: Run, children: Sequence[Step], ways: Ways, around: Around) -> 
     return ends
 
 
-def mixed(run: Run, ways: Ways, *others: Step) -> Ways:
+def mixed(run: Run, ways: Ways, *others: TypedNode) -> Ways:
     """Return the states where others run beside, as far as a watched property tells them apart."""
     return run.watch.beside(ways, others) if run.watch is not None else ways

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from skillc_compiler.library.conditions import Anything, Expression, Individual, Literal, Term, Variable
 from skillc_compiler.library.vocabulary import THING
-from skillc_compiler.program.typed import Call, Implementation, Program, Skill, Step
+from skillc_compiler.program.typed import Call, Implementation, Program, Skill, TypedNode
 from skillc_compiler.program.types import Thing
 from skillc_compiler.proof.axioms import Axioms
 from skillc_compiler.proof.binding import candidates, changes, class_of
@@ -43,7 +43,7 @@ class Summaries:
 
         A primitive that fails wrote what it measured, and its effects only if it failed by its own promises.
         """
-        if isinstance(implementation.body, Step) or not self._keeps_promises(implementation):
+        if isinstance(implementation.body, TypedNode) or not self._keeps_promises(implementation):
             return self.anything(implementation)
         return NONE
 
@@ -69,7 +69,7 @@ class Summaries:
         }
         return frozenset(found)
 
-    def of_step(self, step: Step, implementation: Implementation | None) -> frozenset[Write]:
+    def of_step(self, step: TypedNode, implementation: Implementation | None) -> frozenset[Write]:
         """Return what a node may write."""
         if id(step) not in self._steps:
             self._steps[id(step)] = frozenset(self._of_step(step, implementation))
@@ -84,7 +84,7 @@ class Summaries:
             return NONE
         if "scoped" in call.skill.flags:
             return self.of_call(call)
-        bodies = [one.body for one in candidates(self._program, call) if isinstance(one.body, Step)]
+        bodies = [one.body for one in candidates(self._program, call) if isinstance(one.body, TypedNode)]
         inner = (
             write
             for body in bodies
@@ -100,7 +100,7 @@ class Summaries:
         if call.skill.name not in self._names:
             self._names[call.skill.name] = frozenset({call.skill.name})
             known = self._program.implementations_of.get(call.skill.name, ())
-            bodies = [one.body for one in known if isinstance(one.body, Step)]
+            bodies = [one.body for one in known if isinstance(one.body, TypedNode)]
             inner = (self.names(each) for body in bodies for each in calls_in(body))
             self._names[call.skill.name] = frozenset({call.skill.name}).union(*inner)
         return self._names[call.skill.name]
@@ -122,14 +122,14 @@ class Summaries:
             or any(
                 self.may_break(call.skill)
                 for one in known
-                if isinstance(one.body, Step)
+                if isinstance(one.body, TypedNode)
                 for call in calls_in(one.body)
                 if call.skill is not None
             )
         )
 
     def _of(self, implementation: Implementation) -> Iterator[Write]:
-        if isinstance(implementation.body, Step):
+        if isinstance(implementation.body, TypedNode):
             visible = [p.name for p in implementation.parameters if p.direction != "out"]
             whole = self.of_step(implementation.body, implementation)
             yield from hidden((write for write in whole if isinstance(write, Related | Valued)), visible)
@@ -137,7 +137,7 @@ class Summaries:
         for post, effect in changes(requirements_of(implementation, "post")):
             yield either_way(write_of(effect)) if post.sensed else write_of(effect)
 
-    def _of_step(self, step: Step, implementation: Implementation | None) -> Iterator[Write]:
+    def _of_step(self, step: TypedNode, implementation: Implementation | None) -> Iterator[Write]:
         if step.call is not None:
             yield from self.of_call(step.call)
             if step.call.out is not None:
@@ -154,7 +154,7 @@ class Summaries:
             yield from self.of_step(child, implementation)
 
 
-def key_of(step: Step) -> int:
+def key_of(step: TypedNode) -> int:
     """Return a number that no other node of the same body has."""
     return step.written.span.line * 100_000 + step.written.span.column
 
@@ -165,7 +165,7 @@ def seen_from(call: Call, writes: frozenset[Write]) -> frozenset[Write]:
     return frozenset(_seen(write, values) for write in writes)
 
 
-def calls_in(step: Step) -> Iterator[Call]:
+def calls_in(step: TypedNode) -> Iterator[Call]:
     """Yield the calls in a node."""
     if step.call is not None:
         yield step.call

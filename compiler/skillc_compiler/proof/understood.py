@@ -7,7 +7,17 @@ from collections.abc import Iterable, Iterator
 from skillc_compiler.library.conditions import HasProperty, Holds, IsA, PropertyOf
 from skillc_compiler.library.reading import walk
 from skillc_compiler.logic.effects import NoEffect, effects
-from skillc_compiler.program.typed import Call, Clause, Implementation, Program, Requirement, Skill, Step, Task, Valued
+from skillc_compiler.program.typed import (
+    Call,
+    Implementation,
+    Program,
+    Requirement,
+    Skill,
+    Task,
+    TypedCondition,
+    TypedExpression,
+    TypedNode,
+)
 from skillc_compiler.program.types import UNKNOWN, fits
 from skillc_compiler.program.walk import clauses_in, step_values, values_in, within
 from skillc_compiler.proof.axioms import Axioms
@@ -41,9 +51,9 @@ class Understood:
                 return False
         posts = requirements_of(of, "post") if isinstance(of, Implementation) else ()
         labels = {post.label.text for post in posts if post.label and not post.sensed}
-        return not isinstance(of.body, Step) or all(self._step(step, labels) for step in within(of.body))
+        return not isinstance(of.body, TypedNode) or all(self._step(step, labels) for step in within(of.body))
 
-    def _step(self, step: Step, labels: set[str]) -> bool:
+    def _step(self, step: TypedNode, labels: set[str]) -> bool:
         if isinstance(step.written, s.ApplyPosts) and not labels.issuperset(name.text for name in step.written.labels):
             return False
         if not self._values(step_values(step)) or not all(self._clause(clause) for clause in step.clauses):
@@ -75,7 +85,7 @@ class Understood:
     def _requirements(self, requirements: Iterable[Requirement]) -> bool:
         return all(self._clause(each.clause) and _is_post(each) for each in requirements)
 
-    def _clause(self, whole: Clause) -> bool:
+    def _clause(self, whole: TypedCondition) -> bool:
         vocabulary = self._program.vocabulary
         if learned(Sorts(vocabulary, self._axioms), State(), whole.meaning) is None:
             return False
@@ -91,10 +101,10 @@ class Understood:
                     return False
         return True
 
-    def _values(self, values: Iterable[Valued]) -> bool:
+    def _values(self, values: Iterable[TypedExpression]) -> bool:
         return all(self._value(part) for value in values for part in values_in(value))
 
-    def _value(self, value: Valued) -> bool:
+    def _value(self, value: TypedExpression) -> bool:
         if getattr(value.meaning, "name", "") == "_":
             return True
         properties = (part.property for part in walk(value.meaning) if isinstance(part, PropertyOf))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import Anything
-from skillc_compiler.program.typed import Call, Step
+from skillc_compiler.program.typed import Call, TypedNode
 from skillc_compiler.proof.calling import called
 from skillc_compiler.proof.forgetting import forgotten
 from skillc_compiler.proof.run import Around, Run
@@ -15,7 +15,7 @@ from skillc_compiler.proof.trail import Ends, Way, Ways, add
 from skillc_compiler.proof.writes import Related, Write, either_way
 
 
-def scoped(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
+def scoped(run: Run, node: TypedNode, ways: Ways, around: Around) -> Ends:
     """Return how a `with` ends: facts that the set-up alone changed are as before."""
     assert node.call is not None, "`with` has a call"
     ends = Ends()
@@ -37,7 +37,7 @@ def scoped(run: Run, node: Step, ways: Ways, around: Around) -> Ends:
     return ends
 
 
-def _writes(run: Run, node: Step, call: Call) -> tuple[frozenset[Write], frozenset[Write]]:
+def _writes(run: Run, node: TypedNode, call: Call) -> tuple[frozenset[Write], frozenset[Write]]:
     """Return what is undone in the end, and what the body writes besides."""
     inside = (run.summaries.lasting(other) for child in node.children for other in calls_in(child))
     set_up = run.summaries.of_call(call).union(*inside)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from skillc_compiler.program.typed import Call, Event, Implementation, Program, Property, Step
+from skillc_compiler.program.typed import Call, Event, Implementation, Program, Property, TypedNode
 from skillc_compiler.proof.binding import candidates
 from skillc_compiler.proof.opening import opening
 from skillc_compiler.proof.run import Around, Run
@@ -29,7 +29,7 @@ class PropertyWatch:
     property: Property
     program: Program
     summaries: Summaries
-    new_run: Callable[[Implementation, Step], Run]
+    new_run: Callable[[Implementation, TypedNode], Run]
     broken: Trail | None = None
     open_: bool = False
     _inside: dict[tuple[str, Monitor], dict[str, frozenset[Monitor]]] = field(default_factory=dict)
@@ -77,7 +77,7 @@ class PropertyWatch:
         failed = {kind: {(number, before.monitor[1]) for number, _ in ended[kind]} for kind in ("failure", "broken")}
         return {"success": frozenset(lasting), **{kind: frozenset(found) for kind, found in failed.items()}}
 
-    def beside(self, ways: Ways, others: tuple[Step, ...]) -> dict[State, Way]:
+    def beside(self, ways: Ways, others: tuple[TypedNode, ...]) -> dict[State, Way]:
         """Return the states, each also as it is after what others may have done meanwhile."""
         skills = {name for other in others for call in calls_in(other) for name in self.summaries.names(call)}
         found = dict(ways)
@@ -136,12 +136,12 @@ class PropertyWatch:
         if key not in self._inside:
             alone = frozenset({monitor})
             self._inside[key] = {"success": alone, "failure": alone, "broken": alone}
-            if isinstance(implementation.body, Step):
+            if isinstance(implementation.body, TypedNode):
                 self._inside[key] = self._explored(implementation, implementation.body, monitor, way)
         return self._inside[key]
 
     def _explored(
-        self, implementation: Implementation, body: Step, monitor: Monitor, way: Trail
+        self, implementation: Implementation, body: TypedNode, monitor: Monitor, way: Trail
     ) -> dict[str, frozenset[Monitor]]:
         run = self.new_run(implementation, body)
         run.watch = self

@@ -1,4 +1,4 @@
-"""The local names that a value or condition can read, and the setting in which it is understood."""
+"""The local names that a value or condition can read, and the context in which it is understood."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Scope:
 
 
 @dataclass(frozen=True, slots=True)
-class Setting:
+class FileContext:
     """What does not change within a declaration: the file's names, the vocabulary, the skills.
 
     `individuals` are those of the scene with the class of each, None where several; None where no scene is known.

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from skillc_compiler.diagnostics.suppressions import without_allowed
+from skillc_compiler.diagnostics.suppressions import without_suppressed
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program.typed import Program
@@ -65,7 +65,7 @@ def problems(populated: Populated, analysis: Analysis) -> tuple[Diagnostic, ...]
     """Return what is wrong with scenes that do not ship, what keeps tasks from being done, what texts name nothing."""
     found = () if populated.scenes is None else _around(populated.scenes, analysis)
     unknown = _named_texts.warned(analysis.compiled, analysis.program, populated.scenes, found, str)
-    left = without_allowed((*found, *unknown), analysis.library.sources.values())
+    left = without_suppressed((*found, *unknown), analysis.library.sources.values())
     return tuple(each for each in left if not _is_shipped(each.span.path))
 
 
