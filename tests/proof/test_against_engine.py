@@ -14,6 +14,13 @@ import pytest
 
 from proof.actors import ITEMS, SPOTS, Chance, world
 from proof.plays import Writer
+from skillc_compiler.analysis.findings import BrokenHold, Undecided, Unproved, Unverified, Violated
+from skillc_compiler.analysis.opening import opening, requirements_of
+from skillc_compiler.analysis.proving import Prover
+from skillc_compiler.analysis.run import Around
+from skillc_compiler.analysis.run import Run as Exploration
+from skillc_compiler.analysis.state import State
+from skillc_compiler.analysis.trail import Ends
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Condition, Holds, Individual, Variable
 from skillc_compiler.library.reading import free_variables
@@ -22,13 +29,6 @@ from skillc_compiler.library.vocabulary import Position, Vocabulary
 from skillc_compiler.lower.library import lower
 from skillc_compiler.program.typed import Implementation, Program, TypedNode, position
 from skillc_compiler.program.walk import within
-from skillc_compiler.proof.findings import BrokenHold, Undecided, Unproved, Unverified, Violated
-from skillc_compiler.proof.opening import opening, requirements_of
-from skillc_compiler.proof.proving import Prover
-from skillc_compiler.proof.run import Around
-from skillc_compiler.proof.run import Run as Exploration
-from skillc_compiler.proof.state import State
-from skillc_compiler.proof.trail import Ends
 from skillc_compiler.resolve.files import read
 from skillc_compiler.resolve.program import resolve
 from skillc_dsl.source import Source

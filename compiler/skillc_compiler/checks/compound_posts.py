@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.analysis.findings import Unproved
+from skillc_compiler.analysis.proving import found
+from skillc_compiler.analysis.trail import labels
 from skillc_compiler.program.typed import Program
-from skillc_compiler.proof.findings import Unproved
-from skillc_compiler.proof.proving import found
-from skillc_compiler.proof.trail import labels
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("post-not-established",)

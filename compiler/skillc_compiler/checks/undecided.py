@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.analysis.findings import Undecided
+from skillc_compiler.analysis.proving import found
 from skillc_compiler.program.typed import Program
-from skillc_compiler.proof.findings import Undecided
-from skillc_compiler.proof.proving import found
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("not-decided",)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.analysis.findings import Unreachable
+from skillc_compiler.analysis.proving import found
 from skillc_compiler.program.typed import Program
-from skillc_compiler.proof.findings import Unreachable
-from skillc_compiler.proof.proving import found
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("unreachable-node",)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 import textwrap
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict
 
 import click
 
@@ -16,7 +15,7 @@ _WIDEST = 100
 """Cells of a line of prose that is read with ease."""
 
 
-def page(shown: Page) -> str:
+def format_page(shown: Page) -> str:
     """Return a page as text, in colours if the terminal has some."""
     lines = [f"{_styled(shown.name, fg='cyan')}: {shown.title}", f"family: {shown.family}", ""]
     for paragraph in filter(None, shown.prose.split("\n\n")):
@@ -26,7 +25,7 @@ def page(shown: Page) -> str:
     return "".join(f"{line}\n" for line in lines)
 
 
-def contents(pages: Mapping[str, Page]) -> str:
+def format_contents(pages: Mapping[str, Page]) -> str:
     """Return the names and titles of all pages by family."""
     widest = max(len(name) for name in pages)
     lines: list[str] = []
@@ -38,11 +37,6 @@ def contents(pages: Mapping[str, Page]) -> str:
             lines += (f"  {'':{widest}}  {line}" for line in rest)
         lines.append("")
     return "".join(f"{line}\n" for line in (*lines, "skillc explain NAME shows a page with examples."))
-
-
-def as_data(shown: Page) -> dict[str, str]:
-    """Return the fields of a page."""
-    return asdict(shown)
 
 
 def _paragraph(text: str) -> Iterator[str]:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.analysis.forgetting import forgotten
+from skillc_compiler.analysis.learning import learned
+from skillc_compiler.analysis.sorts import Sorts, some
+from skillc_compiler.analysis.state import State
+from skillc_compiler.analysis.writes import Related, Valued, Write
 from skillc_compiler.library.conditions import Condition, HasProperty, Holds, Individual, PropertyOf, Variable
 from skillc_compiler.library.reading import walk
 from skillc_compiler.library.vocabulary import THING
-from skillc_compiler.proof.forgetting import forgotten
-from skillc_compiler.proof.learning import learned
-from skillc_compiler.proof.sorts import Sorts, some
-from skillc_compiler.proof.state import State
-from skillc_compiler.proof.writes import Related, Valued, Write
 
 
 def awaited(sorts: Sorts, state: State, condition: Condition) -> State:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from functools import reduce
 from typing import assert_never
 
+from skillc_compiler.analysis.learning import learned
+from skillc_compiler.analysis.run import Around, Run, disturbed, in_order
+from skillc_compiler.analysis.state import State, joined
+from skillc_compiler.analysis.trail import Ends, Way, Ways, add, after, few, merge, step
 from skillc_compiler.logic.folding import rounds_of
 from skillc_compiler.program.typed import TypedNode
-from skillc_compiler.proof.learning import learned
-from skillc_compiler.proof.run import Around, Run, disturbed, in_order
-from skillc_compiler.proof.state import State, joined
-from skillc_compiler.proof.trail import Ends, Way, Ways, add, after, few, merge, step
 from skillc_dsl import syntax as s
 
 ROUNDS = 6

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.analysis.findings import Unreleased
 from skillc_compiler.program.typed import Implementation, Task, TypedNode
-from skillc_compiler.proof.findings import Unreleased
 from skillc_dsl import syntax as s
 
 

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from skillc_compiler.analysis.sorts import Sorts
+from skillc_compiler.analysis.state import State, Thing
+from skillc_compiler.analysis.truth import canonical
 from skillc_compiler.library.conditions import (
     And,
     Condition,
@@ -23,9 +26,6 @@ from skillc_compiler.library.pddl.rewriting import ALWAYS, NEVER, replaced
 from skillc_compiler.library.vocabulary import THING, ClassType
 from skillc_compiler.logic.effects import NoEffect, effects
 from skillc_compiler.program.typed import Call, Implementation, Parameter, Program, Requirement, Skill
-from skillc_compiler.proof.sorts import Sorts
-from skillc_compiler.proof.state import State, Thing
-from skillc_compiler.proof.truth import canonical
 
 
 @dataclass(frozen=True)

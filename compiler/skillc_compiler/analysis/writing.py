@@ -5,6 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import assert_never
 
+from skillc_compiler.analysis.forgetting import forgotten
+from skillc_compiler.analysis.learning import single_sides
+from skillc_compiler.analysis.sorts import Sorts
+from skillc_compiler.analysis.state import State
+from skillc_compiler.analysis.writes import Assigned, Ended, Related, Valued, Write, canonical, write_of
 from skillc_compiler.library.conditions import (
     Anything,
     Compare,
@@ -16,11 +21,6 @@ from skillc_compiler.library.conditions import (
     PropertyOf,
     Variable,
 )
-from skillc_compiler.proof.forgetting import forgotten
-from skillc_compiler.proof.learning import single_sides
-from skillc_compiler.proof.sorts import Sorts
-from skillc_compiler.proof.state import State
-from skillc_compiler.proof.writes import Assigned, Ended, Related, Valued, Write, canonical, write_of
 
 
 def applied(sorts: Sorts, state: State, effects: Iterable[Effect]) -> State:

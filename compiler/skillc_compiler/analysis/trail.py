@@ -6,10 +6,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from skillc_compiler.proof.forgetting import forgotten
-from skillc_compiler.proof.sorts import Sorts
-from skillc_compiler.proof.state import State, joined
-from skillc_compiler.proof.writes import Write
+from skillc_compiler.analysis.forgetting import forgotten
+from skillc_compiler.analysis.sorts import Sorts
+from skillc_compiler.analysis.state import State, joined
+from skillc_compiler.analysis.writes import Write
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.source import Span
 

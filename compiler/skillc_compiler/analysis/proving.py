@@ -7,23 +7,23 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TypeVar
 
+from skillc_compiler.analysis import ending
+from skillc_compiler.analysis.axioms import Axioms, axioms_of
+from skillc_compiler.analysis.clashes import clashes
+from skillc_compiler.analysis.exploring import explore
+from skillc_compiler.analysis.findings import Finding, Undecided, Unreachable, Unverified, Violated
+from skillc_compiler.analysis.lasting import lasting
+from skillc_compiler.analysis.opening import can_start, name_sorts, opening, unconditional
+from skillc_compiler.analysis.run import NOWHERE, Around, Run
+from skillc_compiler.analysis.sorts import Sorts
+from skillc_compiler.analysis.state import State
+from skillc_compiler.analysis.summaries import Summaries
+from skillc_compiler.analysis.truth import truth
+from skillc_compiler.analysis.understood import Understood
+from skillc_compiler.analysis.watching import PropertyWatch
+from skillc_compiler.analysis.writes import Write
 from skillc_compiler.program.typed import Implementation, Let, Program, Task, TypedNode
 from skillc_compiler.program.walk import within
-from skillc_compiler.proof import ending
-from skillc_compiler.proof.axioms import Axioms, axioms_of
-from skillc_compiler.proof.clashes import clashes
-from skillc_compiler.proof.exploring import explore
-from skillc_compiler.proof.findings import Finding, Undecided, Unreachable, Unverified, Violated
-from skillc_compiler.proof.lasting import lasting
-from skillc_compiler.proof.opening import can_start, name_sorts, opening, unconditional
-from skillc_compiler.proof.run import NOWHERE, Around, Run
-from skillc_compiler.proof.sorts import Sorts
-from skillc_compiler.proof.state import State
-from skillc_compiler.proof.summaries import Summaries
-from skillc_compiler.proof.truth import truth
-from skillc_compiler.proof.understood import Understood
-from skillc_compiler.proof.watching import PropertyWatch
-from skillc_compiler.proof.writes import Write
 from skillc_dsl import syntax as s
 
 F = TypeVar("F", bound=Finding)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from skillc_compiler.analysis.trail import Way
 from skillc_compiler.program.typed import Call, Implementation, Parameter, Property, Requirement, TypedNode
-from skillc_compiler.proof.trail import Way
 from skillc_dsl.source import Span
 
 

@@ -6,6 +6,15 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Protocol, TypeAlias
 
+from skillc_compiler.analysis.findings import BrokenHold, Finding, Unassigned, Unguaranteed
+from skillc_compiler.analysis.forgetting import forgotten
+from skillc_compiler.analysis.opening import requirements_of
+from skillc_compiler.analysis.sorts import Sorts
+from skillc_compiler.analysis.state import State
+from skillc_compiler.analysis.summaries import Summaries, hidden
+from skillc_compiler.analysis.trail import Ends, Trail, Way, Ways, length
+from skillc_compiler.analysis.truth import truth
+from skillc_compiler.analysis.writes import Write
 from skillc_compiler.library.conditions import Effect
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.program.typed import (
@@ -18,15 +27,6 @@ from skillc_compiler.program.typed import (
     TypedNode,
 )
 from skillc_compiler.program.walk import clauses_in, values_in
-from skillc_compiler.proof.findings import BrokenHold, Finding, Unassigned, Unguaranteed
-from skillc_compiler.proof.forgetting import forgotten
-from skillc_compiler.proof.opening import requirements_of
-from skillc_compiler.proof.sorts import Sorts
-from skillc_compiler.proof.state import State
-from skillc_compiler.proof.summaries import Summaries, hidden
-from skillc_compiler.proof.trail import Ends, Trail, Way, Ways, length
-from skillc_compiler.proof.truth import truth
-from skillc_compiler.proof.writes import Write
 from skillc_dsl.source import Span
 
 Explore: TypeAlias = Callable[["Run", TypedNode, Ways, "Around"], Ends]

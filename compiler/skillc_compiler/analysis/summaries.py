@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
+from skillc_compiler.analysis.axioms import Axioms
+from skillc_compiler.analysis.binding import candidates, changes, class_of
+from skillc_compiler.analysis.opening import name_sorts, opening, requirements_of
+from skillc_compiler.analysis.sorts import Sorts, some
+from skillc_compiler.analysis.truth import truth
+from skillc_compiler.analysis.writes import Assigned, Ended, Related, Valued, Write, either_way, write_of
+from skillc_compiler.analysis.writing import applied
 from skillc_compiler.library.conditions import Anything, Expression, Individual, Literal, Term, Variable
 from skillc_compiler.library.vocabulary import THING
 from skillc_compiler.program.typed import Call, Implementation, Program, Skill, TypedNode
 from skillc_compiler.program.types import Thing
-from skillc_compiler.proof.axioms import Axioms
-from skillc_compiler.proof.binding import candidates, changes, class_of
-from skillc_compiler.proof.opening import name_sorts, opening, requirements_of
-from skillc_compiler.proof.sorts import Sorts, some
-from skillc_compiler.proof.truth import truth
-from skillc_compiler.proof.writes import Assigned, Ended, Related, Valued, Write, either_way, write_of
-from skillc_compiler.proof.writing import applied
 from skillc_dsl import syntax as s
 
 NONE: frozenset[Write] = frozenset()

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from typing import assert_never
 
+from skillc_compiler.analysis import beside, loops
+from skillc_compiler.analysis.binding import changes
+from skillc_compiler.analysis.calling import called
+from skillc_compiler.analysis.learning import learned
+from skillc_compiler.analysis.opening import requirements_of
+from skillc_compiler.analysis.run import Around, Run, disturbed, in_order
+from skillc_compiler.analysis.state import State
+from skillc_compiler.analysis.summaries import key_of
+from skillc_compiler.analysis.trail import LIMIT, Ends, Way, Ways, add, decided, few, merge, step
+from skillc_compiler.analysis.undoing import scoped
+from skillc_compiler.analysis.waiting import awaited
+from skillc_compiler.analysis.writes import Assigned
+from skillc_compiler.analysis.writing import applied
 from skillc_compiler.program.typed import TypedNode
 from skillc_compiler.program.walk import within
-from skillc_compiler.proof import beside, loops
-from skillc_compiler.proof.binding import changes
-from skillc_compiler.proof.calling import called
-from skillc_compiler.proof.learning import learned
-from skillc_compiler.proof.opening import requirements_of
-from skillc_compiler.proof.run import Around, Run, disturbed, in_order
-from skillc_compiler.proof.state import State
-from skillc_compiler.proof.summaries import key_of
-from skillc_compiler.proof.trail import LIMIT, Ends, Way, Ways, add, decided, few, merge, step
-from skillc_compiler.proof.undoing import scoped
-from skillc_compiler.proof.waiting import awaited
-from skillc_compiler.proof.writes import Assigned
-from skillc_compiler.proof.writing import applied
 from skillc_dsl import syntax as s
 
 MOST_STEPS = 5_000

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.analysis.calling import called
+from skillc_compiler.analysis.forgetting import forgotten
+from skillc_compiler.analysis.run import Around, Run
+from skillc_compiler.analysis.state import State
+from skillc_compiler.analysis.summaries import calls_in, hidden
+from skillc_compiler.analysis.trail import Ends, Way, Ways, add
+from skillc_compiler.analysis.writes import Related, Write, either_way
 from skillc_compiler.library.conditions import Anything
 from skillc_compiler.program.typed import Call, TypedNode
-from skillc_compiler.proof.calling import called
-from skillc_compiler.proof.forgetting import forgotten
-from skillc_compiler.proof.run import Around, Run
-from skillc_compiler.proof.state import State
-from skillc_compiler.proof.summaries import calls_in, hidden
-from skillc_compiler.proof.trail import Ends, Way, Ways, add
-from skillc_compiler.proof.writes import Related, Write, either_way
 
 
 def scoped(run: Run, node: TypedNode, ways: Ways, around: Around) -> Ends:

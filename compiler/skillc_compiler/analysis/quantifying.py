@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
+from skillc_compiler.analysis.sorts import Sorts
+from skillc_compiler.analysis.state import State, Thing
 from skillc_compiler.library.conditions import (
     And,
     Anything,
@@ -20,8 +22,6 @@ from skillc_compiler.library.conditions import (
 from skillc_compiler.library.pddl.rewriting import replaced
 from skillc_compiler.library.reading import walk
 from skillc_compiler.library.vocabulary import THING
-from skillc_compiler.proof.sorts import Sorts
-from skillc_compiler.proof.state import State, Thing
 
 BOUND = "|"
 """The names that quantifiers bind in this form begin with it; no name in a file does."""

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from skillc_compiler.analysis.axioms import Axioms
+from skillc_compiler.analysis.state import State, Thing
 from skillc_compiler.library.conditions import Individual, IsA, Same, Variable
 from skillc_compiler.library.vocabulary import THING, Vocabulary
-from skillc_compiler.proof.axioms import Axioms
-from skillc_compiler.proof.state import State, Thing
 
 SOME = "?"
 

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from skillc_compiler.analysis.binding import bound, required
+from skillc_compiler.analysis.forgetting import forgotten
+from skillc_compiler.analysis.learning import learned
+from skillc_compiler.analysis.run import Around, Run, mixed
+from skillc_compiler.analysis.sorts import Sorts
+from skillc_compiler.analysis.state import State
+from skillc_compiler.analysis.trail import Ends, Way, Ways, add, after, few, merge
+from skillc_compiler.analysis.writes import Assigned, Write
 from skillc_compiler.program.typed import Call, TypedNode
-from skillc_compiler.proof.binding import bound, required
-from skillc_compiler.proof.forgetting import forgotten
-from skillc_compiler.proof.learning import learned
-from skillc_compiler.proof.run import Around, Run, mixed
-from skillc_compiler.proof.sorts import Sorts
-from skillc_compiler.proof.state import State
-from skillc_compiler.proof.trail import Ends, Way, Ways, add, after, few, merge
-from skillc_compiler.proof.writes import Assigned, Write
 from skillc_dsl import syntax as s
 
 

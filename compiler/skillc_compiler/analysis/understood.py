@@ -4,6 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from skillc_compiler.analysis.axioms import Axioms
+from skillc_compiler.analysis.findings import Finding, NeverAssigned, Unassigned
+from skillc_compiler.analysis.learning import learned
+from skillc_compiler.analysis.opening import requirements_of
+from skillc_compiler.analysis.sorts import Sorts
+from skillc_compiler.analysis.state import State
 from skillc_compiler.library.conditions import HasProperty, Holds, IsA, PropertyOf
 from skillc_compiler.library.reading import walk
 from skillc_compiler.logic.effects import NoEffect, effects
@@ -20,12 +26,6 @@ from skillc_compiler.program.typed import (
 )
 from skillc_compiler.program.types import UNKNOWN, fits
 from skillc_compiler.program.walk import clauses_in, step_values, values_in, within
-from skillc_compiler.proof.axioms import Axioms
-from skillc_compiler.proof.findings import Finding, NeverAssigned, Unassigned
-from skillc_compiler.proof.learning import learned
-from skillc_compiler.proof.opening import requirements_of
-from skillc_compiler.proof.sorts import Sorts
-from skillc_compiler.proof.state import State
 from skillc_dsl import syntax as s
 
 

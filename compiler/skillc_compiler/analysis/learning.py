@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from skillc_compiler.analysis.axioms import Axioms
+from skillc_compiler.analysis.sorts import Sorts
+from skillc_compiler.analysis.state import Side, State, Thing
+from skillc_compiler.analysis.truth import canonical, truth
 from skillc_compiler.library.conditions import And, Anything, Condition, Holds, Individual, Not, Or, Same, Variable
 from skillc_compiler.library.pddl.rewriting import replaced
-from skillc_compiler.proof.axioms import Axioms
-from skillc_compiler.proof.sorts import Sorts
-from skillc_compiler.proof.state import Side, State, Thing
-from skillc_compiler.proof.truth import canonical, truth
 
 
 def learned(sorts: Sorts, state: State, condition: Condition, holds: bool = True) -> State | None:

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
+from skillc_compiler.analysis.axioms import Axioms
+from skillc_compiler.analysis.binding import candidates
+from skillc_compiler.analysis.findings import Clash
+from skillc_compiler.analysis.summaries import Summaries, calls_in
+from skillc_compiler.analysis.writes import Related, Valued, Write
 from skillc_compiler.library.conditions import Individual, Literal, Variable
 from skillc_compiler.library.vocabulary import local_name
 from skillc_compiler.program.typed import Call, Program, TypedNode
 from skillc_compiler.program.walk import within
-from skillc_compiler.proof.axioms import Axioms
-from skillc_compiler.proof.binding import candidates
-from skillc_compiler.proof.findings import Clash
-from skillc_compiler.proof.summaries import Summaries, calls_in
-from skillc_compiler.proof.writes import Related, Valued, Write
 from skillc_dsl import syntax as s
 
 

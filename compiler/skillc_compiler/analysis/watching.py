@@ -10,14 +10,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from skillc_compiler.analysis.binding import candidates
+from skillc_compiler.analysis.opening import opening
+from skillc_compiler.analysis.run import Around, Run
+from skillc_compiler.analysis.state import State
+from skillc_compiler.analysis.summaries import Summaries, calls_in
+from skillc_compiler.analysis.trail import Ends, Trail, Way, Ways, add, length
+from skillc_compiler.analysis.truth import truth
 from skillc_compiler.program.typed import Call, Event, Implementation, Program, Property, TypedNode
-from skillc_compiler.proof.binding import candidates
-from skillc_compiler.proof.opening import opening
-from skillc_compiler.proof.run import Around, Run
-from skillc_compiler.proof.state import State
-from skillc_compiler.proof.summaries import Summaries, calls_in
-from skillc_compiler.proof.trail import Ends, Trail, Way, Ways, add, length
-from skillc_compiler.proof.truth import truth
 
 Monitor = tuple[int, bool]
 

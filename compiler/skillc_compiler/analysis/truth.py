@@ -8,6 +8,9 @@ from functools import lru_cache
 from typing import Literal as OneOf
 from typing import TypeAlias, assert_never
 
+from skillc_compiler.analysis.quantifying import is_bound, is_ruled_out, only, quantified
+from skillc_compiler.analysis.sorts import Sorts, same
+from skillc_compiler.analysis.state import State, Thing
 from skillc_compiler.library.conditions import (
     And,
     Anything,
@@ -30,9 +33,6 @@ from skillc_compiler.library.conditions import (
 )
 from skillc_compiler.library.pddl.rewriting import replaced
 from skillc_compiler.library.reading import walk
-from skillc_compiler.proof.quantifying import is_bound, is_ruled_out, only, quantified
-from skillc_compiler.proof.sorts import Sorts, same
-from skillc_compiler.proof.state import State, Thing
 
 Sign: TypeAlias = OneOf["==", "!=", "<", "<=", ">", ">="]
 

@@ -4,6 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.analysis.binding import changes
+from skillc_compiler.analysis.findings import Finding, NeverAssigned, Undeclared, Unproved, Unreleased
+from skillc_compiler.analysis.learning import learned
+from skillc_compiler.analysis.opening import requirements_of
+from skillc_compiler.analysis.run import Effected, Run
+from skillc_compiler.analysis.sorts import Sorts
+from skillc_compiler.analysis.state import State
+from skillc_compiler.analysis.summaries import calls_in
+from skillc_compiler.analysis.trail import Ends, Way, Ways, length
+from skillc_compiler.analysis.truth import truth
+from skillc_compiler.analysis.writes import Related, Valued, Write, condition_of, write_of
+from skillc_compiler.analysis.writing import applied
 from skillc_compiler.library.conditions import (
     Arithmetic,
     Condition,
@@ -21,18 +33,6 @@ from skillc_compiler.library.conditions import (
 from skillc_compiler.library.reading import free_variables, walk
 from skillc_compiler.program.typed import Body, Call, Implementation, Requirement, TypedNode
 from skillc_compiler.program.walk import within
-from skillc_compiler.proof.binding import changes
-from skillc_compiler.proof.findings import Finding, NeverAssigned, Undeclared, Unproved, Unreleased
-from skillc_compiler.proof.learning import learned
-from skillc_compiler.proof.opening import requirements_of
-from skillc_compiler.proof.run import Effected, Run
-from skillc_compiler.proof.sorts import Sorts
-from skillc_compiler.proof.state import State
-from skillc_compiler.proof.summaries import calls_in
-from skillc_compiler.proof.trail import Ends, Way, Ways, length
-from skillc_compiler.proof.truth import truth
-from skillc_compiler.proof.writes import Related, Valued, Write, condition_of, write_of
-from skillc_compiler.proof.writing import applied
 from skillc_dsl import syntax as s
 
 

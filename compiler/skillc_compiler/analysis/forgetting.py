@@ -6,6 +6,10 @@ from collections.abc import Iterable
 from functools import lru_cache
 from typing import TypeAlias, assert_never
 
+from skillc_compiler.analysis.sorts import Sorts
+from skillc_compiler.analysis.state import Side, State, Thing
+from skillc_compiler.analysis.truth import truth
+from skillc_compiler.analysis.writes import Assigned, Ended, Related, Valued, Write, canonical
 from skillc_compiler.library.conditions import (
     Anything,
     Compare,
@@ -24,10 +28,6 @@ from skillc_compiler.library.conditions import (
 )
 from skillc_compiler.library.pddl.rewriting import replaced
 from skillc_compiler.library.reading import walk
-from skillc_compiler.proof.sorts import Sorts
-from skillc_compiler.proof.state import Side, State, Thing
-from skillc_compiler.proof.truth import truth
-from skillc_compiler.proof.writes import Assigned, Ended, Related, Valued, Write, canonical
 
 
 def forgotten(sorts: Sorts, state: State, writes: Iterable[Write]) -> State:

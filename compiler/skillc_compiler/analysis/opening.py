@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from skillc_compiler.analysis.binding import class_of
+from skillc_compiler.analysis.learning import learned
+from skillc_compiler.analysis.sorts import Sorts
+from skillc_compiler.analysis.state import State, Thing
 from skillc_compiler.library.conditions import Compare, Condition, Given, Individual, Literal, Variable
 from skillc_compiler.library.vocabulary import THING
 from skillc_compiler.logic.folding import number
 from skillc_compiler.program.typed import Implementation, Parameter, Requirement, Task
 from skillc_compiler.program.types import Thing as ThingType
-from skillc_compiler.proof.binding import class_of
-from skillc_compiler.proof.learning import learned
-from skillc_compiler.proof.sorts import Sorts
-from skillc_compiler.proof.state import State, Thing
 
 
 def requirements_of(implementation: Implementation, kind: str) -> tuple[Requirement, ...]:

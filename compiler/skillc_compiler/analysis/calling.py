@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from skillc_compiler.analysis.binding import Binding, bound, candidates, changes, class_of, made_up, required
+from skillc_compiler.analysis.forgetting import forgotten
+from skillc_compiler.analysis.learning import learned, merged
+from skillc_compiler.analysis.run import Around, Effected, Run, disturbed
+from skillc_compiler.analysis.state import State
+from skillc_compiler.analysis.summaries import hidden, seen_from
+from skillc_compiler.analysis.trail import Ends, Trail, Way, Ways, add, step
+from skillc_compiler.analysis.truth import things, truth
+from skillc_compiler.analysis.writes import Write
+from skillc_compiler.analysis.writing import applied
 from skillc_compiler.library.conditions import Variable
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.program.typed import Call, Requirement
-from skillc_compiler.proof.binding import Binding, bound, candidates, changes, class_of, made_up, required
-from skillc_compiler.proof.forgetting import forgotten
-from skillc_compiler.proof.learning import learned, merged
-from skillc_compiler.proof.run import Around, Effected, Run, disturbed
-from skillc_compiler.proof.state import State
-from skillc_compiler.proof.summaries import hidden, seen_from
-from skillc_compiler.proof.trail import Ends, Trail, Way, Ways, add, step
-from skillc_compiler.proof.truth import things, truth
-from skillc_compiler.proof.writes import Write
-from skillc_compiler.proof.writing import applied
 
 
 def called(run: Run, call: Call, ways: Ways, around: Around) -> Ends:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TypeAlias, assert_never
 
+from skillc_compiler.analysis.sorts import Sorts
+from skillc_compiler.analysis.state import State
 from skillc_compiler.library.conditions import (
     Assert,
     Assign,
@@ -20,8 +22,6 @@ from skillc_compiler.library.conditions import (
     Variable,
 )
 from skillc_compiler.library.pddl.rewriting import replaced
-from skillc_compiler.proof.sorts import Sorts
-from skillc_compiler.proof.state import State
 
 
 @dataclass(frozen=True, slots=True)
