@@ -5,7 +5,8 @@ The same library gives the same bytes. Nothing is fetched from elsewhere.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import json
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -14,9 +15,8 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from skillc_compiler.emit.docs import prose
-from skillc_compiler.emit.docs.linking import Links
+from skillc_compiler.emit.docs.linking import Links, anchor
 from skillc_compiler.emit.docs.listing import listing
-from skillc_compiler.emit.docs.search import script
 from skillc_compiler.emit.docs.skill_page import skill_page
 from skillc_compiler.emit.docs.terms_page import shown_terms, term_groups
 from skillc_compiler.emit.docs.written import Written, written
@@ -25,6 +25,8 @@ from skillc_compiler.emit.picture.drawing import task_box
 from skillc_compiler.library.skills import Skill, SkillLibrary, Task
 from skillc_compiler.program.typed import ReadFile
 
+ENTRIES = "[/* entries */]"
+"""Where the script of the search box has its entries."""
 MARK = "Made by skillc doc from the library"
 """What the first line of each page says."""
 
@@ -77,7 +79,7 @@ def site(library: SkillLibrary, files_read: Sequence[ReadFile]) -> dict[str, str
         "tasks.html": contents.page("tasks.html", "tasks.html.j2", "Tasks", tasks=_tasks(contents)),
         "terms.html": contents.page("terms.html", "terms.html.j2", "Terms", groups=_terms(contents)),
         "style.css": _text("style.css") + svg.STYLE,
-        "search.js": script(_text("search.js"), library, contents.terms),
+        "search.js": _search_script(_text("search.js"), library, contents.terms),
     }
     return dict(sorted((pages | _skills(contents) | _sources(contents)).items()))
 
@@ -139,3 +141,24 @@ def _environment() -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
+
+
+def _search_script(template: str, library: SkillLibrary, terms: frozenset[str]) -> str:
+    """Return the script with an entry for each skill, task and term: its name, its kind, its page."""
+    entries = json.dumps(sorted(_search_entries(library, terms)), ensure_ascii=False, indent=0)
+    return template.replace(ENTRIES, entries)
+
+
+def _search_entries(library: SkillLibrary, terms: frozenset[str]) -> Iterator[tuple[str, str, str]]:
+    vocabulary = library.vocabulary
+    yield from ((name, "skill", f"skill/{name}.html") for name in library.skills)
+    yield from ((name, "task", f"tasks.html#{name}") for name in library.tasks)
+    kinds = (
+        ("class", vocabulary.classes),
+        ("relation", vocabulary.relations),
+        ("property", vocabulary.properties),
+        ("function", vocabulary.functions),
+    )
+    for kind, table in kinds:
+        for name in terms & table.keys():
+            yield vocabulary.short(name), kind, f"terms.html#{anchor(name, vocabulary)}"
