@@ -17,9 +17,9 @@ from time import process_time
 
 from compile import generated
 
-from skillc_compiler.assist import highlighting
-from skillc_compiler.assist.completion import complete
-from skillc_compiler.assist.hover import hover
+from skillc_compiler.ide import highlighting
+from skillc_compiler.ide.completion import complete
+from skillc_compiler.ide.hover import hover
 from skillc_dsl.parsing.grammar import load_parser
 from skillc_runtime.commands._server import problems
 from skillc_runtime.commands._server.libraries import Libraries

@@ -54,6 +54,7 @@ def test_the_wheel_works_in_a_clean_environment(tmp_path: Path) -> None:
     library.mkdir()
     (library / "home.skill").write_text(LIBRARY, encoding="utf-8")
     call(skillc, "check", library, cwd=tmp_path)
+    assert "A class does not exist" in call(skillc, "explain", "unknown-class", cwd=tmp_path)
     call(skillc, "compile", library, "-o", tmp_path / "build", cwd=tmp_path)
     assert json.loads((tmp_path / "build/library.json").read_text(encoding="utf-8"))["name"] == "mine"
     result = json.loads(call(skillc, "run", "mine:go_home", "--json", cwd=tmp_path))

@@ -19,10 +19,10 @@ from skillc_compiler.library.rewriting import fold
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Position, Vocabulary
 from skillc_compiler.lower.bodies import node
-from skillc_compiler.program import Program, Task
+from skillc_compiler.program.typed import Program, Task
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.names import KINDS, Names
-from skillc_compiler.resolve.scope import Setting
+from skillc_compiler.resolve.scope import FileContext
 from skillc_compiler.resolve.tasks import task
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
@@ -74,7 +74,7 @@ def _refused(what: Asked, message: str) -> Outcome[None]:
     return Outcome(None, (Diagnostic("syntax", Span(what, 1, 1, 1, 2), message, EXAMPLES[what]),))
 
 
-def _goal(text: str, asked: Setting) -> Outcome[Condition | None]:
+def _goal(text: str, asked: FileContext) -> Outcome[Condition | None]:
     wrong = _slips(asked, text, "goal")
     if wrong:
         return Outcome(None, wrong)
@@ -87,7 +87,7 @@ def _goal(text: str, asked: Setting) -> Outcome[Condition | None]:
     return Outcome(fold(reached.meaning) if reached else None, understood.diagnostics)
 
 
-def _call(text: str, asked: Setting) -> Outcome[tree.Call | None]:
+def _call(text: str, asked: FileContext) -> Outcome[tree.Call | None]:
     wrong = _slips(asked, text, "call")
     if wrong:
         return Outcome(None, wrong)
@@ -98,7 +98,7 @@ def _call(text: str, asked: Setting) -> Outcome[tree.Call | None]:
     return Outcome(msgspec.structs.replace(called, source=Position("call", 1, 1)), understood.diagnostics)
 
 
-def _slips(asked: Setting, text: str, what: Asked) -> tuple[Diagnostic, ...]:
+def _slips(asked: FileContext, text: str, what: Asked) -> tuple[Diagnostic, ...]:
     names = asked.names
     written = (names.short(iri) for iri in asked.individuals or ())
     return slips(text, what, written, lambda word: any(names.is_term(kind, word) for kind in KINDS))
@@ -147,7 +147,7 @@ def _wrapped(text: str, what: Asked) -> Outcome[s.TaskDeclaration | None]:
     return Outcome(None, (Diagnostic("syntax", span, f"this is not one {what}", EXAMPLES[what]),))
 
 
-def _understood(asked: Setting, written: Outcome[s.TaskDeclaration | None]) -> Outcome[Task | None]:
+def _understood(asked: FileContext, written: Outcome[s.TaskDeclaration | None]) -> Outcome[Task | None]:
     """Resolve and check; the value is None if there are errors."""
     if written.value is None:
         return Outcome(None, written.diagnostics)

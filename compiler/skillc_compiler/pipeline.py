@@ -5,20 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
-from skillc_compiler.allowances import heeded
 from skillc_compiler.checks import check
-from skillc_compiler.collecting import no_collection
-from skillc_compiler.consequences import without_consequences
-from skillc_compiler.followers import without_followers
+from skillc_compiler.diagnostics.consequences import without_consequences
+from skillc_compiler.diagnostics.followers import without_followers
+from skillc_compiler.diagnostics.suppressions import apply_suppressions
+from skillc_compiler.diagnostics.unplannable import unplannable
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.lower.library import lower
-from skillc_compiler.program import Program, ReadFile
+from skillc_compiler.program.typed import Program, ReadFile
 from skillc_compiler.resolve.files import Parse, read
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve
-from skillc_compiler.unplannable import unplannable
 from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 
@@ -28,33 +28,33 @@ NO_SCENES: Mapping[str, Individuals] = MappingProxyType({})
 def compile(
     sources: Sequence[Source],
     vocabulary: Vocabulary,
-    shelf: Mapping[str, Source],
+    importable: Mapping[str, Source],
     name: str,
     scenes: Mapping[str, Individuals] = NO_SCENES,
     parsed_by: Parse = parse,
 ) -> Outcome[SkillLibrary]:
-    """Compile a library: read, resolve, check, lower; problems that only follow from others are not told.
+    """Compile a library: read, resolve, check, lower; problems that only follow from others are left out.
 
-    `sources` are the files of the library called `name`, `shelf` those that every library may import, by file name.
+    `sources` are the files of the library called `name`, `importable` those that it may import, by file name.
     `scenes` gives, by task, the individuals that the task's goal and body may name; without, any may be named.
     `parsed_by` may remember what it parsed before.
     The result holds everything in which no error was found; diagnostics are in the order of the files and lines, those
-    of the shelf only where they are errors.
+    of importable files only if they are errors.
     """
-    with no_collection():
-        return finish(understand(sources, vocabulary, shelf, name, scenes, parsed_by), sources)
+    with gc_disabled():
+        return finish(analyse(sources, vocabulary, importable, name, scenes, parsed_by), sources)
 
 
-def understand(
+def analyse(
     sources: Sequence[Source],
     vocabulary: Vocabulary,
-    shelf: Mapping[str, Source],
+    importable: Mapping[str, Source],
     name: str,
     scenes: Mapping[str, Individuals] = NO_SCENES,
     parsed_by: Parse = parse,
 ) -> Outcome[Program]:
     """Read, resolve and check a library as `compile` does."""
-    files = read(sources, shelf, name, parsed_by)
+    files = read(sources, importable, name, parsed_by)
     program = resolve(files.value, vocabulary, name, scenes)
     return Outcome(program.value, problems(files, program))
 
@@ -67,17 +67,17 @@ def problems(files: Outcome[tuple[ReadFile, ...]], program: Outcome[Program]) ->
 
 
 def finish(program: Outcome[Program], sources: Sequence[Source]) -> Outcome[SkillLibrary]:
-    """Lower what was understood, and choose what the author of `sources` is told."""
+    """Lower a program, and choose the diagnostics that the author of `sources` sees."""
     library = lower(program.value, program.diagnostics)
     left_out = unplannable(library, program.value, program.diagnostics)
-    return Outcome(library, told((*program.diagnostics, *left_out), sources))
+    return Outcome(library, visible_diagnostics((*program.diagnostics, *left_out), sources))
 
 
-def told(problems: Sequence[Diagnostic], sources: Sequence[Source]) -> tuple[Diagnostic, ...]:
-    """Return what the author of `sources` is told, in order of place: problems elsewhere only where they are errors.
+def visible_diagnostics(problems: Sequence[Diagnostic], sources: Sequence[Source]) -> tuple[Diagnostic, ...]:
+    """Return the diagnostics that the author of `sources` sees, in order of place; of other files only the errors.
 
-    Warnings that the author allows are left out.
+    Warnings that the author suppresses are left out.
     """
     own = {source.path for source in sources}
     chosen = [problem for problem in problems if problem.severity == "error" or problem.span.path in own]
-    return tuple(sorted(set(heeded(chosen, sources)), key=lambda problem: (problem.span, problem.name)))
+    return tuple(sorted(set(apply_suppressions(chosen, sources)), key=lambda problem: (problem.span, problem.name)))

@@ -50,6 +50,10 @@ class Diagnostic:
     labels: tuple[Label, ...] = ()
     fix: Fix | None = None
 
+    def __str__(self) -> str:
+        where = f"{self.span.path}:{self.span.line}:{self.span.column}"
+        return f"{where}: {self.message}" + (f" ({self.help})" if self.help else "")
+
 
 @dataclass(frozen=True, slots=True)
 class Outcome(Generic[T_co]):

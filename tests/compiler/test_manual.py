@@ -12,7 +12,7 @@ from shipped import shelf, vocabulary
 
 from skillc_compiler.goals import parse_goal
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.manual import Page, foresight, of_module, pages, vocabularies
+from skillc_compiler.manual import Page, page_names, pages, parse_page
 from skillc_compiler.pipeline import compile
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.encoding import decode
@@ -25,10 +25,8 @@ from skillc_runtime.world.documents import SceneError
 from skillc_runtime.world.scene import read_scene
 
 ROOT = Path(__file__).parent.parent.parent
-GIVERS = {"Diagnostic", "report", "report_unknown", "Problem", "Breach", "Flaw", "_problem_name"}
+GIVERS = {"Diagnostic", "report", "report_unknown", "Breach", "Flaw", "_problem_name"}
 PLACES = ("dsl", "compiler", "runtime/skillc_runtime/world", "runtime/skillc_runtime/commands")
-OF_VOCABULARIES = {page.name for page in of_module(vocabularies)}
-OF_SCENES = {page.name for page in of_module(foresight)}
 NAME = re.compile(r"[a-z]+(-[a-z]+)*")
 LAB = "http://example.org/lab#"
 SCENE = {
@@ -49,20 +47,29 @@ shop:Ware a owl:Class ; owl:deprecated true ; <http://purl.org/dc/terms/isReplac
 
 def problems(page: Page, text: str) -> list[str]:
     """Return the names of the diagnostics of an example."""
-    if page.name in OF_SCENES:
-        return beside_scene(text) if page.good.startswith("@prefix") else in_library(text)
-    if page.name in OF_VOCABULARIES or page.good.startswith("@prefix"):
-        return in_turtle(page.name, text)
-    if page.name == "not-formatted":
-        warning = check_layout(Source("example.skill", text))
-        return [warning.name] if warning else []
-    if page.name == "file-too-large":
+    match page.found_by:
+        case "check":
+            return beside_scene(text) if page.language == "turtle" else in_library(text)
+        case "vocabulary":
+            return in_vocabulary(text)
+        case "scene":
+            return in_scene(text)
+        case "formatter":
+            warning = check_layout(Source("example.skill", text))
+            return [warning.name] if warning else []
+        case "goal":
+            boards = {iri: classes for iri, classes in SCENE.items() if "board" in iri}
+            return [d.name for d in parse_goal(text.strip(), vocabulary(), boards, {"lab": LAB}).diagnostics]
+        case _:
+            return in_skill_file(page.name, text)
+
+
+def in_skill_file(name: str, text: str) -> list[str]:
+    """Return the names of the problems that the compiler finds in a text."""
+    if name == "file-too-large":
         return [d.name for d in parse(Source("example.skill", text * 1000)).diagnostics]
-    if page.name == "encoding":
+    if name == "encoding":
         return [d.name for d in parse(decode("example.skill", text.encode("latin-1"))).diagnostics]
-    if page.name == "missing-prefix":
-        boards = {iri: classes for iri, classes in SCENE.items() if "board" in iri}
-        return [d.name for d in parse_goal(text.strip(), vocabulary(), boards, {"lab": LAB}).diagnostics]
     terms = with_shop() if "shop" in text else vocabulary()
     outcome = compile([Source("example.skill", text)], terms, shelf(), "example", {"rest": SCENE})
     return [d.name for d in outcome.diagnostics]
@@ -75,11 +82,14 @@ def with_shop() -> Vocabulary:
     return load([*shipped, Source("shop.ttl", SHOP)]).value
 
 
-def in_turtle(name: str, text: str) -> list[str]:
-    """Return the names of the problems of a vocabulary or scene."""
-    if name in OF_VOCABULARIES:
-        shipped = [Source(path, turtle) for path, turtle in vocabulary_files()]
-        return [d.name for d in load(shipped, [Source("example.ttl", text)]).diagnostics]
+def in_vocabulary(text: str) -> list[str]:
+    """Return the names of the problems of a vocabulary."""
+    shipped = [Source(path, turtle) for path, turtle in vocabulary_files()]
+    return [d.name for d in load(shipped, [Source("example.ttl", text)]).diagnostics]
+
+
+def in_scene(text: str) -> list[str]:
+    """Return the names of the problems of a scene."""
     with TemporaryDirectory() as folder:
         scene = Path(folder, "example.ttl")
         scene.write_text(text, "latin-1" if "saved as Latin-1" in text else "utf-8")
@@ -112,15 +122,30 @@ def test_the_examples_show_the_problem_and_its_cure(page: Page) -> None:
 
 @pytest.mark.parametrize("page", pages().values(), ids=lambda page: page.name)
 def test_pages_are_short_and_complete(page: Page) -> None:
-    assert page.title and "\n" not in page.title and not page.title.endswith(".")
-    assert "Bad:" not in page.prose and "Good:" not in page.prose and "##" not in page.prose
+    assert page.title[0].isupper() or page.title[0] == "`"
+    assert "##" not in page.prose and all(len(line) <= 100 for line in page.prose.splitlines())
     assert len(page.bad.splitlines()) <= 20 and len(page.good.splitlines()) <= 20
 
 
 def test_every_diagnostic_has_a_page() -> None:
     given = {name for folder in PLACES for file in (ROOT / folder).rglob("*.py") for name in named(file)}
     assert len(given) > 100
-    assert given - pages().keys() == set()
+    assert given - page_names() == set()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ("family: names", "family: nouns", "says `nouns`, which is none of"),
+        ("# unknown-class", "# unknown-klass", "unknown-class.md explains `unknown-klass`"),
+        ("skill good", "skill better", "unknown-class.md is not of the form"),
+    ],
+)
+def test_a_page_that_is_no_page_is_refused(old: str, new: str, says: str) -> None:
+    text = (ROOT / "compiler/skillc_compiler/manual/unknown-class.md").read_text("utf-8")
+    assert parse_page("unknown-class", text) == pages()["unknown-class"]
+    with pytest.raises(ValueError, match=says):
+        parse_page("unknown-class", text.replace(old, new))
 
 
 def named(file: Path) -> Iterator[str]:

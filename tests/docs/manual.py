@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from docs.pages import ROOT
-from skillc_compiler.families import by_family
-from skillc_compiler.manual import Page, pages
+from skillc_compiler.manual import Page, by_family, pages
 
 MANUAL = ROOT / "docs/diagnostics.md"
 INTRODUCTION = """\
@@ -19,20 +18,17 @@ of each page has the problem, the second has none.
 
 def manual() -> str:
     """Return the text of the page."""
-    families = by_family(pages())
+    families = by_family(pages().values())
     lines = [INTRODUCTION]
-    for family, names in families.items():
-        lines += [f"- **{family}**: {', '.join(f'[{name}](#{name})' for name in names)}"]
-    for family, names in families.items():
+    for family, members in families.items():
+        lines += [f"- **{family}**: {', '.join(f'[{each.name}](#{each.name})' for each in members)}"]
+    for family, members in families.items():
         lines += ["", f"## {family.capitalize()}"]
-        lines += [line for name in names for line in _page(pages()[name])]
+        lines += [line for each in members for line in _page(each)]
     return "\n".join(lines) + "\n"
 
 
 def _page(page: Page) -> Iterator[str]:
-    yield from ("", f"### {page.name}", "", f"{page.title[0].upper()}{page.title[1:]}.", "")
-    if page.prose:
-        yield from (page.prose, "")
+    yield from ("", f"### {page.name}", "", f"{page.title}.", "", page.prose, "")
     for kind, program in (("bad", page.bad), ("good", page.good)):
-        language = "turtle" if "@prefix" in program else "skill"
-        yield from (f"```{language} {kind}", program.rstrip("\n"), "```")
+        yield from (f"```{page.language} {kind}", program.rstrip("\n"), "```")

@@ -10,13 +10,13 @@ from pathlib import Path
 
 import pytest
 
-from skillc_compiler.assist import highlighting, outline
-from skillc_compiler.assist.analysis import Analysis, Library, analyse
-from skillc_compiler.assist.calls import signature
-from skillc_compiler.assist.completion import complete
-from skillc_compiler.assist.hover import hover
-from skillc_compiler.assist.places import definition, references
-from skillc_compiler.assist.rename import rename
+from skillc_compiler.ide import highlighting, outline
+from skillc_compiler.ide.analysis import Analysis, Library, analyse
+from skillc_compiler.ide.calls import signature
+from skillc_compiler.ide.completion import complete
+from skillc_compiler.ide.hover import hover
+from skillc_compiler.ide.places import definition, references
+from skillc_compiler.ide.rename import rename
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 from skillc_runtime.commands._library import SHIPPED, vocabulary

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import pytest
 from lsprotocol import types
 
-from skillc_compiler.assist.analysis import Analysis, Library, analyse
+from skillc_compiler.ide.analysis import Analysis, Library, analyse
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.parsing.parser import parse

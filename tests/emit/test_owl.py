@@ -15,7 +15,7 @@ from rdflib import OWL, RDF, RDFS, XSD, Graph, Literal, Namespace, URIRef
 from accept import built, cases
 from emit.samples import BASE, WIPE, holds, implementation, library, need, wiping
 from skillc_compiler.emit import owl
-from skillc_compiler.emit.turtle import Iri, turtle
+from skillc_compiler.emit.owl.turtle import Iri, turtle
 from skillc_compiler.library.skills import Requirement, SkillLibrary
 
 SAMPLE = Namespace("https://w3id.org/skillc/library/sample#")

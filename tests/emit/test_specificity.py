@@ -15,7 +15,7 @@ import pytest
 from emit.reasoner import classified, needs_java
 from emit.test_shipped import wiping
 from skillc_compiler.emit import owl
-from skillc_compiler.emit.owl_words import library_base
+from skillc_compiler.emit.owl.words import library_base
 from skillc_compiler.library.skills import Implementation, SkillLibrary
 from skillc_compiler.library.vocabulary import ClassType
 from skillc_compiler.pipeline import compile

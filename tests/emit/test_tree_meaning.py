@@ -12,7 +12,7 @@ from emit.bt_parts import Blackboard, Outcome
 from emit.bt_parts import Stage as Leaves
 from emit.bt_player import Player
 from skillc_compiler.emit import bt
-from skillc_compiler.emit.bt_calls import may_break_hold
+from skillc_compiler.emit.bt.calls import may_break_hold
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.reading import walk

@@ -16,9 +16,9 @@ from emit.samples import HERE, PICK, WIPE, holds, implementation, library, need,
 from emit.tree_rules import Reader, broken_rules
 from peers.comparing import differences_of
 from skillc_compiler.emit import bt
-from skillc_compiler.emit.bt_names import Names, entry, given, port
-from skillc_compiler.emit.bt_ports import plain_value
-from skillc_compiler.emit.bt_rules import TreeRefused, verified
+from skillc_compiler.emit.bt.names import Names, entry, given, port
+from skillc_compiler.emit.bt.ports import plain_value
+from skillc_compiler.emit.bt.rules import TreeRefused, verified
 from skillc_compiler.library.codec import loads
 from skillc_compiler.library.conditions import Literal, Variable
 from skillc_compiler.library.skills import Compound, Primitive, Skill, SkillLibrary

@@ -14,7 +14,7 @@ from matrix.leaves import LibraryLeaves
 from matrix.stage import SCRIPTS
 from peers.comparing import differences_of
 from skillc_compiler.emit import bt, owl
-from skillc_compiler.emit.owl_words import library_base
+from skillc_compiler.emit.owl.words import library_base
 from skillc_compiler.library.codec import dumps, loads
 from skillc_compiler.library.conditions import And
 from skillc_compiler.library.pddl.planning import planning_domain

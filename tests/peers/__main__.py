@@ -17,7 +17,7 @@ from fuzz.kinds.trees import draw_library
 from matrix.case import cases as features
 from peers.comparing import differences
 from skillc_compiler.emit import bt
-from skillc_compiler.emit.bt_names import BUILT_IN
+from skillc_compiler.emit.bt.names import BUILT_IN
 from skillc_compiler.pipeline import compile
 
 

@@ -8,8 +8,9 @@ import pytest
 
 from emit.tree_rules import Reader
 from peers.comparing import differences
-from skillc_compiler.emit import bt, bt_depth
-from skillc_compiler.emit.bt_names import BUILT_IN
+from skillc_compiler.emit import bt
+from skillc_compiler.emit.bt import depth as bt_depth
+from skillc_compiler.emit.bt.names import BUILT_IN
 from skillc_compiler.pipeline import compile
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source

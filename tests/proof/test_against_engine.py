@@ -14,23 +14,23 @@ import pytest
 
 from proof.actors import ITEMS, SPOTS, Chance, world
 from proof.plays import Writer
+from skillc_compiler.analysis.findings import BrokenHold, Undecided, Unproved, Unverified, Violated
+from skillc_compiler.analysis.opening import opening, requirements_of
+from skillc_compiler.analysis.proving import Prover
+from skillc_compiler.analysis.run import Around
+from skillc_compiler.analysis.run import Run as Exploration
+from skillc_compiler.analysis.state import State
+from skillc_compiler.analysis.trail import Ends
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Condition, Holds, Individual, Variable
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Position, Vocabulary
 from skillc_compiler.lower.library import lower
-from skillc_compiler.program import Implementation, Program, Step, position
-from skillc_compiler.proof.findings import BrokenHold, Undecided, Unproved, Unverified, Violated
-from skillc_compiler.proof.opening import opening, requirements_of
-from skillc_compiler.proof.proving import Prover
-from skillc_compiler.proof.run import Around
-from skillc_compiler.proof.run import Run as Exploration
-from skillc_compiler.proof.state import State
-from skillc_compiler.proof.trail import Ends
+from skillc_compiler.program.typed import Implementation, Program, TypedNode, position
+from skillc_compiler.program.walk import within
 from skillc_compiler.resolve.files import read
 from skillc_compiler.resolve.program import resolve
-from skillc_compiler.walk import within
 from skillc_dsl.source import Source
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
@@ -79,7 +79,7 @@ def understood(text: str) -> Program:
     return program.value
 
 
-def claims_of(prover: Prover, implementation: Implementation, body: Step) -> Claims:
+def claims_of(prover: Prover, implementation: Implementation, body: TypedNode) -> Claims:
     """Explore a body and return everything that is claimed of it."""
     run = prover.run(implementation, body)
     prover.leaks(implementation)
@@ -110,7 +110,9 @@ def test_what_is_proved_holds_when_it_runs(block: int) -> None:
         text = Writer(Random(seed)).library()
         program = understood(text)
         prover = Prover(program)
-        claims = [claims_of(prover, one, one.body) for one in program.implementations if isinstance(one.body, Step)]
+        claims = [
+            claims_of(prover, one, one.body) for one in program.implementations if isinstance(one.body, TypedNode)
+        ]
         assert claims
         library = lower(program, ())
         for claim in claims:

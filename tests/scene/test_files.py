@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from skillc_compiler.turtle.problems import Problem
+from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
 from skillc_runtime.world.documents import SceneError
@@ -17,7 +17,7 @@ LABEL = b'"rough table"'
 LABEL_LINE = TEXT[: TEXT.index(LABEL)].count(b"\n") + 1
 
 
-def problems(path: Path, content: bytes) -> tuple[Problem, ...]:
+def problems(path: Path, content: bytes) -> tuple[Diagnostic, ...]:
     path.write_bytes(content)
     try:
         load_scene(path, _library.vocabulary())
@@ -46,13 +46,13 @@ WRONG = [
 @pytest.mark.parametrize(("content", "name", "line"), WRONG)
 def test_what_is_no_scene_is_told_once(tmp_path: Path, content: bytes, name: str, line: int) -> None:
     found = [problem for problem in problems(tmp_path / "scene.ttl", content) if problem.name != "unknown-class"]
-    assert [(problem.name, problem.line) for problem in found] == [(name, line)]
+    assert [(problem.name, problem.span.line) for problem in found] == [(name, line)]
 
 
 def test_columns_count_characters_behind_a_mark_and_before_a_carriage_return(tmp_path: Path) -> None:
     text = "\ufeff@prefix : <http://e/> .\r\n:x a :ä, 'é' .\r\n"
     found = problems(tmp_path / "scene.ttl", text.encode())
-    assert [(p.name, p.line, p.column) for p in found] == [("unknown-class", 2, 6), ("unknown-class", 2, 10)]
+    assert [(p.name, p.span.line, p.span.column) for p in found] == [("unknown-class", 2, 6), ("unknown-class", 2, 10)]
 
 
 def test_a_folder_is_no_scene(tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ import rdflib
 from rdflib.plugins.parsers.notation3 import BadSyntax
 
 from scene.mutations import Mutant, mutants
-from skillc_compiler.turtle.problems import Problem
+from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
 from skillc_runtime.world.documents import Document
@@ -26,8 +26,8 @@ def graph(text: str) -> rdflib.Graph | None:
         return None
 
 
-def is_near(mutant: Mutant, problem: Problem) -> bool:
-    places = [problem.place, *(note.place for note in problem.notes)]
+def is_near(mutant: Mutant, problem: Diagnostic) -> bool:
+    places = [problem.span, *(note.span for note in problem.labels)]
     return any(place.line - 1 <= mutant.line <= place.end_line + 1 for place in places)
 
 

@@ -11,8 +11,9 @@ import pytest
 from scene.mutations import mutants
 from scene.turtle_texts import BASE, EVERYTHING, by_oxigraph, by_rdflib, random_text, shown
 from skillc_compiler.turtle.parser import parse
-from skillc_compiler.turtle.problems import Edit, Place
 from skillc_compiler.turtle.statements import Parsed
+from skillc_dsl.diagnostics import Fix
+from skillc_dsl.source import Span
 from skillc_ontology import catalogue
 
 SEEDS = int(os.environ.get("TURTLE_SEEDS", "30"))
@@ -79,7 +80,7 @@ def test_every_term_is_where_its_place_says() -> None:
     text = '@prefix : <http://e/> .\n:x  a :Y ;\n\t:p  "ä", [ :q 1.5 ] .\n'
     lines = text.split("\n")
 
-    def at(place: Place) -> str:
+    def at(place: Span) -> str:
         assert place.line == place.end_line
         return lines[place.line - 1][place.column - 1 : place.end_column - 1]
 
@@ -131,23 +132,23 @@ MISTAKES = [
 @pytest.mark.parametrize(("text", "line", "words", "cured"), MISTAKES)
 def test_a_mistake_is_told_once_with_its_cure(text: str, line: int, words: str, cured: str | None) -> None:
     (problem,) = read(PREFIXES + text).problems
-    assert (problem.line, words in problem.message) == (line, True), problem
+    assert (problem.span.line, words in problem.message) == (line, True), problem
     if cured is not None:
-        assert problem.edit is not None
-        assert edited(PREFIXES + text, problem.edit) == PREFIXES + cured
+        assert problem.fix is not None
+        assert edited(PREFIXES + text, problem.fix) == PREFIXES + cured
 
 
-def edited(text: str, edit: Edit) -> str:
+def edited(text: str, edit: Fix) -> str:
     lines = text.split("\n")
-    line = lines[edit.place.line - 1]
-    lines[edit.place.line - 1] = line[: edit.place.column - 1] + edit.text + line[edit.place.end_column - 1 :]
+    line = lines[edit.span.line - 1]
+    lines[edit.span.line - 1] = line[: edit.span.column - 1] + edit.text + line[edit.span.end_column - 1 :]
     return "\n".join(lines)
 
 
 def test_several_mistakes_are_told_and_the_rest_is_read() -> None:
     text = ":a a :Y\n :p 1 .\n:b a :Y ; :q ; :r 2 .\n:c a :Y ; :s 3 x ; :t 4 .\n:d a nope:Y .\n"
     parsed = read(PREFIXES + text)
-    assert [problem.line for problem in parsed.problems] == [3, 5, 6, 7]
+    assert [problem.span.line for problem in parsed.problems] == [3, 5, 6, 7]
     predicates = {s.predicate.removeprefix("http://e.org/") for s in parsed.statements}
     assert {"p", "r", "s", "t"} <= predicates and "q" not in predicates
     assert "http://e.org/b" in parsed.doubtful and "http://e.org/a" not in parsed.doubtful
@@ -156,7 +157,7 @@ def test_several_mistakes_are_told_and_the_rest_is_read() -> None:
 def test_a_misspelt_namespace_is_told_at_its_declaration() -> None:
     parsed = read("@prefix skiros: <http://rvmi.aau.dk/ontologies/skirs.owl#> .\n\n\nskiros:x a skiros:Y, skiros:Z .\n")
     (problem,) = parsed.problems
-    assert (problem.name, problem.line) == ("unknown-vocabulary", 1)
+    assert (problem.name, problem.span.line) == ("unknown-vocabulary", 1)
     assert {s.object.value for s in parsed.statements} == {KNOWN["skiros"] + "Y", KNOWN["skiros"] + "Z"}
 
 

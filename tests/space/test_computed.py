@@ -105,7 +105,7 @@ def test_a_scene_that_states_it_is_told_where(tmp_path: object) -> None:
     path = tmp_path / "scene.ttl"  # type: ignore[operator]
     path.write_text(text + "lab:Eraser-1 skillc:restsOn lab:SideTable .\n", "utf-8")
     (problem,) = read_scene(path, ROOM.vocabulary).problems
-    assert (problem.name, problem.line) == ("computed-property", text.count("\n") + 1)
+    assert (problem.name, problem.span.line) == ("computed-property", text.count("\n") + 1)
 
 
 def test_it_is_never_fixed_and_is_read_from_what_decides_it() -> None:

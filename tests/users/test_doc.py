@@ -15,9 +15,9 @@ from posixpath import dirname, join, normpath
 import pytest
 from click.testing import CliRunner
 
-from skillc_compiler.reference import prose
-from skillc_compiler.reference.reasons import reasons
-from skillc_compiler.reference.site import site
+from skillc_compiler.emit.docs import prose
+from skillc_compiler.emit.docs.reasons import reasons
+from skillc_compiler.emit.docs.site import site
 from skillc_compiler.resolve.files import read
 from skillc_runtime.commands import _library
 from skillc_runtime.commands.doc import command

@@ -9,11 +9,11 @@ from xml.etree import ElementTree
 import pytest
 from click.testing import CliRunner
 
-from skillc_compiler.picture import mermaid, svg
-from skillc_compiler.picture.boxes import Box
-from skillc_compiler.picture.find import drawable, picture_of
-from skillc_compiler.picture.layout import Placed, lay_out
-from skillc_compiler.picture.wrapping import cells, wrapped
+from skillc_compiler.emit.picture import mermaid, svg
+from skillc_compiler.emit.picture.boxes import Box
+from skillc_compiler.emit.picture.find import drawable, picture_of
+from skillc_compiler.emit.picture.layout import Placed, lay_out
+from skillc_compiler.emit.picture.wrapping import cells, wrapped
 from skillc_compiler.resolve.files import read
 from skillc_dsl.source import Source
 from skillc_runtime.commands.graph import command

@@ -83,4 +83,4 @@ def test_it_is_told_where_the_area_says_so() -> None:
     text = SCENE.replace("PositionX -0.12", "PositionX 12", 1)
     assert text != SCENE
     (told,) = scene_in(Document("s.ttl", text), VOCABULARY).problems
-    assert text.splitlines()[told.line - 1].lstrip().startswith("skiros:PositionX 12")
+    assert text.splitlines()[told.span.line - 1].lstrip().startswith("skiros:PositionX 12")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from skillc_compiler.turtle.problems import Problem
+from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
 from skillc_runtime.world.documents import SceneError
@@ -16,7 +16,7 @@ SHIPPED = _library.compile_library(_library.find(_library.SHIPPED / "wiping")).v
 SCENE = catalogue.scene("iiwa_table").read_text(encoding="utf-8")
 
 
-def problems(tmp_path: Path, text: str) -> tuple[Problem, ...]:
+def problems(tmp_path: Path, text: str) -> tuple[Diagnostic, ...]:
     path = tmp_path / "scene.ttl"
     path.write_text(text, encoding="utf-8")
     try:
@@ -91,7 +91,7 @@ def test_a_mistake_is_reported_at_its_line(
     assert old in SCENE
     found = problems(tmp_path, SCENE.replace(old, new, 1))
     first = found[0]
-    assert (first.name, first.path) == (name, str(tmp_path / "scene.ttl"))
+    assert (first.name, first.span.path) == (name, str(tmp_path / "scene.ttl"))
     assert words in first.message and cure in first.help
     assert {each.name for each in found} == {name}
 
@@ -99,7 +99,7 @@ def test_a_mistake_is_reported_at_its_line(
 def test_the_place_is_that_of_the_statement(tmp_path: Path) -> None:
     line = SCENE[: SCENE.index("SizeZ 0.05")].count("\n") + 1
     (found,) = problems(tmp_path, SCENE.replace("SizeZ 0.05", "SizeZ -1"))
-    assert found.line == line
+    assert found.span.line == line
 
 
 @pytest.mark.parametrize(

@@ -129,14 +129,14 @@ def test_a_mistake_is_reported_with_its_place(
     with pytest.raises(SceneError) as caught:
         world(text)
     first = next(each for each in caught.value.problems if each.name == name)
-    assert (first.line - HEADER, first.column) == place
+    assert (first.span.line - HEADER, first.span.column) == place
     assert message in first.message and help_ in first.help
 
 
 def test_all_mistakes_are_reported_and_one_mistake_once() -> None:
     with pytest.raises(SceneError) as caught:
         world("lab:T a t:Locatoin ; t:contain lab:B .\nlab:B a t:Product ; t:wieght 3 ; t:weight true .")
-    assert [(each.line - HEADER, each.name) for each in caught.value.problems] == [
+    assert [(each.span.line - HEADER, each.name) for each in caught.value.problems] == [
         (1, "unknown-class"),
         (2, "unknown-property"),
         (2, "wrong-data-type"),

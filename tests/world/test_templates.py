@@ -77,4 +77,4 @@ def test_a_template_that_makes_no_sense_is_told(text: str, words: str) -> None:
     with pytest.raises(SceneError) as caught:
         templates_of([Document("scene.ttl", HEAD + text)], VOCABULARY)
     assert any(words in problem.message for problem in caught.value.problems)
-    assert all(problem.place.line == HEAD.count("\n") + 1 for problem in caught.value.problems)
+    assert all(problem.span.line == HEAD.count("\n") + 1 for problem in caught.value.problems)

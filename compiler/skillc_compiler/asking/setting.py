@@ -7,11 +7,11 @@ from collections.abc import Mapping
 from skillc_compiler.library import skills as library
 from skillc_compiler.library.conditions import Expression, Literal
 from skillc_compiler.library.vocabulary import Position, Vocabulary
-from skillc_compiler.program import Parameter, Skill, Valued
+from skillc_compiler.program.typed import Parameter, Skill, TypedExpression
+from skillc_compiler.program.types import Type, of_library
 from skillc_compiler.resolve.individuals import Individuals, narrowest
 from skillc_compiler.resolve.names import Names, bare_terms
-from skillc_compiler.resolve.scope import Setting
-from skillc_compiler.types import Type, of_library
+from skillc_compiler.resolve.scope import FileContext
 from skillc_dsl.source import Span
 
 
@@ -20,7 +20,7 @@ def setting(
     individuals: Individuals,
     prefixes: Mapping[str, str],
     skills: Mapping[str, library.Skill] | None = None,
-) -> Setting:
+) -> FileContext:
     """Return the setting: every term may be written bare where that is unambiguous.
 
     `individuals` are the IRIs known, with their classes; `prefixes` may be written besides the vocabulary's.
@@ -39,7 +39,7 @@ def setting(
         skills=set(understood),
         elsewhere={},
     )
-    return Setting(
+    return FileContext(
         names=names,
         vocabulary=vocabulary,
         skills=understood,
@@ -79,8 +79,8 @@ def _parameter(parameter: library.Parameter) -> Parameter:
     )
 
 
-def _valued(meaning: Expression | None, kind: Type, span: Span) -> Valued | None:
-    return Valued(meaning, kind, span) if meaning is not None else None
+def _valued(meaning: Expression | None, kind: Type, span: Span) -> TypedExpression | None:
+    return TypedExpression(meaning, kind, span) if meaning is not None else None
 
 
 def _span(place: Position) -> Span:

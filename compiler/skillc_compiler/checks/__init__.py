@@ -1,6 +1,6 @@
-"""The checks on a resolved program, one per file; a file in this folder is a check, nothing else need be edited.
+"""The checks on a resolved program, one per file; a file in this folder is a check, and nothing else is registered.
 
-Each has `NAMES`, the diagnostics it gives, and `check(program)`; its docstring is its manual page.
+Each has `NAMES`, the diagnostics that it reports, and `check(program)`; manual/NAME.md explains each of them.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from importlib import import_module
 from pkgutil import iter_modules
 from typing import Protocol, cast
 
-from skillc_compiler.program import Program
+from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic
 
 

@@ -1,21 +1,4 @@
-"""An angle of more than two turns, which was probably meant in degrees.
-
-Bad:
-
-    skill Tilt {
-        opt angle: Angle = 90 rad
-        noplan
-    }
-    impl waiting of Tilt { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    skill Tilt {
-        opt angle: Angle = 90 deg
-        noplan
-    }
-    impl waiting of Tilt { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""An angle of more than two turns, which was probably meant in degrees."""
 
 from __future__ import annotations
 
@@ -23,9 +6,9 @@ import math
 from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import Literal
-from skillc_compiler.program import Program
-from skillc_compiler.types import Measure
-from skillc_compiler.walk import values
+from skillc_compiler.program.typed import Program
+from skillc_compiler.program.types import Measure
+from skillc_compiler.program.walk import values
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.units import ANGLE
 

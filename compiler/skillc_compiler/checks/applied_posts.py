@@ -1,56 +1,11 @@
-"""An `apply` of something that is no post of the skill, or that only a measurement can establish.
-
-`apply LABEL` writes the post with that label to the world model at this point of the body.
-
-## unknown-label: `apply` names no post
-
-Bad:
-
-    use skillc
-    skill Clear {
-        in   surface: Surface
-        post seen: surface.located == true
-    }
-    impl at_once of Clear { do apply sen }
-
-Good:
-
-    use skillc
-    skill Clear {
-        in   surface: Surface
-        post seen: surface.located == true
-    }
-    impl at_once of Clear { do apply seen }
-
-## sensed-post-applied: `apply` of a post that only a measurement can establish
-
-Call a skill that measures it instead, or take `sensed` away where the robot may simply believe it.
-
-Bad:
-
-    use skillc
-    skill Clear {
-        in   surface: Surface
-        post sensed seen: surface.located == true
-    }
-    impl at_once of Clear { do apply seen }
-
-Good:
-
-    use skillc
-    skill Clear {
-        in   surface: Surface
-        post seen: surface.located == true
-    }
-    impl at_once of Clear { do apply seen }
-"""
+"""An `apply` of something that is no post of the skill, or that only a measurement can establish."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from skillc_compiler.program import Program, Requirement, Step
-from skillc_compiler.walk import within
+from skillc_compiler.program.typed import Program, Requirement, TypedNode
+from skillc_compiler.program.walk import within
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label, did_you_mean
 
@@ -60,7 +15,7 @@ NAMES = ("unknown-label", "sensed-post-applied")
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each label that cannot be applied where it is."""
     for implementation in program.implementations:
-        if isinstance(implementation.body, Step):
+        if isinstance(implementation.body, TypedNode):
             requirements = (*implementation.skill.requirements, *implementation.requirements)
             yield from _labels(implementation.body, [r for r in requirements if r.kind == "post"])
     for task in program.tasks:
@@ -68,7 +23,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
             yield from _labels(task.body, [])
 
 
-def _labels(body: Step, posts: Sequence[Requirement]) -> Iterator[Diagnostic]:
+def _labels(body: TypedNode, posts: Sequence[Requirement]) -> Iterator[Diagnostic]:
     labelled = {post.label.text: post for post in posts if post.label}
     for step in within(body):
         if isinstance(step.written, s.ApplyPosts):

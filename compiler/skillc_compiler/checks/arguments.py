@@ -1,118 +1,12 @@
-"""A call that leaves out what it must pass, passes it twice, or uses `with` on a skill that is not scoped.
-
-## missing-argument: a call leaves out an `in` parameter
-
-Bad:
-
-    use rparts
-    import "motion.skill"
-    skill Fold {
-        in arm: ArmDevice
-        noplan
-    }
-    impl once of Fold { do MoveTo(arm, pace: 0.5) }
-
-Good:
-
-    use rparts
-    import "motion.skill"
-    skill Fold {
-        in arm: ArmDevice
-        in goal: Pose
-        noplan
-    }
-    impl once of Fold { do MoveTo(arm, target: goal, pace: 0.5) }
-
-## duplicate-argument: a call passes a parameter twice
-
-Bad:
-
-    use rparts
-    import "motion.skill"
-    skill Fold {
-        in arm: ArmDevice
-        noplan
-    }
-    impl once of Fold { do TakePosture(arm, pace: 0.5, pace: 0.2) }
-
-Good:
-
-    use rparts
-    import "motion.skill"
-    skill Fold {
-        in arm: ArmDevice
-        noplan
-    }
-    impl once of Fold { do TakePosture(arm, pace: 0.2) }
-
-## wrong-argument-count: a function is given too few or too many values
-
-Bad:
-
-    use rparts
-    import "motion.skill"
-    skill Fold {
-        in arm: ArmDevice
-        in goal: Pose
-        noplan
-    }
-    impl once of Fold {
-        let above = offset(goal)
-        do  MoveTo(arm, target: above)
-    }
-
-Good:
-
-    use rparts
-    import "motion.skill"
-    skill Fold {
-        in arm: ArmDevice
-        in goal: Pose
-        in up: Vector
-        noplan
-    }
-    impl once of Fold {
-        let above = offset(goal, 5 cm * up)
-        do  MoveTo(arm, target: above)
-    }
-
-## not-scoped: `with` on a skill that sets nothing up
-
-Only a skill declared `scoped` has something to undo when the block ends.
-
-Bad:
-
-    use skillc
-    import "motion.skill"
-    skill Fold {
-        in arm: CompliantArm
-        noplan
-    }
-    impl once of Fold {
-        do with TakePosture(arm) { wait 1 s }
-    }
-
-Good:
-
-    use skillc
-    import "compliance.skill"
-    skill Fold {
-        in arm: CompliantArm
-        in up: Direction
-        noplan
-    }
-    impl once of Fold {
-        do with Compliance(arm, along: up) { wait 1 s }
-    }
-"""
+"""A call that leaves out what it must pass, passes it twice, or uses `with` on a skill that is not scoped."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import Invoke
-from skillc_compiler.program import Call, Program, Skill, Valued
-from skillc_compiler.walk import calls, steps, values
+from skillc_compiler.program.typed import Call, Program, Skill, TypedExpression
+from skillc_compiler.program.walk import calls, steps, values
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -174,7 +68,7 @@ def _scoped(call: Call, skill: Skill) -> Iterator[Diagnostic]:
         )
 
 
-def _counted(program: Program, value: Valued, meaning: Invoke) -> Iterator[Diagnostic]:
+def _counted(program: Program, value: TypedExpression, meaning: Invoke) -> Iterator[Diagnostic]:
     function = program.vocabulary.functions.get(meaning.function)
     if function and len(function.parameters) != len(meaning.arguments):
         names = ", ".join(name for name, _ in function.parameters)

@@ -1,52 +1,10 @@
-"""Something that does not say how it is done.
-
-## missing-body: an implementation or a task has no body
-
-An implementation has `do NODE` or `run python "module:Class"`, a task has `goal CONDITION` or `do NODE`.
-
-Bad:
-
-    use rparts
-    skill Fold {
-        in arm: ArmDevice
-        noplan
-    }
-    impl once of Fold { prefer 2 }
-
-Good:
-
-    use rparts
-    skill Fold {
-        in arm: ArmDevice
-        noplan
-    }
-    impl once of Fold { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-## no-implementation: a skill has no implementation, so nothing can run it
-
-Bad:
-
-    use rparts
-    skill Fold {
-        in arm: ArmDevice
-        noplan
-    }
-
-Good:
-
-    use rparts
-    skill Fold {
-        in arm: ArmDevice
-        noplan
-    }
-    impl once of Fold { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""Something that does not say how it is done."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Program, Task
+from skillc_compiler.program.typed import Program, Task
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("missing-body", "no-implementation")

@@ -1,49 +1,13 @@
-"""A called skill whose precondition does not hold where it starts, or is not known to.
-
-An error is a precondition that does not hold on some way through the body, a warning one that is not guaranteed:
-neither the skill's own preconditions promise it, nor does anything before the call establish it. Where the failure of
-the call is dealt with, by `sel`, `try`, `retry` or `invert`, only a precondition that never holds is told. What the
-called skill infers by itself is found when it starts, so that nothing is said of conditions on it unless they are
-certainly false.
-
-Bad:
-
-    use rparts, skiros
-    import "gripper.skill"
-    skill Drop {
-        in   arm:     ArmDevice
-        in   gripper: GripperEffector
-        in   object:  Product
-        in   to:      Location
-        post not gripper contain object
-        post to contain object
-    }
-    impl plain of Drop { do Release(arm, gripper, object, to) }
-
-Good:
-
-    use rparts, skiros
-    import "gripper.skill"
-    skill Drop {
-        in   arm:     ArmDevice
-        in   gripper: GripperEffector
-        in   object:  Product
-        in   to:      Location
-        pre  gripper contain object
-        post not gripper contain object
-        post to contain object
-    }
-    impl plain of Drop { do Release(arm, gripper, object, to) }
-"""
+"""A called skill whose precondition does not hold where it starts, or is not known to."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Program
-from skillc_compiler.proof.findings import Unguaranteed
-from skillc_compiler.proof.proving import found
-from skillc_compiler.proof.trail import labels
+from skillc_compiler.analysis.findings import Unguaranteed
+from skillc_compiler.analysis.proving import found
+from skillc_compiler.analysis.trail import labels
+from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("child-precondition",)

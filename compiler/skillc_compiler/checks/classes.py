@@ -1,29 +1,4 @@
-"""Something asked to be of two classes that have nothing in common.
-
-Disjointness is declared in the vocabulary: no arm is a place, no gripper an arm.
-
-Bad:
-
-    use rparts
-    skill Wait {
-        in  arm:     ArmDevice
-        in  gripper: GripperEffector
-        pre gripper == arm
-        noplan
-    }
-    impl waiting of Wait { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use rparts
-    skill Wait {
-        in  arm:     ArmDevice
-        in  other:   ArmDevice
-        pre not other == arm
-        noplan
-    }
-    impl waiting of Wait { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""Something asked to be of two classes that have nothing in common."""
 
 from __future__ import annotations
 
@@ -31,9 +6,9 @@ from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import IsA, Same
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.program import Program
-from skillc_compiler.types import Thing, Type, describe
-from skillc_compiler.walk import clauses
+from skillc_compiler.program.typed import Program
+from skillc_compiler.program.types import Thing, Type, describe
+from skillc_compiler.program.walk import clauses
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("disjoint-types",)

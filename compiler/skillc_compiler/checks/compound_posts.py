@@ -1,50 +1,13 @@
-"""A postcondition that not every successful end of the body establishes.
-
-What a compound skill promises, its children must bring about: by a postcondition of theirs, by `check`, by `wait
-until`, or by `apply`, on every way that ends in success. On a way that does not, the skill would fail at its end. The
-ways are followed for every outcome of every child, and the shortest one is shown; what others do to the world
-meanwhile is not considered. Where the postcondition speaks of all individuals, of chains of facts or of computed
-values, this is a warning.
-
-Bad:
-
-    use rparts, skiros
-    import "gripper.skill"
-    skill Drop {
-        in   arm:     ArmDevice
-        in   gripper: GripperEffector
-        in   object:  Product
-        in   to:      Location
-        pre  gripper contain object
-        post not gripper contain object
-        post to contain object
-    }
-    impl hoping of Drop { do try { Release(arm, gripper, object, to) } }
-
-Good:
-
-    use rparts, skiros
-    import "gripper.skill"
-    skill Drop {
-        in   arm:     ArmDevice
-        in   gripper: GripperEffector
-        in   object:  Product
-        in   to:      Location
-        pre  gripper contain object
-        post not gripper contain object
-        post to contain object
-    }
-    impl firm of Drop { do retry 2 { Release(arm, gripper, object, to) } }
-"""
+"""A postcondition that not every successful end of the body establishes."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Program
-from skillc_compiler.proof.findings import Unproved
-from skillc_compiler.proof.proving import found
-from skillc_compiler.proof.trail import labels
+from skillc_compiler.analysis.findings import Unproved
+from skillc_compiler.analysis.proving import found
+from skillc_compiler.analysis.trail import labels
+from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("post-not-established",)

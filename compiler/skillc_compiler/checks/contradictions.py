@@ -1,40 +1,12 @@
-"""Two conditions that cannot both hold.
-
-Told of preconditions and holds, those an implementation adds included, of goals and of conditions in bodies. A relation
-that has one value only, one that goes one way only, values of properties, classes and who is said to be the same are
-taken into account.
-
-Bad:
-
-    use skiros, rparts
-    skill Take {
-        in   gripper: GripperEffector
-        in   object:  Product
-        pre  empty: not gripper contain _
-        pre  held:  gripper contain object
-        noplan
-    }
-    impl waiting of Take { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skiros, rparts
-    skill Take {
-        in   gripper: GripperEffector
-        in   object:  Product
-        pre  held:  gripper contain object
-        noplan
-    }
-    impl waiting of Take { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""Two conditions that cannot both hold."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.conflicts import Conflicts
-from skillc_compiler.conjuncts import ConjunctionGroup, Fact, conjunction_groups, names_of, renamed
-from skillc_compiler.program import Program
+from skillc_compiler.logic.conflicts import Conflicts
+from skillc_compiler.logic.conjunctions import ConjunctionGroup, Fact, conjunction_groups, names_of, renamed
+from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("contradicting-conditions",)

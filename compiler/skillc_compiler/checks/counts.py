@@ -1,60 +1,15 @@
-"""A count, a time or another number that no run can make sense of.
-
-## bad-count: a number of rounds is no whole number from 1 to a million
-
-Bad:
-
-    skill Rest { noplan }
-    impl patient of Rest { do repeat 0 { wait 1 s } }
-
-Good:
-
-    skill Rest { noplan }
-    impl patient of Rest { do repeat 3 { wait 1 s } }
-
-## bad-time: a time is negative, or longer than a year
-
-A `timeout` has to leave some time: with none, what is in it never runs. The ranges of parameters count.
-
-Bad:
-
-    skill Rest { noplan }
-    impl patient of Rest { do wait 1 s - 3 s }
-
-Good:
-
-    skill Rest { noplan }
-    impl patient of Rest { do wait 3 s - 1 s }
-
-## bad-number: a number is too large to compute with, or divided by zero
-
-Bad:
-
-    skill Press {
-        opt force: Force = 1e400 N
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    skill Press {
-        opt force: Force = 10 N
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""A count, a time or another number that no run can make sense of."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from skillc_compiler.intervals import Interval, interval_of, intervals
 from skillc_compiler.library.conditions import Arithmetic, Literal
 from skillc_compiler.library.rewriting import constant_number
-from skillc_compiler.lower.bodies import MOST_ROUNDS
-from skillc_compiler.program import Program, Step, Valued
-from skillc_compiler.walk import steps, values, within
+from skillc_compiler.logic.intervals import Interval, interval_of, intervals
+from skillc_compiler.logic.rounds import MOST_ROUNDS
+from skillc_compiler.program.typed import Program, TypedExpression, TypedNode
+from skillc_compiler.program.walk import steps, values, within
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -98,14 +53,14 @@ def _times(program: Program) -> Iterator[Diagnostic]:
         known = intervals(implementation.parameters, implementation.lets)
         if implementation.duration:
             yield from _time(implementation.duration, known, "duration")
-        if isinstance(implementation.body, Step):
+        if isinstance(implementation.body, TypedNode):
             yield from _in_body(within(implementation.body), known)
     for task in program.tasks:
         if task.body:
             yield from _in_body(within(task.body), {})
 
 
-def _in_body(nodes: Iterable[Step], known: Mapping[str, Interval]) -> Iterator[Diagnostic]:
+def _in_body(nodes: Iterable[TypedNode], known: Mapping[str, Interval]) -> Iterator[Diagnostic]:
     for step in nodes:
         match step.written:
             case s.Timeout():
@@ -116,7 +71,7 @@ def _in_body(nodes: Iterable[Step], known: Mapping[str, Interval]) -> Iterator[D
                 pass
 
 
-def _time(value: Valued, known: Mapping[str, Interval], word: str) -> Iterator[Diagnostic]:
+def _time(value: TypedExpression, known: Mapping[str, Interval], word: str) -> Iterator[Diagnostic]:
     found = interval_of(value.meaning, known)
     if found is None:
         return
@@ -133,7 +88,7 @@ def _bad_time(span: Span, message: str, help_: str) -> Diagnostic:
     return Diagnostic("bad-time", span, message, help_)
 
 
-def _number(value: Valued) -> Iterator[Diagnostic]:
+def _number(value: TypedExpression) -> Iterator[Diagnostic]:
     match value.meaning:
         case Literal(value=int() as found) if not -LARGEST_INTEGER <= found <= LARGEST_INTEGER:
             yield Diagnostic("bad-number", value.span, "this number is too large", "write a smaller number")

@@ -1,40 +1,14 @@
-"""A class that a skill promises to work with, and that none of its implementations takes.
-
-An error where such a thing is passed in a call, a warning where a description allows it.
-
-## no-fitting-implementation: no implementation takes things of a class
-
-Bad:
-
-    use rparts, skillc
-    skill Close {
-        in gripper: GripperEffector
-        noplan
-    }
-    impl by_three of Close {
-        refine gripper: ThreeFingerGripper
-        run    python "skillc_runtime.primitives.stand_in:StandIn"
-    }
-
-Good:
-
-    use skillc
-    skill Close {
-        in gripper: ThreeFingerGripper
-        noplan
-    }
-    impl by_three of Close { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""A class that a skill promises to work with, and that none of its implementations takes."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
-from skillc_compiler.program import Argument, Call, Implementation, Parameter, Program, Skill
-from skillc_compiler.selecting import overlap
-from skillc_compiler.types import Thing, describe, fits
-from skillc_compiler.walk import calls
+from skillc_compiler.logic.subsumption import overlap
+from skillc_compiler.program.typed import Argument, Call, Implementation, Parameter, Program, Skill
+from skillc_compiler.program.types import Thing, describe, fits
+from skillc_compiler.program.walk import calls
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("no-fitting-implementation",)

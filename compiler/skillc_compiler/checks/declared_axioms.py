@@ -1,45 +1,4 @@
-"""Axioms of declared terms that no individual can obey.
-
-## impossible-class: a class is below two that have nothing in common
-
-Bad:
-
-    use skiros, rparts
-    class Trolley < ArmDevice, Location
-
-Good:
-
-    use skiros
-    class Trolley < Location
-
-## class-cycle: a class is below itself
-
-Bad:
-
-    class Crate < Box
-    class Box < Crate
-
-Good:
-
-    use skiros
-    class Crate < Box
-    class Box < Container
-
-## impossible-relation: a relation is both transitive and functional
-
-What is passed on over several steps has several values, unless nothing is ever related twice.
-
-Bad:
-
-    use skiros
-    relation stackedOn(Product, Product)  transitive functional
-
-Good:
-
-    use skiros
-    relation stackedOn(Product, Product)  functional
-    relation above(Product, Product)  transitive
-"""
+"""Axioms of declared terms that no individual can obey."""
 
 from __future__ import annotations
 
@@ -47,7 +6,7 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
-from skillc_compiler.program import Program
+from skillc_compiler.program.typed import Program
 from skillc_compiler.resolve.declared import namespace
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label

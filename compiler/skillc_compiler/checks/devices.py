@@ -1,35 +1,12 @@
-"""What is locked by `uses`, or shared, and is no device.
-
-Bad:
-
-    use rparts
-    skill Press {
-        in arm:   ArmDevice
-        in force: Force
-        uses force
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use rparts
-    skill Press {
-        in arm:   ArmDevice
-        in force: Force
-        uses arm
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""What is locked by `uses`, or shared, and is no device."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from skillc_compiler.library.vocabulary import THING, Vocabulary
-from skillc_compiler.program import Parameter, Program, Skill
-from skillc_compiler.types import UNKNOWN, Thing, describe, fits
+from skillc_compiler.program.typed import Parameter, Program, Skill
+from skillc_compiler.program.types import UNKNOWN, Thing, describe, fits
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 

@@ -1,41 +1,13 @@
-"""A condition that is stated twice.
-
-Conditions are a set: their order means nothing, and a second one adds nothing. A `pre` and a `hold` may say the same:
-the one is asked at the start, and parameters are inferred by it; the other is asked at every tick.
-
-Bad:
-
-    use skiros, rparts
-    skill Take {
-        in   gripper: GripperEffector
-        in   object:  Product
-        pre  held: gripper contain object
-        pre  kept: gripper contain object
-        noplan
-    }
-    impl waiting of Take { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skiros, rparts
-    skill Take {
-        in   gripper: GripperEffector
-        in   object:  Product
-        pre  held: gripper contain object
-        hold kept: gripper contain object
-        noplan
-    }
-    impl waiting of Take { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""A condition that is stated twice."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from skillc_compiler.conjuncts import Fact, conjuncts
 from skillc_compiler.library.conditions import Condition
-from skillc_compiler.program import Clause, Program, Requirement
-from skillc_compiler.walk import steps
+from skillc_compiler.logic.conjunctions import Fact, conjuncts
+from skillc_compiler.program.typed import Program, Requirement, TypedCondition
+from skillc_compiler.program.walk import steps
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("duplicate-condition",)
@@ -54,7 +26,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
         yield from _repeated(conjuncts(clause), ())
 
 
-def _alone(program: Program) -> Iterator[Clause]:
+def _alone(program: Program) -> Iterator[TypedCondition]:
     yield from (task.goal for task in program.tasks if task.goal)
     for step in steps(program):
         yield from step.clauses

@@ -1,34 +1,11 @@
-"""Braces without a step between them.
-
-There is nothing to run: a `seq` of nothing, a loop around nothing, a `with` that sets something up for nobody. For
-`if C { } else { .. }` write `if not C { .. }`; leave out an `else` that does nothing.
-
-Bad:
-
-    skill Rest { noplan }
-    impl waiting of Rest {
-        do seq {
-            wait 1 s
-            par all { }
-        }
-    }
-
-Good:
-
-    skill Rest { noplan }
-    impl waiting of Rest {
-        do seq {
-            wait 1 s
-        }
-    }
-"""
+"""Braces without a step between them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Program
-from skillc_compiler.walk import steps
+from skillc_compiler.program.typed import Program
+from skillc_compiler.program.walk import steps
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.source import Span

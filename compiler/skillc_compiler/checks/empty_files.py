@@ -1,21 +1,11 @@
-"""A file with nothing in it but comments.
-
-Bad:
-
-    # skill Knock is still to be written
-
-Good:
-
-    skill Knock { noplan }
-    impl waiting of Knock { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""A file with nothing in it but comments."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
 
-from skillc_compiler.program import Program
+from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 

@@ -1,71 +1,13 @@
-"""A skill that never ends by itself, where nothing ends it.
-
-A skill that is declared `endless`, as motions added to another are, runs until it is halted and never succeeds. What
-halts it is a `timeout`, the end of the leading child of a `par lead`, a sibling in a `par race` or `par any`, or an
-earlier child of a `reactive` node that changes its mind.
-
-## never-ends: nothing halts an endless skill
-
-Also reported, as a warning, where the Python of a primitive never returns anything but `RUNNING` and its skill is not
-declared `endless`.
-
-Bad:
-
-    use skillc
-    import "motion.skill"
-    import "overlay.skill"
-    skill Rub { in arm: CompliantArm  in up: Direction  in there: Pose  noplan }
-    impl round of Rub {
-        do seq {
-            OverlayCircle(arm, plane: up)
-            MoveLinear(arm, target: there)
-        }
-    }
-
-Good:
-
-    use skillc
-    import "motion.skill"
-    import "overlay.skill"
-    skill Rub { in arm: CompliantArm  in up: Direction  in there: Pose  noplan }
-    impl round of Rub {
-        do par lead {
-            MoveLinear(arm, target: there)
-            OverlayCircle(arm, plane: up)
-        }
-    }
-
-## not-endless: an implementation of an endless skill ends, or the skill says what is so at its end
-
-Bad:
-
-    use skillc
-    import "motion.skill"
-    skill Hover { in arm: CompliantArm  in there: Pose  endless  noplan }
-    impl once of Hover { do MoveLinear(arm, target: there) }
-
-Good:
-
-    use skillc
-    import "motion.skill"
-    import "overlay.skill"
-    skill Hover { in arm: CompliantArm  in there: Pose  in up: Direction  endless  noplan }
-    impl circling of Hover {
-        do seq {
-            MoveLinear(arm, target: there)
-            OverlayCircle(arm, plane: up)
-        }
-    }
-"""
+"""A skill that never ends by itself, where nothing ends it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from typing import assert_never
 
-from skillc_compiler.program import Call, Implementation, Program, Skill, Step
+from skillc_compiler.program.typed import Call, Implementation, Program, Skill, TypedNode
+from skillc_compiler.program.walk import within
 from skillc_compiler.python.returns import returned
-from skillc_compiler.walk import within
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -80,9 +22,9 @@ def check(program: Program) -> Iterator[Diagnostic]:
     for implementation in program.implementations:
         endless = "endless" in implementation.skill.flags
         match implementation.body:
-            case Step() as body if endless:
+            case TypedNode() as body if endless:
                 yield from _lasting(implementation, body)
-            case Step() as body:
+            case TypedNode() as body:
                 yield from _ending(body)
             case s.RunPython() as target:
                 yield from _in_python(implementation, target, endless)
@@ -95,7 +37,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
             yield from _ending(task.body)
 
 
-def unending(step: Step) -> Iterator[Call]:
+def unending(step: TypedNode) -> Iterator[Call]:
     """Yield the calls of endless skills in a node that nothing in it halts."""
     match step.written:
         case s.Timeout():
@@ -116,7 +58,7 @@ def unending(step: Step) -> Iterator[Call]:
                 yield from unending(child)
 
 
-def _may_change(step: Step) -> bool:
+def _may_change(step: TypedNode) -> bool:
     """Whether a node that has ended may end otherwise when it is looked at again."""
     for each in within(step):
         if each.clauses:
@@ -126,7 +68,7 @@ def _may_change(step: Step) -> bool:
     return False
 
 
-def _ending(body: Step) -> Iterator[Diagnostic]:
+def _ending(body: TypedNode) -> Iterator[Diagnostic]:
     call = next(unending(body), None)
     if call is not None and call.skill is not None:
         yield Diagnostic(
@@ -138,7 +80,7 @@ def _ending(body: Step) -> Iterator[Diagnostic]:
         )
 
 
-def _lasting(implementation: Implementation, body: Step) -> Iterator[Diagnostic]:
+def _lasting(implementation: Implementation, body: TypedNode) -> Iterator[Diagnostic]:
     if next(unending(body), None) is None:
         skill = implementation.skill
         yield Diagnostic(

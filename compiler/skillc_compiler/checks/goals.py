@@ -1,30 +1,4 @@
-"""A goal that no skill of the library can bring about.
-
-A planner takes only skills whose posts say what they achieve, and which are not `noplan`.
-
-Bad:
-
-    use wiping
-    prefix lab: <http://example.org/lab#>
-    task clean {
-        scene "ur5e_whiteboard.ttl"
-        goal  lab:Whiteboard-1.isClean == true
-    }
-
-Good:
-
-    use wiping
-    prefix lab: <http://example.org/lab#>
-    skill Wipe {
-        in   board: WipeableSurface
-        post board.isClean == true
-    }
-    impl waiting of Wipe { run python "skillc_runtime.primitives.stand_in:StandIn" }
-    task clean {
-        scene "ur5e_whiteboard.ttl"
-        goal  lab:Whiteboard-1.isClean == true
-    }
-"""
+"""A goal that no skill of the library can bring about."""
 
 from __future__ import annotations
 
@@ -33,9 +7,9 @@ from collections.abc import Iterator
 from skillc_compiler.library.conditions import Compare, Holds, PropertyOf
 from skillc_compiler.library.read_write import may_change, terms_written_by
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
-from skillc_compiler.lower.effects import NoEffect, effects
-from skillc_compiler.program import Clause, Program
-from skillc_compiler.walk import clauses_in
+from skillc_compiler.logic.effects import NoEffect, effects
+from skillc_compiler.program.typed import Program, TypedCondition
+from skillc_compiler.program.walk import clauses_in
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("unachievable-goal",)
@@ -61,7 +35,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 )
 
 
-def _term(clause: Clause) -> str | None:
+def _term(clause: TypedCondition) -> str | None:
     match clause.meaning:
         case Holds(relation=relation):
             return relation

@@ -1,30 +1,4 @@
-"""An inferred parameter that no precondition links to anything.
-
-The value of an `infer` parameter is looked up through the preconditions: relations, values of properties and classes.
-Without one, any individual of its class would do, which is rarely meant. What something is not, as in
-`pre not slot contain _`, says enough only for `infer any`, which takes the first of several.
-
-Bad:
-
-    use rparts
-    skill Open {
-        in    arm:     ArmDevice
-        infer gripper: GripperEffector
-        noplan
-    }
-    impl waiting of Open { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use rparts
-    skill Open {
-        in    arm:     ArmDevice
-        infer gripper: GripperEffector
-        pre   arm skiros:hasA gripper
-        noplan
-    }
-    impl waiting of Open { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""An inferred parameter that no precondition links to anything."""
 
 from __future__ import annotations
 
@@ -32,7 +6,7 @@ from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import And, Compare, Exists, HasProperty, Holds, IsA, Or, Same
 from skillc_compiler.library.reading import free_variables
-from skillc_compiler.program import Clause, Program, Skill
+from skillc_compiler.program.typed import Program, Skill, TypedCondition
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("unlinked-inference",)
@@ -59,7 +33,7 @@ def _problem(skill: Skill, name: str, linked: set[str]) -> Diagnostic:
     )
 
 
-def _linked(clause: Clause) -> set[str]:
+def _linked(clause: TypedCondition) -> set[str]:
     """Return the variables of which a condition, when it holds, says something that is not so of everybody."""
     match clause.meaning:
         case And() | Exists():

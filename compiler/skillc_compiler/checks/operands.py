@@ -1,65 +1,14 @@
-"""Values that cannot be added, multiplied or compared.
-
-Only like dimensions are added, subtracted and compared; only numbers have an order; a vector is scaled by a number.
-
-## unlike-dimensions: quantities of different dimensions are added or compared
-
-Bad:
-
-    use skiros, rparts
-    skill Press {
-        in gripper: GripperEffector
-        in object: Product
-        pre object.Weight < 5 N
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skiros, rparts
-    skill Press {
-        in gripper: GripperEffector
-        in object: Product
-        pre object.Weight < 500 g
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-## wrong-operands: an operator does not apply to such values
-
-Bad:
-
-    use skiros, rparts, skillc
-    skill Press {
-        in gripper: GripperEffector
-        in object: Product
-        pre gripper.deviceState < Fault
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skiros, rparts, skillc
-    skill Press {
-        in gripper: GripperEffector
-        in object: Product
-        pre gripper.deviceState != Fault
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""Values that cannot be added, multiplied or compared."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from skillc_compiler.library.conditions import Arithmetic, Compare
-from skillc_compiler.program import Clause, Program, Valued
+from skillc_compiler.program.typed import Program, TypedCondition, TypedExpression
+from skillc_compiler.program.types import INT, UNKNOWN, Direction, Measure, Type, Vector, describe, fits
+from skillc_compiler.program.walk import clauses, values
 from skillc_compiler.resolve.values import result_type
-from skillc_compiler.types import INT, UNKNOWN, Direction, Measure, Type, Vector, describe, fits
-from skillc_compiler.walk import clauses, values
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 
@@ -76,13 +25,13 @@ def check(program: Program) -> Iterator[Diagnostic]:
             yield from _compared(program, clause, clause.meaning)
 
 
-def _arithmetic(value: Valued, meaning: Arithmetic) -> Iterator[Diagnostic]:
+def _arithmetic(value: TypedExpression, meaning: Arithmetic) -> Iterator[Diagnostic]:
     left, right = (part.type for part in value.parts)
     if result_type(meaning.operator, left, right) is None:
         yield _problem(value.span, meaning.operator, left, right)
 
 
-def _compared(program: Program, clause: Clause, meaning: Compare) -> Iterator[Diagnostic]:
+def _compared(program: Program, clause: TypedCondition, meaning: Compare) -> Iterator[Diagnostic]:
     if len(clause.values) != 2:
         return
     left, right = (side.type for side in clause.values)

@@ -1,35 +1,20 @@
-"""An optional parameter without a default, read where it may be unset.
-
-Bad:
-
-    use skillc
-    skill Mark {
-        in   surface: Surface
-        opt  width:   Length
-        pre  width > 1 cm
-        noplan
-    }
-    impl waiting of Mark { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skillc
-    skill Mark {
-        in   surface: Surface
-        opt  width:   Length
-        pre  given width implies width > 1 cm
-        noplan
-    }
-    impl waiting of Mark { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""An optional parameter without a default, read where it may be unset."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
 from skillc_compiler.library.conditions import And, Given, Not, Or, Variable
-from skillc_compiler.program import Clause, Implementation, Parameter, Program, Skill, Step, Valued
-from skillc_compiler.walk import implementation_values, skill_values, step_values, values_in
+from skillc_compiler.program.typed import (
+    Implementation,
+    Parameter,
+    Program,
+    Skill,
+    TypedCondition,
+    TypedExpression,
+    TypedNode,
+)
+from skillc_compiler.program.walk import implementation_values, skill_values, step_values, values_in
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -46,7 +31,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
         yield from _report(implementation.parameters, _in_implementation(implementation))
 
 
-def _report(parameters: Sequence[Parameter], read: Iterator[tuple[Valued, Guards]]) -> Iterator[Diagnostic]:
+def _report(parameters: Sequence[Parameter], read: Iterator[tuple[TypedExpression, Guards]]) -> Iterator[Diagnostic]:
     unset = {p.name: p for p in parameters if p.may_be_unset}
     if not unset:
         return
@@ -62,21 +47,21 @@ def _report(parameters: Sequence[Parameter], read: Iterator[tuple[Valued, Guards
             )
 
 
-def _in_skill(skill: Skill) -> Iterator[tuple[Valued, Guards]]:
+def _in_skill(skill: Skill) -> Iterator[tuple[TypedExpression, Guards]]:
     yield from _all(skill_values(skill), NONE)
     for requirement in skill.requirements:
         yield from _in_clause(requirement.clause, NONE)
 
 
-def _in_implementation(implementation: Implementation) -> Iterator[tuple[Valued, Guards]]:
+def _in_implementation(implementation: Implementation) -> Iterator[tuple[TypedExpression, Guards]]:
     yield from _all(implementation_values(implementation), NONE)
     for requirement in implementation.requirements:
         yield from _in_clause(requirement.clause, NONE)
-    if isinstance(implementation.body, Step):
+    if isinstance(implementation.body, TypedNode):
         yield from _in_step(implementation.body, NONE)
 
 
-def _in_clause(clause: Clause, guards: Guards) -> Iterator[tuple[Valued, Guards]]:
+def _in_clause(clause: TypedCondition, guards: Guards) -> Iterator[tuple[TypedExpression, Guards]]:
     """Yield what a condition reads; in `and` and `or` the parts before guard those after."""
     yield from _all(iter(clause.values), guards)
     for part in clause.parts:
@@ -87,7 +72,7 @@ def _in_clause(clause: Clause, guards: Guards) -> Iterator[tuple[Valued, Guards]
             guards |= _given(part, False)
 
 
-def _given(clause: Clause, holds: bool) -> Guards:
+def _given(clause: TypedCondition, holds: bool) -> Guards:
     """Return the parameters that are certainly set when the condition holds, or when it does not."""
     match clause.meaning:
         case Given(parameter=name):
@@ -101,7 +86,7 @@ def _given(clause: Clause, holds: bool) -> Guards:
     return NONE
 
 
-def _in_step(step: Step, guards: Guards) -> Iterator[tuple[Valued, Guards]]:
+def _in_step(step: TypedNode, guards: Guards) -> Iterator[tuple[TypedExpression, Guards]]:
     yield from _all(step_values(step), guards)
     for clause in step.clauses:
         yield from _in_clause(clause, guards)
@@ -115,5 +100,5 @@ def _in_step(step: Step, guards: Guards) -> Iterator[tuple[Valued, Guards]]:
         yield from _in_step(child, otherwise)
 
 
-def _all(read: Iterator[Valued], guards: Guards) -> Iterator[tuple[Valued, Guards]]:
+def _all(read: Iterator[TypedExpression], guards: Guards) -> Iterator[tuple[TypedExpression, Guards]]:
     return ((part, guards) for value in read for part in values_in(value))

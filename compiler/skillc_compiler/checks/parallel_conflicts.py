@@ -1,41 +1,12 @@
-"""Children of a `par` that get into each other's way.
-
-Two skills that run together must not write the same fact differently, since the last one would win, and must not both
-have the same device for themselves (`uses`), since the second could not start. A skill that `shares` an arm adds to
-the motion of whoever uses it; that is no conflict.
-
-Bad:
-
-    use rparts
-    import "motion.skill"
-    skill Wave { in arm: ArmDevice  in to: Pose  noplan }
-    impl both of Wave {
-        do par all {
-            MoveTo(arm, target: to)
-            TakePosture(arm)
-        }
-    }
-
-Good:
-
-    use rparts
-    import "motion.skill"
-    skill Wave { in arm: ArmDevice  in to: Pose  noplan }
-    impl both of Wave {
-        do seq {
-            MoveTo(arm, target: to)
-            TakePosture(arm)
-        }
-    }
-"""
+"""Children of a `par` that get into each other's way."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Program
-from skillc_compiler.proof.findings import Clash
-from skillc_compiler.proof.proving import found
+from skillc_compiler.analysis.findings import Clash
+from skillc_compiler.analysis.proving import found
+from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("parallel-conflict",)

@@ -1,106 +1,4 @@
-"""What the planner cannot use: skills without effect, values it cannot choose or count, names it cannot tell apart.
-
-## no-effect: a planned skill achieves nothing
-
-Nothing is said to be true afterwards, so no plan will ever contain the skill. Say what it achieves, or that it is
-only called: `noplan`.
-
-Bad:
-
-    use skillc
-    skill Look {
-        in   surface: Surface
-    }
-    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skillc
-    skill Look {
-        in   surface: Surface
-        noplan
-    }
-    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-## unplannable-parameter: a planned skill needs a value that a planner cannot choose
-
-A planner chooses among the individuals of the scene, not among numbers, texts and poses.
-
-Bad:
-
-    use skillc
-    skill Look {
-        in   surface: Surface
-        in   depth:   Length
-        post surface.located == true
-    }
-    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skillc
-    skill Look {
-        in   surface: Surface
-        opt  depth:   Length = 3 cm
-        post surface.located == true
-    }
-    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-## numeric-effect: a planned skill changes a number
-
-Classical planners do not count.
-
-Bad:
-
-    use skillc
-    skill Look {
-        in   surface: Surface
-        post surface.friction == 0.5
-    }
-    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skillc
-    skill Look {
-        in   surface: Surface
-        post surface.friction == 0.5
-        noplan
-    }
-    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-## colliding-names: two names are one to a planner
-
-Planners take no notice of capitals, and PDDL has no letters but a to z; some file systems do not either.
-
-Bad:
-
-    use skillc
-    skill Look {
-        in   surface: Surface
-        noplan
-    }
-    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
-    skill LOOK {
-        in   surface: Surface
-        noplan
-    }
-    impl waiting of LOOK { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skillc
-    skill Look {
-        in   surface: Surface
-        noplan
-    }
-    impl waiting of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }
-    skill LookAgain {
-        in   surface: Surface
-        noplan
-    }
-    impl waiting of LookAgain { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""What the planner cannot use: skills without effect, values it cannot choose or count, names it cannot tell apart."""
 
 from __future__ import annotations
 
@@ -109,9 +7,9 @@ from collections.abc import Iterator
 from skillc_compiler.library.conditions import Assign
 from skillc_compiler.library.pddl.names import kebab
 from skillc_compiler.library.vocabulary import local_name
-from skillc_compiler.lower.effects import effects
-from skillc_compiler.program import Program, Skill
-from skillc_compiler.types import INT, Measure, Thing, Unknown, describe, of_library
+from skillc_compiler.logic.effects import effects
+from skillc_compiler.program.typed import Program, Skill
+from skillc_compiler.program.types import INT, Measure, Thing, Unknown, describe, of_library
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("no-effect", "unplannable-parameter", "numeric-effect", "colliding-names")

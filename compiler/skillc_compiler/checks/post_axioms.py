@@ -1,45 +1,15 @@
-"""A postcondition that an axiom of its relation forbids, so that the world model would refuse it.
-
-A relation with one value only takes care of itself: the new value takes the place of the old one. But nothing is
-related to itself by an irreflexive relation, and an asymmetric one goes one way only: where a precondition says that it
-goes the other way, the skill has to say that it does so no longer.
-
-## breaks-axiom: a post makes a relation go both ways, or from a thing to itself
-
-Bad:
-
-    use skiros
-    skill Swap {
-        in   inner: Container
-        in   outer: Container
-        pre  outer contain inner
-        post inner contain outer
-    }
-    impl waiting of Swap { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skiros
-    skill Swap {
-        in   inner: Container
-        in   outer: Container
-        pre  outer contain inner
-        post inner contain outer
-        post not outer contain inner
-    }
-    impl waiting of Swap { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""A postcondition that an axiom of its relation forbids, so that the world model would refuse it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from skillc_compiler.conflicts import Conflicts, covers
-from skillc_compiler.conjuncts import Fact, conjuncts, equal_names, renamed
 from skillc_compiler.library.conditions import Holds
 from skillc_compiler.library.format_condition import format_condition
 from skillc_compiler.library.vocabulary import local_name
-from skillc_compiler.program import Program, Requirement
+from skillc_compiler.logic.conflicts import Conflicts, covers
+from skillc_compiler.logic.conjunctions import Fact, conjuncts, equal_names, renamed
+from skillc_compiler.program.typed import Program, Requirement
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
 

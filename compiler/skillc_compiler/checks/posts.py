@@ -1,123 +1,9 @@
-"""A postcondition that says nothing definite, or contradicts another.
-
-What a skill makes true is a conjunction of relations and `property == value`, each possibly with `not`. Anything else
-can only be `sensed`: established by measuring.
-
-## post-not-literal: a post leaves open what is true afterwards
-
-Bad:
-
-    use skiros, rparts
-    skill Grab {
-        in   gripper: GripperEffector
-        in   object:  Product
-        in   place:   Location
-        post gripper contain object or place contain object
-    }
-    impl waiting of Grab { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skiros, rparts
-    skill Grab {
-        in   gripper: GripperEffector
-        in   object:  Product
-        in   place:   Location
-        post sensed gripper contain object or place contain object
-        noplan
-    }
-    impl waiting of Grab { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-## computed-property: a post sets what follows from other facts
-
-Nobody sets a pose or a normal, or says that one thing is inside another: they are computed. A measurement may
-establish them.
-
-Bad:
-
-    use skiros, rparts, skillc
-    skill Grab {
-        in   gripper: GripperEffector
-        in   object:  Product
-        in   place:   Location
-        post object.pose == place.pose
-    }
-    impl waiting of Grab { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skiros, rparts, skillc
-    skill Grab {
-        in   gripper: GripperEffector
-        in   object:  Product
-        in   place:   Location
-        post sensed object.pose == place.pose
-        noplan
-    }
-    impl waiting of Grab { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-## two-values: a relation or property that has one value only is given two
-
-What is asserted of a functional relation takes the place of what was there before, so a skill can only say one value.
-Inverses and sub-relations count.
-
-Bad:
-
-    use skiros, rparts
-    skill Grab {
-        in   gripper: GripperEffector
-        in   object:  Product
-        in   place:   Location
-        post place contain object
-        post gripper contain object
-    }
-    impl waiting of Grab { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skiros, rparts
-    skill Grab {
-        in   gripper: GripperEffector
-        in   object:  Product
-        in   place:   Location
-        post not place contain object
-        post gripper contain object
-    }
-    impl waiting of Grab { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-## contradicting-posts: two posts say the opposite of each other
-
-Bad:
-
-    use skiros, rparts
-    skill Grab {
-        in   gripper: GripperEffector
-        in   object:  Product
-        in   place:   Location
-        post gripper contain object
-        post not gripper contain _
-    }
-    impl waiting of Grab { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skiros, rparts
-    skill Grab {
-        in   gripper: GripperEffector
-        in   object:  Product
-        in   place:   Location
-        post gripper contain object
-        post not place contain _
-    }
-    impl waiting of Grab { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""A postcondition that says nothing definite, or contradicts another."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from skillc_compiler.conflicts import Conflicts, covers
-from skillc_compiler.conjuncts import Fact, conjuncts, equal_names, renamed
 from skillc_compiler.library.conditions import (
     Assert,
     Assign,
@@ -131,8 +17,10 @@ from skillc_compiler.library.conditions import (
 )
 from skillc_compiler.library.rewriting import substitute
 from skillc_compiler.library.vocabulary import PropertyTerm, RelationTerm, Vocabulary, local_name
-from skillc_compiler.lower.effects import NoEffect, effects
-from skillc_compiler.program import Program, Requirement
+from skillc_compiler.logic.conflicts import Conflicts, covers
+from skillc_compiler.logic.conjunctions import Fact, conjuncts, equal_names, renamed
+from skillc_compiler.logic.effects import NoEffect, effects
+from skillc_compiler.program.typed import Program, Requirement
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("post-not-literal", "computed-property", "two-values", "contradicting-posts")

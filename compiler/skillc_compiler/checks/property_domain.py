@@ -1,38 +1,15 @@
-"""A property read of an individual whose class does not have it.
-
-Bad:
-
-    use rparts, skillc
-    skill Press {
-        in gripper: GripperEffector
-        in surface: Surface
-        pre gripper.located == true
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use rparts, skillc
-    skill Press {
-        in gripper: GripperEffector
-        in surface: Surface
-        pre surface.located == true
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""A property read of an individual whose class does not have it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.causes import declared
 from skillc_compiler.library.conditions import HasProperty, PropertyOf
 from skillc_compiler.library.vocabulary import local_name
-from skillc_compiler.program import Program, Valued
-from skillc_compiler.types import Thing, describe, fits
-from skillc_compiler.walk import clauses, values
+from skillc_compiler.program.labels import declared
+from skillc_compiler.program.typed import Program, TypedExpression
+from skillc_compiler.program.types import Thing, describe, fits
+from skillc_compiler.program.walk import clauses, values
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("property-domain",)
@@ -48,7 +25,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
             yield from _fits(program, clause.meaning.property, clause.values[0])
 
 
-def _fits(program: Program, iri: str, of: Valued) -> Iterator[Diagnostic]:
+def _fits(program: Program, iri: str, of: TypedExpression) -> Iterator[Diagnostic]:
     term = program.vocabulary.properties.get(iri)
     if term is None or any(fits(program.vocabulary, of.type, Thing(domain)) for domain in term.domains):
         return

@@ -1,75 +1,4 @@
-"""Python that is not there, or that takes other parameters than the skill has.
-
-What a skill or function runs is looked up in the Python of this machine. Nothing is imported or run: the text of the
-module is read.
-
-## bad-python-target: a target is not written `module:name`
-
-Bad:
-
-    skill Rest { noplan }
-    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in.StandIn" }
-
-Good:
-
-    skill Rest { noplan }
-    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-## missing-python: there is no such module, or nothing of that name in it
-
-A warning only: the machine that compiles may lack the robot's Python. Where it is missing, running is refused.
-
-Bad:
-
-    skill Rest { noplan }
-    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIm" }
-
-Good:
-
-    skill Rest { noplan }
-    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-## wrong-python-parameters: a class or function takes other parameters than the skill gives
-
-The constructor of a primitive takes the cell and, by name, each parameter of the skill except outputs. A function takes
-the world and its values, in order. What the text of the module does not tell, such as what a decorator makes of a
-class, is found out when a task is prepared: it is refused before anything moves.
-
-Bad:
-
-    use rparts
-    skill Fold {
-        in arm:  ArmDevice
-        in pace: Number
-        noplan
-    }
-    impl folded of Fold { run python "skillc_runtime.primitives.move:TakePosture" }
-
-Good:
-
-    use rparts
-    skill Fold {
-        in arm:     ArmDevice
-        in posture: Text
-        in pace:    Number
-        noplan
-    }
-    impl folded of Fold { run python "skillc_runtime.primitives.move:TakePosture" }
-
-## not-a-primitive: what a skill runs is no primitive
-
-A primitive is a subclass of `skillc_runtime.primitives.primitive.Primitive` with a method `tick` that is not `async`.
-
-Bad:
-
-    skill Rest { noplan }
-    impl waiting of Rest { run python "skillc_runtime.motion.places:centre" }
-
-Good:
-
-    skill Rest { noplan }
-    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""Python that is not there, or that takes other parameters than the skill has."""
 
 from __future__ import annotations
 
@@ -78,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from typing import TypeAlias
 
-from skillc_compiler.program import Implementation, Program
+from skillc_compiler.program.typed import Implementation, Program
 from skillc_compiler.python.found import (
     BrokenModule,
     ClassFound,

@@ -1,53 +1,4 @@
-"""A number outside the range that is declared for it, or a range that holds no number.
-
-## out-of-range: a default or an argument lies outside the range
-
-Bad:
-
-    use skiros, rparts
-    skill Press {
-        in gripper: GripperEffector
-        in object: Product
-        opt force: Force = 120 N  range 5 N .. 80 N
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skiros, rparts
-    skill Press {
-        in gripper: GripperEffector
-        in object: Product
-        opt force: Force = 20 N  range 5 N .. 80 N
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-## empty-range: no number is in a range
-
-Bad:
-
-    use skiros, rparts
-    skill Press {
-        in gripper: GripperEffector
-        in object: Product
-        opt force: Force = 20 N  range 80 N .. 5 N
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skiros, rparts
-    skill Press {
-        in gripper: GripperEffector
-        in object: Product
-        opt force: Force = 20 N  range 5 N .. 80 N
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""A number outside the range that is declared for it, or a range that holds no number."""
 
 from __future__ import annotations
 
@@ -55,9 +6,9 @@ from collections.abc import Iterator
 from math import isfinite
 
 from skillc_compiler.library.rewriting import constant_number
-from skillc_compiler.program import Parameter, Program, Valued
-from skillc_compiler.types import INT, Measure, Type
-from skillc_compiler.walk import calls
+from skillc_compiler.program.typed import Parameter, Program, TypedExpression
+from skillc_compiler.program.types import INT, Measure, Type
+from skillc_compiler.program.walk import calls
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
 from skillc_dsl.units import NUMBER, UNITS
@@ -96,7 +47,7 @@ def _empty(parameter: Parameter) -> Iterator[Diagnostic]:
         )
 
 
-def _outside(parameter: Parameter, value: Valued | None, place: Span | None = None) -> Iterator[Diagnostic]:
+def _outside(parameter: Parameter, value: TypedExpression | None, place: Span | None = None) -> Iterator[Diagnostic]:
     """Report a constant outside the range; `place` is where to report it if not at the value."""
     low, high = _bounds(parameter)
     known = _number(value, parameter.type)
@@ -124,7 +75,7 @@ def _bounds(parameter: Parameter) -> tuple[float | None, float | None]:
     return _number(parameter.low, parameter.type), _number(parameter.high, parameter.type)
 
 
-def _number(value: Valued | None, kind: Type) -> float | None:
+def _number(value: TypedExpression | None, kind: Type) -> float | None:
     """Return a bound, None if there is none or it is of another type, which is reported elsewhere."""
     return constant_number(value.meaning) if value and _same(value.type, kind) else None
 

@@ -1,34 +1,11 @@
-"""A skill that calls itself, directly or through others, and so never begins.
-
-Bad:
-
-    use rparts
-    skill Fold {
-        in arm: ArmDevice
-        noplan
-    }
-    impl again of Fold { do Fold(arm) }
-
-Good:
-
-    use rparts
-    skill Fold {
-        in arm: ArmDevice
-        noplan
-    }
-    impl plain of Fold { run python "skillc_runtime.primitives.stand_in:StandIn" }
-    impl again of Fold {
-        prefer 1
-        do retry 2 { Fold[plain](arm) }
-    }
-"""
+"""A skill that calls itself, directly or through others, and so never begins."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from skillc_compiler.program import Call, Implementation, Program, Step
-from skillc_compiler.walk import within
+from skillc_compiler.program.typed import Call, Implementation, Program, TypedNode
+from skillc_compiler.program.walk import within
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("recursion",)
@@ -48,7 +25,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 
 def _edges(program: Program, implementation: Implementation) -> Iterator[tuple[str, Call]]:
-    if not isinstance(implementation.body, Step):
+    if not isinstance(implementation.body, TypedNode):
         return
     for step in within(implementation.body):
         if step.call and step.call.skill:

@@ -1,40 +1,12 @@
-"""A refinement that does not narrow what the description says.
-
-An implementation may ask for a subclass or a smaller range and give another default, but not ask for something else:
-whoever calls the skill knows its description only.
-
-Bad:
-
-    use rparts
-    skill Close {
-        in gripper: GripperEffector
-        noplan
-    }
-    impl gently of Close {
-        refine gripper: EndEffector
-        run python "skillc_runtime.primitives.stand_in:StandIn"
-    }
-
-Good:
-
-    use rparts
-    skill Close {
-        in gripper: GripperEffector
-        noplan
-    }
-    impl gently of Close {
-        refine gripper: GripperEffector
-        run python "skillc_runtime.primitives.stand_in:StandIn"
-    }
-"""
+"""A refinement that does not narrow what the description says."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from skillc_compiler.library.rewriting import constant_number
-from skillc_compiler.program import Parameter, Program, Refinement, Valued
-from skillc_compiler.types import describe, fits
+from skillc_compiler.program.typed import Parameter, Program, Refinement, TypedExpression
+from skillc_compiler.program.types import describe, fits
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("not-narrower",)
@@ -69,5 +41,5 @@ def _wider(new: Refinement, of: Parameter) -> bool:
     return below or above
 
 
-def _number(value: Valued | None) -> float | None:
+def _number(value: TypedExpression | None) -> float | None:
     return constant_number(value.meaning) if value else None

@@ -1,66 +1,15 @@
-"""A relation used between individuals that it does not relate.
-
-Every relation has a domain and a range; an overloaded one has several pairs. The classes of the two sides must fit one.
-
-## relation-domain: the left side of a relation is of the wrong class
-
-Bad:
-
-    use skiros, rparts
-    skill Press {
-        in gripper: GripperEffector
-        in object: Product
-        pre object contain gripper
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skiros, rparts
-    skill Press {
-        in gripper: GripperEffector
-        in object: Product
-        pre gripper contain object
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-## relation-range: the right side of a relation is of the wrong class
-
-Bad:
-
-    use skiros, rparts
-    skill Press {
-        in gripper: GripperEffector
-        in object: Product
-        pre gripper at object
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skiros, rparts
-    skill Press {
-        in gripper: GripperEffector
-        in object: Product
-        pre gripper contain object
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""A relation used between individuals that it does not relate."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.causes import declared
 from skillc_compiler.library.conditions import Holds
 from skillc_compiler.library.vocabulary import RelationTerm, local_name
-from skillc_compiler.program import Program, Valued
-from skillc_compiler.types import Thing, Unknown, describe, fits
-from skillc_compiler.walk import clauses
+from skillc_compiler.program.labels import declared
+from skillc_compiler.program.typed import Program, TypedExpression
+from skillc_compiler.program.types import Thing, Unknown, describe, fits
+from skillc_compiler.program.walk import clauses
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("relation-domain", "relation-range")
@@ -76,7 +25,9 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 yield from _sides(program, relation, subject, object_)
 
 
-def _sides(program: Program, relation: RelationTerm, subject: Valued, object_: Valued) -> Iterator[Diagnostic]:
+def _sides(
+    program: Program, relation: RelationTerm, subject: TypedExpression, object_: TypedExpression
+) -> Iterator[Diagnostic]:
     fitting = [x for x in relation.signatures if fits(program.vocabulary, subject.type, Thing(x.domain))]
     if not fitting and relation.signatures:
         yield _problem("relation-domain", relation, subject, "on its left")
@@ -84,7 +35,7 @@ def _sides(program: Program, relation: RelationTerm, subject: Valued, object_: V
         yield _problem("relation-range", relation, object_, "on its right")
 
 
-def _problem(name: str, relation: RelationTerm, side: Valued, where: str) -> Diagnostic:
+def _problem(name: str, relation: RelationTerm, side: TypedExpression, where: str) -> Diagnostic:
     ways = " or ".join(f"{local_name(x.domain)} to {local_name(x.range)}" for x in relation.signatures)
     return Diagnostic(
         name,

@@ -1,72 +1,14 @@
-"""Implementations of which it is not said which one is taken, or of which one is never taken.
-
-Of the implementations that fit, the most specific refinement wins, then the higher `prefer`, then the order of
-declaration.
-
-## ambiguous-selection: two implementations may both fit, and only their order decides
-
-Bad:
-
-    use rparts
-    skill Fold {
-        in arm: ArmDevice
-        noplan
-    }
-    impl gently of Fold { run python "skillc_runtime.primitives.stand_in:StandIn" }
-    impl fast of Fold { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use rparts
-    skill Fold {
-        in arm: ArmDevice
-        noplan
-    }
-    impl gently of Fold { run python "skillc_runtime.primitives.stand_in:StandIn" }
-    impl fast of Fold {
-        prefer 1
-        run    python "skillc_runtime.primitives.stand_in:StandIn"
-    }
-
-## never-selected: another implementation fits wherever this one does, and is tried first
-
-Bad:
-
-    use rparts, skillc
-    skill Fold {
-        in arm: ArmDevice
-        noplan
-    }
-    impl gently of Fold { run python "skillc_runtime.primitives.stand_in:StandIn" }
-    impl fast of Fold {
-        pre arm.deviceState == Idle
-        run python "skillc_runtime.primitives.stand_in:StandIn"
-    }
-
-Good:
-
-    use rparts, skillc
-    skill Fold {
-        in arm: ArmDevice
-        noplan
-    }
-    impl gently of Fold { run python "skillc_runtime.primitives.stand_in:StandIn" }
-    impl fast of Fold {
-        pre    arm.deviceState == Idle
-        prefer 1
-        run    python "skillc_runtime.primitives.stand_in:StandIn"
-    }
-"""
+"""Implementations of which it is not said which one is taken, or of which one is never taken."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from skillc_compiler.conflicts import Conflicts
-from skillc_compiler.lower.ranking import more_specific, ranked
-from skillc_compiler.program import Implementation, Program
-from skillc_compiler.selecting import asks, both_fit, subsumes
-from skillc_compiler.walk import calls
+from skillc_compiler.logic.conflicts import Conflicts
+from skillc_compiler.logic.ranking import more_specific, ranked
+from skillc_compiler.logic.subsumption import asks, both_fit, subsumes
+from skillc_compiler.program.typed import Implementation, Program
+from skillc_compiler.program.walk import calls
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("ambiguous-selection", "never-selected")

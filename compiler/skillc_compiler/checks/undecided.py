@@ -1,51 +1,12 @@
-"""A body with more possible states than are told apart.
-
-After every node, up to 64 states of the world are followed one by one. Where there are more, only what all of them
-have in common is used, so that something may seem not to be guaranteed that is.
-
-Bad:
-
-    use skillc
-    skill Tour {
-        in a: Surface  in b: Surface  in c: Surface  in d: Surface
-        in e: Surface  in f: Surface  in g: Surface  noplan
-    }
-    impl patient of Tour {
-        do seq {
-            try { check(a.located == true) }
-            try { check(b.located == true) }
-            try { check(c.located == true) }
-            try { check(d.located == true) }
-            try { check(e.located == true) }
-            try { check(f.located == true) }
-            try { check(g.located == true) }
-            wait 1 s
-        }
-    }
-
-Good:
-
-    use skillc
-    skill Tour {
-        in a: Surface  in b: Surface  in c: Surface  noplan
-    }
-    impl patient of Tour {
-        do seq {
-            try { check(a.located == true) }
-            try { check(b.located == true) }
-            try { check(c.located == true) }
-            wait 1 s
-        }
-    }
-"""
+"""A body with more possible states than are told apart."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Program
-from skillc_compiler.proof.findings import Undecided
-from skillc_compiler.proof.proving import found
+from skillc_compiler.analysis.findings import Undecided
+from skillc_compiler.analysis.proving import found
+from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("not-decided",)

@@ -1,53 +1,13 @@
-"""A child changes something that the skill does not say it changes.
-
-Planner and callers know a skill by its description. What is different after it in every case must stand in a `post`,
-of the description or of the implementation. What is changed and changed back, what `with` undoes and what is only
-measured (`sensed`) need not.
-
-Bad:
-
-    use rparts, skiros
-    import "gripper.skill"
-    skill Drop {
-        in   arm:     ArmDevice
-        in   gripper: GripperEffector
-        in   object:  Product
-        in   to:      Location
-        pre  gripper contain object
-        post to contain object
-    }
-    skill Grip { in gripper: GripperEffector  post gripper.skillc:deviceState == Busy }
-    impl waiting of Grip { run python "skillc_runtime.primitives.stand_in:StandIn" }
-    impl plain of Drop { do seq { Release(arm, gripper, object, to) Grip(gripper) } }
-
-Good:
-
-    use rparts, skiros
-    import "gripper.skill"
-    skill Drop {
-        in   arm:     ArmDevice
-        in   gripper: GripperEffector
-        in   object:  Product
-        in   to:      Location
-        pre  gripper contain object
-        post to contain object
-    }
-    skill Grip { in gripper: GripperEffector  post gripper.skillc:deviceState == Busy }
-    impl waiting of Grip { run python "skillc_runtime.primitives.stand_in:StandIn" }
-    impl plain of Drop {
-        post gripper.skillc:deviceState == Busy
-        do seq { Release(arm, gripper, object, to) Grip(gripper) }
-    }
-"""
+"""A child changes something that the skill does not say it changes."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Program
-from skillc_compiler.proof.findings import Undeclared
-from skillc_compiler.proof.proving import found
-from skillc_compiler.proof.trail import labels
+from skillc_compiler.analysis.findings import Undeclared
+from skillc_compiler.analysis.proving import found
+from skillc_compiler.analysis.trail import labels
+from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("undeclared-effect",)

@@ -1,40 +1,12 @@
-"""A node that never starts, whatever its neighbours do.
-
-It stands after a node that cannot succeed, or in a `sel` after one that cannot fail, or in the branch of a condition
-that is decided beforehand.
-
-Bad:
-
-    use skillc
-    import "compliance.skill"
-    skill Touch { in arm: CompliantArm  in surface: Surface  noplan }
-    impl patient of Touch {
-        do sel {
-            try { Align(arm, surface) }
-            wait 2 s
-        }
-    }
-
-Good:
-
-    use skillc
-    import "compliance.skill"
-    skill Touch { in arm: CompliantArm  in surface: Surface  noplan }
-    impl patient of Touch {
-        do sel {
-            Align(arm, surface)
-            wait 2 s
-        }
-    }
-"""
+"""A node that never starts, whatever its neighbours do."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Program
-from skillc_compiler.proof.findings import Unreachable
-from skillc_compiler.proof.proving import found
+from skillc_compiler.analysis.findings import Unreachable
+from skillc_compiler.analysis.proving import found
+from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("unreachable-node",)

@@ -1,48 +1,12 @@
-"""A skill that no task of the library can reach.
-
-A task reaches what its body calls; one with a goal reaches what a planner may take, which is every skill with a post
-and without `noplan`; and both reach what those call. A library without tasks is for others, who may call everything.
-
-## unreachable-skill: no task calls or plans a skill
-
-Bad:
-
-    use rparts
-    import "motion.skill"
-    prefix lab: <http://example.org/lab#>
-    skill Fold {
-        in arm: ArmDevice
-        noplan
-    }
-    impl folded of Fold { do TakePosture(arm) }
-    task rest {
-        scene "iiwa_table.ttl"
-        do    TakePosture(arm: lab:Iiwa-1)
-    }
-
-Good:
-
-    use rparts
-    import "motion.skill"
-    prefix lab: <http://example.org/lab#>
-    skill Fold {
-        in arm: ArmDevice
-        noplan
-    }
-    impl folded of Fold { do TakePosture(arm) }
-    task rest {
-        scene "iiwa_table.ttl"
-        do    Fold(arm: lab:Iiwa-1)
-    }
-"""
+"""A skill that no task of the library can reach."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from skillc_compiler.library.closure import reachable
-from skillc_compiler.program import Implementation, Program, Skill, Step
-from skillc_compiler.walk import within
+from skillc_compiler.program.typed import Implementation, Program, Skill, TypedNode
+from skillc_compiler.program.walk import within
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 
@@ -85,8 +49,8 @@ def _achieves_nothing(skill: Skill) -> bool:
 
 
 def _calls(implementation: Implementation) -> Iterator[str]:
-    return _called(implementation.body) if isinstance(implementation.body, Step) else iter(())
+    return _called(implementation.body) if isinstance(implementation.body, TypedNode) else iter(())
 
 
-def _called(body: Step) -> Iterator[str]:
+def _called(body: TypedNode) -> Iterator[str]:
     return (step.call.skill.name for step in within(body) if step.call and step.call.skill)

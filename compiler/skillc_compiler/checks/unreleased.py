@@ -1,41 +1,13 @@
-"""Something that is set up, or changed, and not put back when a child fails.
-
-A `scoped` skill that is called as a plain node lasts until an enclosing `with`, or the whole run, ends. And what one
-child sets and a later one sets back, such as whether a door is open, stays set when a child between the two fails.
-`with` undoes what its skill set up on success, failure and halt.
-
-Bad:
-
-    use skillc
-    import "compliance.skill"
-    skill Feel { in arm: CompliantArm  in surface: Surface  noplan }
-    impl soft of Feel {
-        do seq {
-            Compliance(arm, along: surface.normal)
-            Align(arm, surface)
-        }
-    }
-
-Good:
-
-    use skillc
-    import "compliance.skill"
-    skill Feel { in arm: CompliantArm  in surface: Surface  noplan }
-    impl soft of Feel {
-        do with Compliance(arm, along: surface.normal) {
-            Align(arm, surface)
-        }
-    }
-"""
+"""Something that is set up, or changed, and not put back when a child fails."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Program
-from skillc_compiler.proof.findings import Unreleased
-from skillc_compiler.proof.proving import found
-from skillc_compiler.proof.trail import labels
+from skillc_compiler.analysis.findings import Unreleased
+from skillc_compiler.analysis.proving import found
+from skillc_compiler.analysis.trail import labels
+from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("not-released",)

@@ -1,118 +1,4 @@
-"""Something declared and never used, which can be taken away.
-
-## unused-use: a vocabulary is used by none of its bare names
-
-Bad:
-
-    use skiros, rparts
-    skill Rest {
-        in arm: ArmDevice
-        noplan
-    }
-    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use rparts
-    skill Rest {
-        in arm: ArmDevice
-        noplan
-    }
-    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-## unused-prefix: a prefix is never used
-
-Bad:
-
-    prefix lab: <http://example.org/lab#>
-    skill Rest { noplan }
-    impl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    prefix lab: <http://example.org/lab#>
-    import "motion.skill"
-    task rest {
-        scene "ur5e_whiteboard.ttl"
-        do    TakePosture(arm: lab:Iiwa-1)
-    }
-
-## unused-import: nothing of an imported file is used
-
-Bad:
-
-    use rparts
-    import "motion.skill"
-    import "driving.skill"
-    skill Rest {
-        in arm: ArmDevice
-        noplan
-    }
-    impl folded of Rest { do TakePosture(arm) }
-
-Good:
-
-    use rparts
-    import "motion.skill"
-    skill Rest {
-        in arm: ArmDevice
-        noplan
-    }
-    impl folded of Rest { do TakePosture(arm) }
-
-## unused-let: a value is named and never read
-
-Bad:
-
-    use rparts
-    import "motion.skill"
-    skill Rest {
-        in arm: ArmDevice
-        noplan
-    }
-    impl folded of Rest {
-        let home = "home"
-        do  TakePosture(arm)
-    }
-
-Good:
-
-    use rparts
-    import "motion.skill"
-    skill Rest {
-        in arm: ArmDevice
-        noplan
-    }
-    impl folded of Rest {
-        let home = "home"
-        do  TakePosture(arm, posture: home)
-    }
-
-## unused-parameter: a parameter is never read
-
-Not told where an implementation in Python may read it.
-
-Bad:
-
-    use rparts
-    import "motion.skill"
-    skill Rest {
-        in arm: ArmDevice
-        in object: skiros:Product
-        noplan
-    }
-    impl folded of Rest { do TakePosture(arm) }
-
-Good:
-
-    use rparts
-    import "motion.skill"
-    skill Rest {
-        in arm: ArmDevice
-        noplan
-    }
-    impl folded of Rest { do TakePosture(arm) }
-"""
+"""Something declared and never used, which can be taken away."""
 
 from __future__ import annotations
 
@@ -120,8 +6,16 @@ from collections.abc import Iterable, Iterator
 
 from skillc_compiler.library.conditions import Given, Variable
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
-from skillc_compiler.program import Clause, Implementation, Program, ReadFile, Skill, Step, Valued
-from skillc_compiler.walk import clauses_in, implementation_values, skill_values, step_values, values_in, within
+from skillc_compiler.program.typed import (
+    Implementation,
+    Program,
+    ReadFile,
+    Skill,
+    TypedCondition,
+    TypedExpression,
+    TypedNode,
+)
+from skillc_compiler.program.walk import clauses_in, implementation_values, skill_values, step_values, values_in, within
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -182,7 +76,7 @@ def _import_used(program: Program, unit: ReadFile, path: str) -> bool:
 
 def _parameters(program: Program, skill: Skill) -> Iterator[Diagnostic]:
     implementations = program.implementations_of[skill.name]
-    if not implementations or any(not isinstance(i.body, Step) for i in implementations):
+    if not implementations or any(not isinstance(i.body, TypedNode) for i in implementations):
         return
     read = {device.parameter.text for device in skill.devices}
     read |= _names(skill_values(skill), (r.clause for r in skill.requirements))
@@ -196,7 +90,7 @@ def _parameters(program: Program, skill: Skill) -> Iterator[Diagnostic]:
 def _read_in(implementation: Implementation) -> set[str]:
     """Return the names that an implementation reads itself."""
     read = _names(implementation_values(implementation), (r.clause for r in implementation.requirements))
-    if isinstance(implementation.body, Step):
+    if isinstance(implementation.body, TypedNode):
         for step in within(implementation.body):
             read |= _names(step_values(step), step.clauses)
     for event in (event for line in implementation.verify for event in (line.first, line.second) if event):
@@ -205,7 +99,7 @@ def _read_in(implementation: Implementation) -> set[str]:
     return read
 
 
-def _names(values: Iterable[Valued], clauses: Iterable[Clause]) -> set[str]:
+def _names(values: Iterable[TypedExpression], clauses: Iterable[TypedCondition]) -> set[str]:
     conditions = [part for clause in clauses for part in clauses_in(clause)]
     read = [part for value in (*values, *(v for c in conditions for v in c.values)) for part in values_in(value)]
     given = {c.meaning.parameter for c in conditions if isinstance(c.meaning, Given)}

@@ -1,62 +1,17 @@
-"""A condition whose answer is known beforehand.
-
-## always-true: a condition always holds
-
-Bad:
-
-    skill Press {
-        opt force: Force = 20 N  range 5 N .. 80 N
-        pre force < 100 N
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    skill Press {
-        opt force: Force = 20 N  range 5 N .. 80 N
-        pre force < 50 N
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-## always-false: a condition never holds
-
-Bad:
-
-    use skiros
-    skill Stack {
-        in  lower: Container
-        in  upper: Container
-        pre lower contain lower
-        noplan
-    }
-    impl waiting of Stack { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    use skiros
-    skill Stack {
-        in  lower: Container
-        in  upper: Container
-        pre lower contain upper
-        noplan
-    }
-    impl waiting of Stack { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""A condition whose answer is known beforehand."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from skillc_compiler.bounds import Bound, are_disjoint, bound, decided
-from skillc_compiler.conflicts import Conflicts
-from skillc_compiler.conjuncts import conjuncts
 from skillc_compiler.library.conditions import Compare, Given, Holds, IsA, Literal, Or, Same, Variable
 from skillc_compiler.library.rewriting import constant_number, fold
-from skillc_compiler.program import Clause, Implementation, Parameter, Program, Skill, Step
-from skillc_compiler.types import Thing, describe
-from skillc_compiler.walk import clauses_in, within
+from skillc_compiler.logic.bounds import Bound, are_disjoint, bound, decided
+from skillc_compiler.logic.conflicts import Conflicts
+from skillc_compiler.logic.conjunctions import conjuncts
+from skillc_compiler.program.typed import Implementation, Parameter, Program, Skill, TypedCondition, TypedNode
+from skillc_compiler.program.types import Thing, describe
+from skillc_compiler.program.walk import clauses_in, within
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("always-true", "always-false")
@@ -71,7 +26,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
             yield from _judged(conflicts, part, parameters)
 
 
-def _conditions(program: Program) -> Iterator[tuple[Clause, _Parameters]]:
+def _conditions(program: Program) -> Iterator[tuple[TypedCondition, _Parameters]]:
     """Yield every condition with the parameters it may speak of."""
     owners: tuple[Skill | Implementation, ...] = (*program.skills.values(), *program.implementations)
     for owner in owners:
@@ -84,14 +39,14 @@ def _conditions(program: Program) -> Iterator[tuple[Clause, _Parameters]]:
             yield from ((clause, {}) for clause in step.clauses)
 
 
-def _written_in(owner: Skill | Implementation) -> Iterator[Clause]:
+def _written_in(owner: Skill | Implementation) -> Iterator[TypedCondition]:
     yield from (requirement.clause for requirement in owner.requirements if requirement.kind != "post")
-    if isinstance(owner, Implementation) and isinstance(owner.body, Step):
+    if isinstance(owner, Implementation) and isinstance(owner.body, TypedNode):
         for step in within(owner.body):
             yield from step.clauses
 
 
-def _judged(conflicts: Conflicts, clause: Clause, parameters: _Parameters) -> Iterator[Diagnostic]:
+def _judged(conflicts: Conflicts, clause: TypedCondition, parameters: _Parameters) -> Iterator[Diagnostic]:
     found = _truth(conflicts, clause, parameters)
     if found is not None:
         answer, reason = found
@@ -104,7 +59,7 @@ def _judged(conflicts: Conflicts, clause: Clause, parameters: _Parameters) -> It
         )
 
 
-def _truth(conflicts: Conflicts, clause: Clause, parameters: _Parameters) -> tuple[bool, str] | None:
+def _truth(conflicts: Conflicts, clause: TypedCondition, parameters: _Parameters) -> tuple[bool, str] | None:
     """Return whether a condition always or never holds, and why; None if it depends."""
     match clause.meaning:
         case Holds() as fact if conflicts.impossible(fact):
@@ -124,7 +79,7 @@ def _truth(conflicts: Conflicts, clause: Clause, parameters: _Parameters) -> tup
     return None
 
 
-def _any_way(conflicts: Conflicts, clause: Clause) -> tuple[bool, str] | None:
+def _any_way(conflicts: Conflicts, clause: TypedCondition) -> tuple[bool, str] | None:
     """Find two parts of an `or` of which one holds whenever the other does not."""
     denied = [(fact, part) for part in clause.parts for fact in conjuncts(part, holds=False)]
     pairs = ((one, other) for i, (one, _) in enumerate(denied) for other, _ in denied[:i])

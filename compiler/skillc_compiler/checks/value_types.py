@@ -1,70 +1,15 @@
-"""A value of the wrong type, of the wrong dimension, or without its unit.
-
-## wrong-type: a value is of another type
-
-Bad:
-
-    skill Press {
-        opt force: Force = "8N"
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    skill Press {
-        opt force: Force = 8 N
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-## wrong-dimension: a quantity is of another dimension
-
-Bad:
-
-    skill Press {
-        opt speed: Speed = 5 cm
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    skill Press {
-        opt speed: Speed = 5 cm/s
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-## missing-unit: a number has no unit
-
-Bad:
-
-    skill Press {
-        opt radius: Length = 15
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-
-Good:
-
-    skill Press {
-        opt radius: Length = 15 mm
-        noplan
-    }
-    impl waiting of Press { run python "skillc_runtime.primitives.stand_in:StandIn" }
-"""
+"""A value of the wrong type, of the wrong dimension, or without its unit."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
 
-from skillc_compiler.expected import Place, places
 from skillc_compiler.library.conditions import Individual, Literal, Variable
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
-from skillc_compiler.program import Program
-from skillc_compiler.types import INT, TEXT, Direction, Measure, Thing, Vector, describe, fits, of_library
+from skillc_compiler.program.expected import Place, places
+from skillc_compiler.program.typed import Program
+from skillc_compiler.program.types import INT, TEXT, Direction, Measure, Thing, Vector, describe, fits, of_library
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.units import NUMBER, UNITS, Dimension
 

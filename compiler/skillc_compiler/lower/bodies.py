@@ -8,14 +8,12 @@ from typing import assert_never
 from skillc_compiler.library import tree as t
 from skillc_compiler.library.conditions import Condition, Expression
 from skillc_compiler.library.rewriting import fold
-from skillc_compiler.program import Step, position
+from skillc_compiler.logic.rounds import count_rounds
+from skillc_compiler.program.typed import TypedNode, position
 from skillc_dsl import syntax as s
 
-MOST_ROUNDS = 1_000_000
-"""More rounds than that count as endless."""
 
-
-def node(step: Step) -> t.Node:
+def node(step: TypedNode) -> t.Node:
     """Return the tree node that a step stands for."""
     written = step.written
     source = position(written.span)
@@ -41,18 +39,18 @@ def node(step: Step) -> t.Node:
             assert_never(written)
 
 
-def _around(step: Step, written: s.Counted | s.Timeout | s.While | s.For | s.With) -> t.Node:
+def _around(step: TypedNode, written: s.Counted | s.Timeout | s.While | s.For | s.With) -> t.Node:
     source = position(written.span)
     child = _together(step.children, step)
     match written:
         case s.Counted(kind="retry", count=count):
-            return t.Retry(rounds_of(count), child, source)
+            return t.Retry(count_rounds(count), child, source)
         case s.Counted(count=count):
-            return t.Repeat(rounds_of(count), child, source)
+            return t.Repeat(count_rounds(count), child, source)
         case s.Timeout():
             return t.Timeout(_value(step), child, source)
         case s.While(text=text, limit=limit):
-            return t.While(_condition(step), text, rounds_of(limit), child, source)
+            return t.While(_condition(step), text, count_rounds(limit), child, source)
         case s.For(variable=variable):
             return t.ForEach(variable.text, _value(step), child, source)
         case s.With():
@@ -61,7 +59,7 @@ def _around(step: Step, written: s.Counted | s.Timeout | s.While | s.For | s.Wit
             assert_never(written)
 
 
-def _block(step: Step, written: s.Block) -> t.Node:
+def _block(step: TypedNode, written: s.Block) -> t.Node:
     source = position(written.span)
     match written.kind:
         case "seq" | "reactive seq":
@@ -86,18 +84,18 @@ def _block(step: Step, written: s.Block) -> t.Node:
             assert_never(written.kind)
 
 
-def _nodes(step: Step) -> tuple[t.Node, ...]:
+def _nodes(step: TypedNode) -> tuple[t.Node, ...]:
     return tuple(node(child) for child in step.children)
 
 
-def _together(children: Sequence[Step], of: Step) -> t.Node:
+def _together(children: Sequence[TypedNode], of: TypedNode) -> t.Node:
     """Return the one child, or several as a sequence."""
     if len(children) == 1:
         return node(children[0])
     return t.Sequence(tuple(node(child) for child in children), False, position(of.written.span))
 
 
-def _call(step: Step) -> t.Call:
+def _call(step: TypedNode) -> t.Call:
     call = step.call
     assert call is not None and call.skill is not None, "calls of unknown skills are left out with their implementation"
     return t.Call(
@@ -109,14 +107,9 @@ def _call(step: Step) -> t.Call:
     )
 
 
-def _value(step: Step) -> Expression:
+def _value(step: TypedNode) -> Expression:
     return fold(step.values[0].meaning)
 
 
-def _condition(step: Step) -> Condition:
+def _condition(step: TypedNode) -> Condition:
     return fold(step.clauses[0].meaning)
-
-
-def rounds_of(written: s.Number) -> int:
-    """Return a number of rounds as a whole number that there can be; any other is reported as `bad-count`."""
-    return int(min(max(written.value, 1), MOST_ROUNDS))

@@ -4,20 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from skillc_compiler.library import properties
 from skillc_compiler.library import skills as library
 from skillc_compiler.library.conditions import Expression
 from skillc_compiler.library.rewriting import constant_number, fold
+from skillc_compiler.logic.effects import NoEffect, effects
 from skillc_compiler.lower.bodies import node
-from skillc_compiler.lower.effects import NoEffect, effects
-from skillc_compiler.lower.properties import verified
-from skillc_compiler.program import (
+from skillc_compiler.program.typed import (
+    Event,
     Implementation,
     Parameter,
+    Property,
     Requirement,
     Skill,
-    Step,
     Task,
-    Valued,
+    TypedExpression,
+    TypedNode,
     position,
 )
 from skillc_dsl import syntax as s
@@ -44,7 +46,7 @@ def skill(understood: Skill, implementations: Sequence[str]) -> library.Skill:
     )
 
 
-def implementation(understood: Implementation, body: Step | s.RunPython) -> library.Implementation:
+def implementation(understood: Implementation, body: TypedNode | s.RunPython) -> library.Implementation:
     """Return an implementation with the description's conditions before its own."""
     labelled = label((*understood.skill.requirements, *understood.requirements))
     return library.Implementation(
@@ -58,8 +60,8 @@ def implementation(understood: Implementation, body: Step | s.RunPython) -> libr
         duration=_expression(understood.duration or understood.skill.duration),
         prefer=understood.prefer,
         lets=tuple(library.Let(let.name.text, fold(let.value.meaning)) for let in understood.lets),
-        body=library.Compound(node(body)) if isinstance(body, Step) else library.Primitive(body.target.value),
-        verify=tuple(verified(each) for each in understood.verify),
+        body=library.Compound(node(body)) if isinstance(body, TypedNode) else library.Primitive(body.target.value),
+        verify=tuple(_property(each) for each in understood.verify),
         source=position(understood.span),
     )
 
@@ -129,9 +131,30 @@ def _parameter(understood: Parameter) -> library.Parameter:
     )
 
 
-def _expression(valued: Valued | None) -> Expression | None:
+def _expression(valued: TypedExpression | None) -> Expression | None:
     return fold(valued.meaning) if valued else None
 
 
 def _devices(understood: Skill, kind: str) -> tuple[str, ...]:
     return tuple(device.parameter.text for device in understood.devices if device.kind == kind)
+
+
+def _property(understood: Property) -> properties.Property:
+    """Return the property of a `verify` line."""
+    return properties.Property(
+        pattern=understood.pattern,
+        first=_event(understood.first),
+        second=_event(understood.second) if understood.second else None,
+        text=understood.text,
+        source=position(understood.span),
+    )
+
+
+def _event(understood: Event) -> properties.Event:
+    if understood.clause is not None:
+        return properties.Is(fold(understood.clause.meaning))
+    if understood.measured is not None:
+        limit = fold(understood.measured.limit.meaning)
+        return properties.Measures("force", understood.measured.operator, limit)
+    assert understood.skill is not None, "an event is a skill, a condition or a force"
+    return properties.Runs(understood.skill)

@@ -8,13 +8,13 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import msgspec
 
-from skillc_compiler.enclosing import Places
 from skillc_compiler.library import skills as library
 from skillc_compiler.library.pddl.names import pddl_names
 from skillc_compiler.library.skills import SkillLibrary
+from skillc_compiler.logic.ranking import ranked
 from skillc_compiler.lower import flattening
-from skillc_compiler.lower.ranking import ranked
-from skillc_compiler.program import Call, Implementation, Program, ReadFile, Step
+from skillc_compiler.program.spans import Places
+from skillc_compiler.program.typed import Call, Implementation, Program, ReadFile, TypedNode
 from skillc_dsl.diagnostics import Diagnostic
 
 
@@ -43,7 +43,7 @@ def lower(program: Program, problems: Sequence[Diagnostic]) -> SkillLibrary:
     return msgspec.structs.replace(unnamed, names=pddl_names(unnamed))
 
 
-def calls(step: Step) -> Iterator[Call]:
+def calls(step: TypedNode) -> Iterator[Call]:
     """Yield every call in a body, in order."""
     if step.call:
         yield step.call
@@ -57,7 +57,7 @@ def _implementation(understood: Implementation) -> library.Implementation:
 
 
 def _calls_known(body: object, skills: Iterable[str]) -> bool:
-    return not isinstance(body, Step) or all(call.skill and call.skill.name in skills for call in calls(body))
+    return not isinstance(body, TypedNode) or all(call.skill and call.skill.name in skills for call in calls(body))
 
 
 def _hash(files: Sequence[ReadFile]) -> str:

@@ -1,67 +1,104 @@
-"""The manual: a page for each diagnostic, read from the docstrings of the checks and of the modules in this folder.
+"""The manual: NAME.md beside this file explains the diagnostic NAME, and its two examples are run by the tests.
 
-A docstring holds one section per diagnostic. A section begins with `## NAME: what is wrong, in a line`; without such a
-line the whole docstring is the page of the module's only name, and its first line says what is wrong. Then come prose,
-`Bad:` with a small program, indented, that has exactly this problem, and `Good:` with one that has none.
+A page has two fields, the name, a sentence, the reason with advice, an example with this problem, one without:
+
+    ---
+    family: quantities
+    found-by: compiler
+    ---
+
+    # missing-unit
+
+    A number has no unit.
+
+    A bare number can be read as millimetres as well as metres.
+
+    ```skill bad
+    ...
+    ```
+
+    ```skill good
+    ...
+    ```
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
-from importlib import import_module
-from inspect import getdoc
-from pkgutil import iter_modules
-from textwrap import dedent
-from types import MappingProxyType, ModuleType
+from pathlib import Path
+from types import MappingProxyType
 
-PLACES = ("skillc_compiler.checks", "skillc_compiler.manual")
-_SECTION = re.compile(r"^## ([a-z-]+): (.*)$", re.MULTILINE)
-_EXAMPLE = re.compile(r"^(Bad|Good):\n\n((?:(?: {4}.*)?\n)+)", re.MULTILINE)
+FAMILIES = (
+    *("text", "quantities", "scenes", "properties", "implementations", "data flow", "planning", "ontology", "names"),
+    "logic",
+)
+FINDERS = ("compiler", "vocabulary", "scene", "check", "formatter", "goal")
+_FOLDER = Path(__file__).parent
+_PAGE = re.compile(
+    r"---\nfamily: (?P<family>.+)\nfound-by: (?P<found_by>.+)\n---\n\n"
+    r"# (?P<name>[a-z-]+)\n\n(?P<title>.+)\.\n\n(?P<prose>(?:(?!```).*\n)*?(?!```).+)\n\n"
+    r"```(?P<language>skill|turtle) bad\n(?P<bad>(?:(?!```).*\n)+)```\n\n"
+    r"```(?P=language) good\n(?P<good>(?:(?!```).*\n)+)```\n"
+)
 
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """What there is to know about a diagnostic.
+    """The explanation of a diagnostic.
 
-    `title` is one line, `prose` Markdown, which may be empty. `bad` is a whole file with this problem and no other,
-    `good` one without any; they are `.skill` text, or Turtle where the diagnostic is about that.
+    `family` is the heading under which it is listed, `found_by` what reports it: the compiler, the loaders of
+    vocabularies and scenes, `skillc check` of a library with its scenes, the formatter, the parser of goals that are
+    given on the command line. `title` is a sentence without its full stop, `prose` Markdown. `bad` is a whole file with
+    this problem and no other, `good` a file without problems, both in `language`.
     """
 
     name: str
+    family: str
+    found_by: str
     title: str
     prose: str
+    language: str
     bad: str
     good: str
 
 
 @cache
+def page_names() -> frozenset[str]:
+    """Return the names of all diagnostics."""
+    return frozenset(path.stem for path in _FOLDER.glob("*.md"))
+
+
+@cache
 def pages() -> Mapping[str, Page]:
     """Return the pages of all diagnostics by name, in alphabetical order."""
-    found = sorted((page for place in PLACES for page in _in(import_module(place))), key=lambda page: page.name)
-    return MappingProxyType({page.name: page for page in found})
+    return MappingProxyType({name: page(name) for name in sorted(page_names())})
 
 
-def _in(package: ModuleType) -> Iterator[Page]:
-    for name in sorted(module.name for module in iter_modules(package.__path__)):
-        yield from of_module(import_module(f"{package.__name__}.{name}"))
+@cache
+def page(name: str) -> Page:
+    """Return the page of a diagnostic; ValueError if it does not have the form of a page."""
+    return parse_page(name, (_FOLDER / f"{name}.md").read_text("utf-8"))
 
 
-def of_module(module: ModuleType) -> list[Page]:
-    """Return the pages in the docstring of a module."""
-    text = f"{getdoc(module) or ''}\n"
-    heads = list(_SECTION.finditer(text))
-    if not heads:
-        title, _, rest = text.partition("\n")
-        return [_page(module.NAMES[0], title, rest)]
-    ends = [*(head.start() for head in heads[1:]), len(text)]
-    return [_page(head[1], head[2], text[head.end() : end]) for head, end in zip(heads, ends, strict=True)]
+def parse_page(name: str, text: str) -> Page:
+    """Return the page in the text of the file NAME.md; ValueError if it does not have the form of a page."""
+    match = _PAGE.fullmatch(text)
+    if match is None:
+        raise ValueError(f"{name}.md is not of the form that {__name__} documents")
+    found = Page(**match.groupdict())
+    if found.name != name:
+        raise ValueError(f"{name}.md explains `{found.name}`")
+    for value, known in ((found.family, FAMILIES), (found.found_by, FINDERS)):
+        if value not in known:
+            raise ValueError(f"{name}.md says `{value}`, which is none of {', '.join(known)}")
+    return found
 
 
-def _page(name: str, title: str, text: str) -> Page:
-    """Return a page; KeyError where an example is missing."""
-    examples = {kind: dedent(program).strip("\n") + "\n" for kind, program in _EXAMPLE.findall(text)}
-    prose = _EXAMPLE.sub("", text).strip()
-    return Page(name, title.rstrip("."), prose, examples["Bad"], examples["Good"])
+def by_family(shown: Iterable[Page]) -> Mapping[str, tuple[Page, ...]]:
+    """Return pages in alphabetical order by their family, the families in the order of `FAMILIES`."""
+    ordered = sorted(shown, key=lambda each: each.name)
+    grouped = {family: tuple(each for each in ordered if each.family == family) for family in FAMILIES}
+    return {family: members for family, members in grouped.items() if members}

@@ -4,33 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Argument, Call, Parameter, Skill
-from skillc_compiler.resolve.scope import Scope, Setting, Variable
-from skillc_compiler.resolve.values import ANYTHING, Wanted, value
-from skillc_compiler.types import UNKNOWN, Type, fits
+from skillc_compiler.program.typed import Argument, Call, Parameter, Skill
+from skillc_compiler.program.types import UNKNOWN, Type, fits
+from skillc_compiler.resolve.scope import FileContext, Scope, Variable
+from skillc_compiler.resolve.values import ANYTHING, ExpectedType, value
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 
 
-def call(setting: Setting, scope: Scope, written: s.CallSkill) -> tuple[Call, Scope]:
+def call(context: FileContext, scope: Scope, written: s.CallSkill) -> tuple[Call, Scope]:
     """Return what a call means, and the scope after it, in which its output has a value."""
-    name = setting.names.skill(written.skill)
-    skill = setting.skills.get(name) if name else None
-    arguments = tuple(_arguments(setting, scope, written, skill))
-    understood = Call(skill, _implementation(setting, written, skill), arguments, written.out, written)
-    return understood, _after(setting, scope, written, skill)
+    name = context.names.skill(written.skill)
+    skill = context.skills.get(name) if name else None
+    arguments = tuple(_arguments(context, scope, written, skill))
+    understood = Call(skill, _implementation(context, written, skill), arguments, written.out, written)
+    return understood, _after(context, scope, written, skill)
 
 
-def _arguments(setting: Setting, scope: Scope, written: s.CallSkill, skill: Skill | None) -> Iterator[Argument]:
+def _arguments(context: FileContext, scope: Scope, written: s.CallSkill, skill: Skill | None) -> Iterator[Argument]:
     for argument in written.arguments:
         parameter = skill.parameter(argument.name.text) if skill else None
         if skill and (parameter is None or parameter.direction == "out"):
-            _not_a_parameter(setting, scope, argument, skill, parameter, written)
+            _not_a_parameter(context, scope, argument, skill, parameter, written)
         elif skill is None and _is_shorthand(argument) and argument.name.text not in scope.variables:
             continue
         else:
-            wanted = Wanted(parameter.type) if parameter else ANYTHING
-            yield Argument(argument.name, value(setting, scope, argument.value, wanted))
+            wanted = ExpectedType(parameter.type) if parameter else ANYTHING
+            yield Argument(argument.name, value(context, scope, argument.value, wanted))
 
 
 def _is_shorthand(argument: s.Argument) -> bool:
@@ -38,7 +38,7 @@ def _is_shorthand(argument: s.Argument) -> bool:
 
 
 def _not_a_parameter(
-    setting: Setting,
+    context: FileContext,
     scope: Scope,
     argument: s.Argument,
     skill: Skill,
@@ -47,9 +47,9 @@ def _not_a_parameter(
 ) -> None:
     """Report an argument that no parameter takes; its value is still looked at unless it is only the name again."""
     name = argument.name.text
-    kind = UNKNOWN if _is_shorthand(argument) else value(setting, scope, argument.value).type
+    kind = UNKNOWN if _is_shorthand(argument) else value(context, scope, argument.value).type
     if out is not None:
-        setting.report(
+        context.report(
             "unknown-argument",
             argument.name.span,
             f"`{name}` is an output of `{skill.name}`, which cannot be passed in",
@@ -57,60 +57,60 @@ def _not_a_parameter(
             Label(out.span, "declared here"),
         )
         return
-    setting.report_unknown(
+    context.report_unknown(
         "unknown-argument",
         argument.name,
         f"the skill `{skill.name}` has no parameter `{name}`",
-        _free(setting, skill, written, kind),
+        _free(context, skill, written, kind),
         f"it takes {_list(skill)}",
         Label(skill.name_span, "declared here"),
     )
 
 
-def _free(setting: Setting, skill: Skill, written: s.CallSkill, kind: Type) -> list[str]:
+def _free(context: FileContext, skill: Skill, written: s.CallSkill, kind: Type) -> list[str]:
     """Return the parameters that are not passed yet and take a value of this type."""
     passed = {a.name.text for a in written.arguments}
     takes = [p for p in skill.parameters if p.direction != "out" and p.name not in passed]
-    return [p.name for p in takes if fits(setting.vocabulary, kind, p.type)]
+    return [p.name for p in takes if fits(context.vocabulary, kind, p.type)]
 
 
 def _list(skill: Skill) -> str:
     return ", ".join(f"`{p.name}`" for p in skill.parameters if p.direction != "out") or "no arguments"
 
 
-def _implementation(setting: Setting, written: s.CallSkill, skill: Skill | None) -> str | None:
+def _implementation(context: FileContext, written: s.CallSkill, skill: Skill | None) -> str | None:
     name = written.implementation
     if name is None or skill is None:
         return None
-    known = setting.implementations.get(skill.name, ())
+    known = context.implementations.get(skill.name, ())
     if name.text not in known:
         message = f"the skill `{skill.name}` has no implementation `{name.text}`"
-        setting.report_unknown("unknown-implementation", name, message, known)
+        context.report_unknown("unknown-implementation", name, message, known)
     return name.text
 
 
-def _after(setting: Setting, scope: Scope, written: s.CallSkill, skill: Skill | None) -> Scope:
+def _after(context: FileContext, scope: Scope, written: s.CallSkill, skill: Skill | None) -> Scope:
     if written.out is None:
         return scope
     outputs = [p for p in skill.parameters if p.direction == "out"] if skill else []
     kind = outputs[0].type if outputs else UNKNOWN
     if skill and len(outputs) != 1:
-        setting.report(
+        context.report(
             "no-output",
             written.out.span,
             f"the skill `{skill.name}` has {len(outputs) or 'no'} outputs, so `->` has nothing to name",
             "take `->` away, or declare one `out` parameter in the skill",
             Label(skill.name_span, "declared here"),
         )
-    return _assigned(setting, scope, written.out, kind)
+    return _assigned(context, scope, written.out, kind)
 
 
-def _assigned(setting: Setting, scope: Scope, name: s.Name, kind: Type) -> Scope:
+def _assigned(context: FileContext, scope: Scope, name: s.Name, kind: Type) -> Scope:
     former = scope.variables.get(name.text)
     if former is None or former.origin not in ("out", "output"):
-        return setting.bind(scope, name, Variable(kind, "output", name.span))
-    if not fits(setting.vocabulary, kind, former.type):
-        setting.report(
+        return context.bind(scope, name, Variable(kind, "output", name.span))
+    if not fits(context.vocabulary, kind, former.type):
+        context.report(
             "wrong-type",
             name.span,
             f"this output does not fit `{name.text}`",

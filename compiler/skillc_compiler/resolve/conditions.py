@@ -25,75 +25,75 @@ from skillc_compiler.library.conditions import (
 )
 from skillc_compiler.library.conditions import Variable as VariableTerm
 from skillc_compiler.library.vocabulary import THING
-from skillc_compiler.program import Clause, Valued
-from skillc_compiler.resolve.scope import Scope, Setting, Variable
-from skillc_compiler.resolve.values import ANYTHING, Wanted, property_of, value
-from skillc_compiler.types import BOOL, UNKNOWN, Thing, Type, fits
+from skillc_compiler.program.typed import TypedCondition, TypedExpression
+from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, Type, fits
+from skillc_compiler.resolve.scope import FileContext, Scope, Variable
+from skillc_compiler.resolve.values import ANYTHING, ExpectedType, property_of, value
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.source import Span
 
 
-def clause(setting: Setting, scope: Scope, written: s.Condition) -> Clause:
+def clause(context: FileContext, scope: Scope, written: s.Condition) -> TypedCondition:
     """Return what a condition means; what cannot be understood is reported."""
     match written:
         case s.Relation():
-            return _holds(setting, scope, written)
+            return _holds(context, scope, written)
         case s.Compare():
-            return _compare(setting, scope, written)
+            return _compare(context, scope, written)
         case s.Has(subject=subject, property=name, span=span):
-            of = value(setting, scope, subject)
-            iri = property_of(setting, of, name) or name.text
-            return Clause(HasProperty(_term(setting, of), iri), span, (of,))
+            of = value(context, scope, subject)
+            iri = property_of(context, of, name) or name.text
+            return TypedCondition(HasProperty(_term(context, of), iri), span, (of,))
         case s.Is(subject=subject, cls=name, span=span):
-            of = value(setting, scope, subject, Wanted(Thing(None)))
-            return Clause(IsA(_term(setting, of), _class(setting, name)), span, (of,))
+            of = value(context, scope, subject, ExpectedType(Thing(None)))
+            return TypedCondition(IsA(_term(context, of), _class(context, name)), span, (of,))
         case s.Given(parameter=name, span=span):
-            return _given(setting, scope, name, span)
+            return _given(context, scope, name, span)
         case s.Not(body=body, span=span):
-            return _not(clause(setting, scope, body), span)
+            return _not(clause(context, scope, body), span)
         case s.And(parts=parts, span=span):
-            clauses = tuple(clause(setting, scope, part) for part in parts)
-            return Clause(And(tuple(c.meaning for c in clauses)), span, parts=clauses)
+            clauses = tuple(clause(context, scope, part) for part in parts)
+            return TypedCondition(And(tuple(c.meaning for c in clauses)), span, parts=clauses)
         case s.Or(parts=parts, span=span):
-            return _or([clause(setting, scope, part) for part in parts], span)
+            return _or([clause(context, scope, part) for part in parts], span)
         case s.Implies(if_=if_, then=then, span=span):
-            premise = clause(setting, scope, if_)
-            return _or([_not(premise, premise.span), clause(setting, scope, then)], span)
+            premise = clause(context, scope, if_)
+            return _or([_not(premise, premise.span), clause(context, scope, then)], span)
         case s.Quantified():
-            return _quantified(setting, scope, written)
+            return _quantified(context, scope, written)
         case s.Bare():
-            return _bare(setting, scope, written)
+            return _bare(context, scope, written)
         case _:
             assert_never(written)
 
 
-def _not(body: Clause, span: Span) -> Clause:
-    return Clause(Not(body.meaning), span, parts=(body,))
+def _not(body: TypedCondition, span: Span) -> TypedCondition:
+    return TypedCondition(Not(body.meaning), span, parts=(body,))
 
 
-def _or(parts: Sequence[Clause], span: Span) -> Clause:
-    return Clause(Or(tuple(part.meaning for part in parts)), span, parts=tuple(parts))
+def _or(parts: Sequence[TypedCondition], span: Span) -> TypedCondition:
+    return TypedCondition(Or(tuple(part.meaning for part in parts)), span, parts=tuple(parts))
 
 
-def _holds(setting: Setting, scope: Scope, written: s.Relation) -> Clause:
-    subject = _side(setting, scope, written.subject)
-    object_ = _side(setting, scope, written.object)
-    iri = _relation(setting, written.relation, subject.type, object_.type)
-    meaning = Holds(_term(setting, subject), iri or written.relation.text, _term(setting, object_))
-    return Clause(meaning, written.span, (subject, object_))
+def _holds(context: FileContext, scope: Scope, written: s.Relation) -> TypedCondition:
+    subject = _side(context, scope, written.subject)
+    object_ = _side(context, scope, written.object)
+    iri = _relation(context, written.relation, subject.type, object_.type)
+    meaning = Holds(_term(context, subject), iri or written.relation.text, _term(context, object_))
+    return TypedCondition(meaning, written.span, (subject, object_))
 
 
-def _side(setting: Setting, scope: Scope, written: s.Value | s.Anything) -> Valued:
+def _side(context: FileContext, scope: Scope, written: s.Value | s.Anything) -> TypedExpression:
     if isinstance(written, s.Anything):
-        return Valued(VariableTerm("_"), UNKNOWN, written.span)
-    return value(setting, scope, written, Wanted(Thing(None)))
+        return TypedExpression(VariableTerm("_"), UNKNOWN, written.span)
+    return value(context, scope, written, ExpectedType(Thing(None)))
 
 
-def _relation(setting: Setting, name: s.Name, subject: Type, object_: Type) -> str | None:
-    names, vocabulary = setting.names, setting.vocabulary
+def _relation(context: FileContext, name: s.Name, subject: Type, object_: Type) -> str | None:
+    names, vocabulary = context.names, context.vocabulary
     if names.is_term("property", name.text) and not names.is_term("relation", name.text):
-        setting.report(
+        context.report(
             "unknown-relation",
             name.span,
             f"`{name.text}` is a property with a value, not a relation between individuals",
@@ -110,7 +110,7 @@ def _relation(setting: Setting, name: s.Name, subject: Type, object_: Type) -> s
     )
 
 
-def _term(setting: Setting, of: Valued) -> Term:
+def _term(context: FileContext, of: TypedExpression) -> Term:
     """Return the individual that a value stands for; anything else is reported and taken for `_`."""
     match of.meaning:
         case VariableTerm(name="_"):
@@ -118,7 +118,7 @@ def _term(setting: Setting, of: Valued) -> Term:
         case VariableTerm() | Individual() as term if isinstance(of.type, Thing) or of.type == UNKNOWN:
             return term
     if of.type != UNKNOWN:
-        setting.report(
+        context.report(
             "not-an-individual",
             of.span,
             "a relation, `has` or `is` speaks of individuals, and this is a value",
@@ -127,80 +127,80 @@ def _term(setting: Setting, of: Valued) -> Term:
     return Anything()
 
 
-def _class(setting: Setting, name: s.Name) -> str:
-    return setting.names.term("class", name) or name.text
+def _class(context: FileContext, name: s.Name) -> str:
+    return context.names.term("class", name) or name.text
 
 
-def _compare(setting: Setting, scope: Scope, written: s.Compare) -> Clause:
-    left, right = _sides(setting, scope, written)
+def _compare(context: FileContext, scope: Scope, written: s.Compare) -> TypedCondition:
+    left, right = _sides(context, scope, written)
     individuals = [kind for kind in (left.type, right.type) if isinstance(kind, Thing)]
     if individuals and written.operator in ("==", "!=") and _all_terms(left, right):
-        same = Clause(Same(_term(setting, left), _term(setting, right)), written.span, (left, right))
+        same = TypedCondition(Same(_term(context, left), _term(context, right)), written.span, (left, right))
         return same if written.operator == "==" else _not(same, written.span)
-    return Clause(Compare(left.meaning, written.operator, right.meaning), written.span, (left, right))
+    return TypedCondition(Compare(left.meaning, written.operator, right.meaning), written.span, (left, right))
 
 
-def _all_terms(*sides: Valued) -> bool:
+def _all_terms(*sides: TypedExpression) -> bool:
     return all(isinstance(side.meaning, VariableTerm | Individual) for side in sides)
 
 
-def _sides(setting: Setting, scope: Scope, written: s.Compare) -> tuple[Valued, Valued]:
+def _sides(context: FileContext, scope: Scope, written: s.Compare) -> tuple[TypedExpression, TypedExpression]:
     """Understand the side with the property first: it tells which values a bare name on the other may be."""
     if isinstance(written.left, s.Reference) and isinstance(written.right, s.Member):
-        right = value(setting, scope, written.right)
-        return _other_side(setting, scope, written.left, right), right
-    left = value(setting, scope, written.left)
-    return left, _other_side(setting, scope, written.right, left)
+        right = value(context, scope, written.right)
+        return _other_side(context, scope, written.left, right), right
+    left = value(context, scope, written.left)
+    return left, _other_side(context, scope, written.right, left)
 
 
-def _other_side(setting: Setting, scope: Scope, written: s.Value, known: Valued) -> Valued:
+def _other_side(context: FileContext, scope: Scope, written: s.Value, known: TypedExpression) -> TypedExpression:
     """Understand the side that `known` is compared with; beside something unknown, a bare name may be anything."""
     match written:
         case s.Reference(name=s.Name(text=text), span=span) if known.type == UNKNOWN and ":" not in text:
             if text not in scope.variables:
-                return Valued(VariableTerm(text), UNKNOWN, span)
+                return TypedExpression(VariableTerm(text), UNKNOWN, span)
         case _:
             pass
-    return value(setting, scope, written, _wanted(setting, known))
+    return value(context, scope, written, _wanted(context, known))
 
 
-def _wanted(setting: Setting, other: Valued) -> Wanted:
+def _wanted(context: FileContext, other: TypedExpression) -> ExpectedType:
     match other.meaning:
-        case PropertyOf(property=iri) if iri in setting.vocabulary.properties:
-            return Wanted(other.type, setting.vocabulary.properties[iri].values)
+        case PropertyOf(property=iri) if iri in context.vocabulary.properties:
+            return ExpectedType(other.type, context.vocabulary.properties[iri].values)
         case VariableTerm() | Individual():
-            return Wanted(Thing(None)) if isinstance(other.type, Thing) else Wanted(other.type)
-    return ANYTHING if other.type == UNKNOWN else Wanted(other.type)
+            return ExpectedType(Thing(None)) if isinstance(other.type, Thing) else ExpectedType(other.type)
+    return ANYTHING if other.type == UNKNOWN else ExpectedType(other.type)
 
 
-def _given(setting: Setting, scope: Scope, name: s.Name, span: Span) -> Clause:
+def _given(context: FileContext, scope: Scope, name: s.Name, span: Span) -> TypedCondition:
     known = scope.variables.get(name.text)
     if known is None or known.origin != "parameter":
         parameters = [n for n, v in scope.variables.items() if v.origin == "parameter"]
         message = f"{scope.owner} has no parameter `{name.text}`"
-        setting.report_unknown("unknown-parameter", name, message, parameters, "declare it with `opt`")
-    return Clause(Given(name.text), span)
+        context.report_unknown("unknown-parameter", name, message, parameters, "declare it with `opt`")
+    return TypedCondition(Given(name.text), span)
 
 
-def _quantified(setting: Setting, scope: Scope, written: s.Quantified) -> Clause:
-    iri = setting.names.term("class", written.cls)
+def _quantified(context: FileContext, scope: Scope, written: s.Quantified) -> TypedCondition:
+    iri = context.names.term("class", written.cls)
     kind = (Thing(None) if iri == THING else Thing(iri)) if iri else UNKNOWN
-    inner = setting.bind(scope, written.variable, Variable(kind, "variable", written.variable.span))
-    body = clause(setting, inner, written.body)
+    inner = context.bind(scope, written.variable, Variable(kind, "variable", written.variable.span))
+    body = clause(context, inner, written.body)
     quantifier = Exists if written.quantifier == "exists" else Forall
-    return Clause(quantifier(written.variable.text, iri or THING, body.meaning), written.span, parts=(body,))
+    return TypedCondition(quantifier(written.variable.text, iri or THING, body.meaning), written.span, parts=(body,))
 
 
-def _bare(setting: Setting, scope: Scope, written: s.Bare) -> Clause:
+def _bare(context: FileContext, scope: Scope, written: s.Bare) -> TypedCondition:
     """A value is no condition; a truth value is one once it is compared."""
-    of = value(setting, scope, written.value)
+    of = value(context, scope, written.value)
     span = written.span
     end = Span(span.path, span.end_line, span.end_column, span.end_line, span.end_column)
     if of.type == BOOL:
         fix = Fix(end, " == true", "compare it with `true`")
-        setting.names.problems.append(
+        context.names.problems.append(
             Diagnostic("not-a-condition", span, "a value is not a condition", "write `.. == true`", fix=fix)
         )
     elif of.type != UNKNOWN:
-        setting.report("not-a-condition", span, "a value is not a condition", "compare it: `.. == ..`, `.. < ..`")
-    return Clause(Compare(of.meaning, "==", Literal(True)), span, (of,))
+        context.report("not-a-condition", span, "a value is not a condition", "compare it: `.. == ..`, `.. < ..`")
+    return TypedCondition(Compare(of.meaning, "==", Literal(True)), span, (of,))

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.program import ReadFile
+from skillc_compiler.program.typed import ReadFile
 from skillc_compiler.resolve.names import KINDS, Kind, bare_terms
 from skillc_compiler.resolve.near import correction
 from skillc_dsl import syntax as s

@@ -1,4 +1,4 @@
-"""Reads a library: its files, and those of the shelf that they import, each after what it imports."""
+"""Reads a library: its files, and the importable files that they import, each after what it imports."""
 
 from __future__ import annotations
 
@@ -7,25 +7,25 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
-from skillc_compiler.program import ReadFile
+from skillc_compiler.program.typed import ReadFile
 from skillc_compiler.resolve.near import correction
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 
-SHELF = "std"
+STANDARD_LIBRARY = "std"
 Parse: TypeAlias = Callable[[Source], Outcome[s.File]]
 
 
 def read(
-    sources: Sequence[Source], shelf: Mapping[str, Source], name: str, parsed_by: Parse = parse
+    sources: Sequence[Source], importable: Mapping[str, Source], name: str, parsed_by: Parse = parse
 ) -> Outcome[tuple[ReadFile, ...]]:
-    """Parse the sources and what they import; `shelf` is keyed by file name, `name` is the library's.
+    """Parse the sources and what they import; `importable` is keyed by file name, `name` is the library's.
 
-    Files of the shelf belong to the library `std` if their path says so, else to this one. `parsed_by` may remember.
+    Importable files belong to the library `std` if their path says so, else to this one. `parsed_by` may remember.
     """
-    reader = _Reader({source.path: source for source in sources}, shelf, name, parsed_by)
+    reader = _Reader({source.path: source for source in sources}, importable, name, parsed_by)
     for path in sorted(reader.own):
         reader.read(reader.own[path], name, ())
     return Outcome(tuple(reader.files.values()), tuple(reader.problems))
@@ -34,7 +34,7 @@ def read(
 @dataclass
 class _Reader:
     own: Mapping[str, Source]
-    shelf: Mapping[str, Source]
+    importable: Mapping[str, Source]
     name: str
     parse: Parse
     files: dict[str, ReadFile] = field(default_factory=dict)
@@ -62,21 +62,21 @@ class _Reader:
 
     def _find(self, importer: str, wanted: str, library: str) -> tuple[Source, str] | None:
         beside = posixpath.normpath(posixpath.join(posixpath.dirname(importer), wanted))
-        if importer not in self.own and posixpath.dirname(importer) and beside in self.shelf:
-            return self._shelved(beside)  # a file of another library means what stands beside it there
+        if importer not in self.own and posixpath.dirname(importer) and beside in self.importable:
+            return self._importable(beside)  # a file of another library means what stands beside it there
         if library == self.name and beside in self.own:
             return self.own[beside], library
-        return self._shelved(wanted) if wanted in self.shelf else None
+        return self._importable(wanted) if wanted in self.importable else None
 
-    def _shelved(self, wanted: str) -> tuple[Source, str]:
-        found = self.shelf[wanted]
-        return found, SHELF if found.path.startswith(f"{SHELF}/") else self.name
+    def _importable(self, wanted: str) -> tuple[Source, str]:
+        found = self.importable[wanted]
+        return found, STANDARD_LIBRARY if found.path.startswith(f"{STANDARD_LIBRARY}/") else self.name
 
     def _meant(self, file: s.File, line: s.Import, library: str) -> tuple[Source, str] | None:
         """Report a file that there is not; return the one that is meant, if its name is like that of one file only."""
         folder = posixpath.dirname(file.path)
         beside = [posixpath.relpath(p, folder or ".") for p in self.own] if library == self.name else []
-        candidates = [name for name in (*beside, *self.shelf) if name != posixpath.basename(file.path)]
+        candidates = [name for name in (*beside, *self.importable) if name != posixpath.basename(file.path)]
         wrong = line.path.value
         near = correction(s.Name(wrong, line.path.span), candidates)
         self.problems.append(

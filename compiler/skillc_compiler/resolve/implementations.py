@@ -5,57 +5,57 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from skillc_compiler.program import Body, Implementation, Let, Parameter, Property, Refinement, Skill
+from skillc_compiler.program.typed import Body, Implementation, Let, Parameter, Property, Refinement, Skill
+from skillc_compiler.program.types import of_library
 from skillc_compiler.resolve.members import constant, duration, only, requirements
 from skillc_compiler.resolve.nodes import assignable, step
 from skillc_compiler.resolve.properties import verified
-from skillc_compiler.resolve.scope import Scope, Setting, Variable
+from skillc_compiler.resolve.scope import FileContext, Scope, Variable
 from skillc_compiler.resolve.skills import scopes
 from skillc_compiler.resolve.typenames import value_type
 from skillc_compiler.resolve.values import value
-from skillc_compiler.types import of_library
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.source import Span
 
 
 def implementation(
-    setting: Setting, written: s.ImplementationDeclaration, skill: Skill, lines: Sequence[str]
+    context: FileContext, written: s.ImplementationDeclaration, skill: Skill, lines: Sequence[str]
 ) -> Implementation:
     """Return what an implementation means; `lines` is the file's text."""
-    refinements = tuple(_refinements(setting, written, skill))
+    refinements = tuple(_refinements(context, written, skill))
     parameters = tuple(_merged(p, refinements) for p in skill.parameters)
     owner = f"the implementation `{written.name.text}` of `{skill.name}`"
     before, after = scopes(owner, parameters)
-    lets, inner = _lets(setting, before, written)
+    lets, inner = _lets(context, before, written)
     labels = {r.label.text: r.label for r in skill.requirements if r.label}
-    prefer = only(setting, written.members, s.Prefer, "prefer")
+    prefer = only(context, written.members, s.Prefer, "prefer")
     return Implementation(
         name=written.name.text,
         doc=written.doc,
         skill=skill,
         refinements=refinements,
         parameters=parameters,
-        requirements=tuple(requirements(setting, before, after, written.members, labels)),
-        duration=duration(setting, before, written.members),
+        requirements=tuple(requirements(context, before, after, written.members, labels)),
+        duration=duration(context, before, written.members),
         prefer=prefer.value.value if prefer else 0.0,
         lets=lets,
-        body=_body(setting, inner, written),
-        verify=tuple(_verified(setting, inner, written, lines)),
+        body=_body(context, inner, written),
+        verify=tuple(_verified(context, inner, written, lines)),
         name_span=written.name.span,
         span=written.span,
     )
 
 
-def _refinements(setting: Setting, written: s.ImplementationDeclaration, skill: Skill) -> Iterator[Refinement]:
+def _refinements(context: FileContext, written: s.ImplementationDeclaration, skill: Skill) -> Iterator[Refinement]:
     seen: dict[str, s.Refinement] = {}
     for member in written.members:
         if not isinstance(member, s.Refinement):
             continue
-        declared = value_type(setting.names, member.type)
+        declared = value_type(context.names, member.type)
         kind = of_library(declared)
         if seen.setdefault(member.name.text, member) is not member:
-            setting.report(
+            context.report(
                 "duplicate-parameter",
                 member.name.span,
                 f"`{member.name.text}` is refined twice",
@@ -64,20 +64,20 @@ def _refinements(setting: Setting, written: s.ImplementationDeclaration, skill: 
             )
             continue
         yield Refinement(
-            of=_refined(setting, member, skill),
+            of=_refined(context, member, skill),
             declared=declared,
             type=kind,
-            default=constant(setting, member.default, kind),
-            low=constant(setting, member.range.low if member.range else None, kind),
-            high=constant(setting, member.range.high if member.range else None, kind),
+            default=constant(context, member.default, kind),
+            low=constant(context, member.range.low if member.range else None, kind),
+            high=constant(context, member.range.high if member.range else None, kind),
             written=member,
         )
 
 
-def _refined(setting: Setting, member: s.Refinement, skill: Skill) -> Parameter | None:
+def _refined(context: FileContext, member: s.Refinement, skill: Skill) -> Parameter | None:
     parameter = skill.parameter(member.name.text)
     if parameter is None:
-        setting.report_unknown(
+        context.report_unknown(
             "unknown-parameter",
             member.name,
             f"the skill `{skill.name}` has no parameter `{member.name.text}` to refine",
@@ -102,20 +102,20 @@ def _merged(parameter: Parameter, refinements: Sequence[Refinement]) -> Paramete
     return parameter
 
 
-def _lets(setting: Setting, scope: Scope, written: s.ImplementationDeclaration) -> tuple[tuple[Let, ...], Scope]:
+def _lets(context: FileContext, scope: Scope, written: s.ImplementationDeclaration) -> tuple[tuple[Let, ...], Scope]:
     lets = []
     for member in written.members:
         if isinstance(member, s.Let):
-            named = value(setting, scope, member.value)
+            named = value(context, scope, member.value)
             lets.append(Let(member.name, named))
-            scope = setting.bind(scope, member.name, Variable(named.type, "let", member.name.span))
+            scope = context.bind(scope, member.name, Variable(named.type, "let", member.name.span))
     return tuple(lets), scope
 
 
-def _body(setting: Setting, scope: Scope, written: s.ImplementationDeclaration) -> Body:
+def _body(context: FileContext, scope: Scope, written: s.ImplementationDeclaration) -> Body:
     bodies = [m for m in written.members if isinstance(m, s.Body | s.RunPython)]
     for extra in bodies[1:]:
-        setting.report(
+        context.report(
             "duplicate-member",
             extra.span,
             "an implementation has one body, and there is another",
@@ -124,7 +124,7 @@ def _body(setting: Setting, scope: Scope, written: s.ImplementationDeclaration) 
         )
     match bodies[:1]:
         case [s.Body(node=node)]:
-            understood, _ = step(setting, assignable(scope), node)
+            understood, _ = step(context, assignable(scope), node)
             return understood
         case [s.RunPython() as python]:
             return python
@@ -132,11 +132,11 @@ def _body(setting: Setting, scope: Scope, written: s.ImplementationDeclaration) 
 
 
 def _verified(
-    setting: Setting, scope: Scope, written: s.ImplementationDeclaration, lines: Sequence[str]
+    context: FileContext, scope: Scope, written: s.ImplementationDeclaration, lines: Sequence[str]
 ) -> Iterator[Property]:
     for member in written.members:
         if isinstance(member, s.Verify):
-            understood = verified(setting, scope, member, _text(lines, member.span))
+            understood = verified(context, scope, member, _text(lines, member.span))
             yield from (understood,) if understood is not None else ()
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TypeVar
 
-from skillc_compiler.program import Requirement, Valued
+from skillc_compiler.program.typed import Requirement, TypedExpression
+from skillc_compiler.program.types import Measure, Type
 from skillc_compiler.resolve.conditions import clause
-from skillc_compiler.resolve.scope import Scope, Setting
-from skillc_compiler.resolve.values import Wanted, value
-from skillc_compiler.types import Measure, Type
+from skillc_compiler.resolve.scope import FileContext, Scope
+from skillc_compiler.resolve.values import ExpectedType, value
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.units import TIME
@@ -19,7 +19,7 @@ CONSTANT = Scope("a default or range, which is a constant,")
 
 
 def requirements(
-    setting: Setting, before: Scope, after: Scope, members: Sequence[object], labels: dict[str, s.Name]
+    context: FileContext, before: Scope, after: Scope, members: Sequence[object], labels: dict[str, s.Name]
 ) -> Iterator[Requirement]:
     """Yield the conditions; posts are understood in the scope `after`, where outputs have values.
 
@@ -27,29 +27,29 @@ def requirements(
     """
     for member in members:
         if isinstance(member, s.Requirement):
-            _note_label(setting, member, labels)
+            _note_label(context, member, labels)
             scope = after if member.kind == "post" else before
             yield Requirement(
                 member.kind,
                 member.label,
                 member.sensed,
-                clause(setting, scope, member.condition),
+                clause(context, scope, member.condition),
                 member.text,
                 member.span,
             )
 
 
-def duration(setting: Setting, scope: Scope, members: Sequence[object]) -> Valued | None:
+def duration(context: FileContext, scope: Scope, members: Sequence[object]) -> TypedExpression | None:
     """Return the expected time; a second one is reported."""
-    written = only(setting, members, s.Duration, "duration")
-    return value(setting, scope, written.value, Wanted(Measure(TIME))) if written else None
+    written = only(context, members, s.Duration, "duration")
+    return value(context, scope, written.value, ExpectedType(Measure(TIME))) if written else None
 
 
-def only(setting: Setting, members: Sequence[object], kind: type[Member], word: str) -> Member | None:
+def only(context: FileContext, members: Sequence[object], kind: type[Member], word: str) -> Member | None:
     """Return the one member of a kind; every further one is reported."""
     found = [member for member in members if isinstance(member, kind)]
     for extra in found[1:]:
-        setting.report(
+        context.report(
             "duplicate-member",
             extra.span,
             f"there is already a `{word}` here",
@@ -59,17 +59,17 @@ def only(setting: Setting, members: Sequence[object], kind: type[Member], word: 
     return found[0] if found else None
 
 
-def constant(setting: Setting, written: s.Value | None, kind: Type) -> Valued | None:
+def constant(context: FileContext, written: s.Value | None, kind: Type) -> TypedExpression | None:
     """Return a default or a bound of a range."""
-    return value(setting, CONSTANT, written, Wanted(kind)) if written is not None else None
+    return value(context, CONSTANT, written, ExpectedType(kind)) if written is not None else None
 
 
-def _note_label(setting: Setting, member: s.Requirement, labels: dict[str, s.Name]) -> None:
+def _note_label(context: FileContext, member: s.Requirement, labels: dict[str, s.Name]) -> None:
     if member.label is None:
         return
     former = labels.setdefault(member.label.text, member.label)
     if former is not member.label:
-        setting.report(
+        context.report(
             "duplicate-label",
             member.label.span,
             f"`{member.label.text}` labels another condition already",

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable, Mapping, Set
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
-from skillc_compiler.causes import declared
 from skillc_compiler.library.vocabulary import (
     THING,
     ClassTerm,
@@ -16,6 +15,7 @@ from skillc_compiler.library.vocabulary import (
     Vocabulary,
     local_name,
 )
+from skillc_compiler.program.labels import declared
 from skillc_compiler.resolve.near import correction
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean

@@ -6,86 +6,86 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import assert_never
 
-from skillc_compiler.program import Step
+from skillc_compiler.program.typed import TypedNode
+from skillc_compiler.program.types import UNKNOWN, ListOf, Measure
 from skillc_compiler.resolve.calls import call
 from skillc_compiler.resolve.conditions import clause
-from skillc_compiler.resolve.scope import Scope, Setting, Variable
-from skillc_compiler.resolve.values import Wanted, value
-from skillc_compiler.types import UNKNOWN, ListOf, Measure
+from skillc_compiler.resolve.scope import FileContext, Scope, Variable
+from skillc_compiler.resolve.values import ExpectedType, value
 from skillc_dsl import syntax as s
 from skillc_dsl.units import TIME
 
-SECONDS = Wanted(Measure(TIME))
+SECONDS = ExpectedType(Measure(TIME))
 
 
-def step(setting: Setting, scope: Scope, written: s.Node) -> tuple[Step, Scope]:
+def step(context: FileContext, scope: Scope, written: s.Node) -> tuple[TypedNode, Scope]:
     """Return what a node means, and the scope after it."""
     match written:
         case s.Block():
-            return _block(setting, scope, written)
+            return _block(context, scope, written)
         case s.Counted(children=children):
-            inner, after = _in_order(setting, scope, children)
-            return Step(written, children=inner), after
+            inner, after = _in_order(context, scope, children)
+            return TypedNode(written, children=inner), after
         case s.Timeout(limit=limit, children=children):
-            seconds = value(setting, scope, limit, SECONDS)
-            inner, after = _in_order(setting, scope, children)
-            return Step(written, (seconds,), children=inner), after
+            seconds = value(context, scope, limit, SECONDS)
+            inner, after = _in_order(context, scope, children)
+            return TypedNode(written, (seconds,), children=inner), after
         case s.Wait(time=time):
-            return Step(written, (value(setting, scope, time, SECONDS),)), scope
+            return TypedNode(written, (value(context, scope, time, SECONDS),)), scope
         case s.WaitUntil(condition=condition) | s.CheckNode(condition=condition):
-            return Step(written, clauses=(clause(setting, scope, condition),)), scope
+            return TypedNode(written, clauses=(clause(context, scope, condition),)), scope
         case s.If():
-            return _if(setting, scope, written)
+            return _if(context, scope, written)
         case s.While(condition=condition, children=children):
-            guard = clause(setting, scope, condition)
-            inner, after = _in_order(setting, scope, children)
-            return Step(written, clauses=(guard,), children=inner), _together(scope, after)
+            guard = clause(context, scope, condition)
+            inner, after = _in_order(context, scope, children)
+            return TypedNode(written, clauses=(guard,), children=inner), _together(scope, after)
         case s.For():
-            return _for(setting, scope, written)
+            return _for(context, scope, written)
         case s.ApplyPosts():
-            return Step(written), scope
+            return TypedNode(written), scope
         case s.CallSkill():
-            understood, after = call(setting, scope, written)
-            return Step(written, call=understood), after
+            understood, after = call(context, scope, written)
+            return TypedNode(written, call=understood), after
         case s.With(call=opening, children=children):
-            understood, opened = call(setting, scope, opening)
-            inner, after = _in_order(setting, opened, children)
-            return Step(written, call=understood, children=inner), after
+            understood, opened = call(context, scope, opening)
+            inner, after = _in_order(context, opened, children)
+            return TypedNode(written, call=understood, children=inner), after
         case _:
             assert_never(written)
 
 
-def _in_order(setting: Setting, scope: Scope, nodes: Sequence[s.Node]) -> tuple[tuple[Step, ...], Scope]:
+def _in_order(context: FileContext, scope: Scope, nodes: Sequence[s.Node]) -> tuple[tuple[TypedNode, ...], Scope]:
     steps = []
     for node in nodes:
-        understood, scope = step(setting, scope, node)
+        understood, scope = step(context, scope, node)
         steps.append(understood)
     return tuple(steps), scope
 
 
-def _block(setting: Setting, scope: Scope, written: s.Block) -> tuple[Step, Scope]:
+def _block(context: FileContext, scope: Scope, written: s.Block) -> tuple[TypedNode, Scope]:
     if written.kind in ("seq", "reactive seq", "once", "try", "invert"):
-        inner, after = _in_order(setting, scope, written.children)
-        return Step(written, children=inner), after
-    apart = [step(setting, scope, child) for child in written.children]
+        inner, after = _in_order(context, scope, written.children)
+        return TypedNode(written, children=inner), after
+    apart = [step(context, scope, child) for child in written.children]
     children = tuple(understood for understood, _ in apart)
-    return Step(written, children=children), _together(scope, *(after for _, after in apart))
+    return TypedNode(written, children=children), _together(scope, *(after for _, after in apart))
 
 
-def _if(setting: Setting, scope: Scope, written: s.If) -> tuple[Step, Scope]:
-    guard = clause(setting, scope, written.condition)
-    then, after_then = _in_order(setting, scope, written.then)
-    otherwise, after_else = _in_order(setting, scope, written.orelse or ())
-    return Step(written, clauses=(guard,), children=then, orelse=otherwise), _together(after_then, after_else)
+def _if(context: FileContext, scope: Scope, written: s.If) -> tuple[TypedNode, Scope]:
+    guard = clause(context, scope, written.condition)
+    then, after_then = _in_order(context, scope, written.then)
+    otherwise, after_else = _in_order(context, scope, written.orelse or ())
+    return TypedNode(written, clauses=(guard,), children=then, orelse=otherwise), _together(after_then, after_else)
 
 
-def _for(setting: Setting, scope: Scope, written: s.For) -> tuple[Step, Scope]:
-    items = value(setting, scope, written.items, Wanted(ListOf(UNKNOWN)))
+def _for(context: FileContext, scope: Scope, written: s.For) -> tuple[TypedNode, Scope]:
+    items = value(context, scope, written.items, ExpectedType(ListOf(UNKNOWN)))
     element = items.type.element if isinstance(items.type, ListOf) else UNKNOWN
-    bound = setting.bind(scope, written.variable, Variable(element, "loop variable", written.variable.span))
-    inner, after = _in_order(setting, bound, written.children)
+    bound = context.bind(scope, written.variable, Variable(element, "loop variable", written.variable.span))
+    inner, after = _in_order(context, bound, written.children)
     left = replace(after, variables={n: v for n, v in after.variables.items() if n != written.variable.text})
-    return Step(written, (items,), children=inner), _together(scope, left)
+    return TypedNode(written, (items,), children=inner), _together(scope, left)
 
 
 def assignable(scope: Scope) -> Scope:

@@ -6,14 +6,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.program import Implementation, Program, ReadFile, Skill, Task
+from skillc_compiler.program.typed import Implementation, Program, ReadFile, Skill, Task
 from skillc_compiler.resolve.declared import Declared, bare_in, declare, prefixes_in, visible
 from skillc_compiler.resolve.implementations import implementation
 from skillc_compiler.resolve.individuals import Individuals, narrowest
 from skillc_compiler.resolve.names import KINDS, Kind, Names
 from skillc_compiler.resolve.near import correction
 from skillc_compiler.resolve.repeats import without_repeats
-from skillc_compiler.resolve.scope import Setting
+from skillc_compiler.resolve.scope import FileContext
 from skillc_compiler.resolve.skills import skill
 from skillc_compiler.resolve.tasks import task
 from skillc_compiler.resolve.terms import extend
@@ -36,7 +36,7 @@ def resolve(
     for visible_names in names.values():
         visible_names.vocabulary = vocabulary
     _make_functions_visible(files, declared, names, vocabulary)
-    settings = {path: Setting(visible_names, vocabulary) for path, visible_names in names.items()}
+    settings = {path: FileContext(visible_names, vocabulary) for path, visible_names in names.items()}
     skills = _skills(files, settings)
     by_skill = _implementation_names(files)
     settings = {path: replace(st, skills=skills, implementations=by_skill) for path, st in settings.items()}
@@ -93,7 +93,7 @@ def _make_functions_visible(
         names[unit.file.path].functions = {name: vocabulary.functions[name] for name in sorted(own)}
 
 
-def _skills(files: Sequence[ReadFile], settings: Mapping[str, Setting]) -> dict[str, Skill]:
+def _skills(files: Sequence[ReadFile], settings: Mapping[str, FileContext]) -> dict[str, Skill]:
     found: dict[str, Skill] = {}
     for unit in files:
         for declaration in unit.file.declarations:
@@ -111,28 +111,28 @@ def _implementation_names(files: Sequence[ReadFile]) -> dict[str, list[str]]:
     return found
 
 
-def _implementations(files: Sequence[ReadFile], settings: Mapping[str, Setting]) -> Iterator[Implementation]:
+def _implementations(files: Sequence[ReadFile], settings: Mapping[str, FileContext]) -> Iterator[Implementation]:
     for unit in files:
-        setting, lines = settings[unit.file.path], unit.text.split("\n")
+        context, lines = settings[unit.file.path], unit.text.split("\n")
         for declaration in unit.file.declarations:
             if not isinstance(declaration, s.ImplementationDeclaration):
                 continue
-            of = setting.names.skill(declaration.skill)
+            of = context.names.skill(declaration.skill)
             if of is not None:
-                yield implementation(setting, declaration, setting.skills[of], lines)
+                yield implementation(context, declaration, context.skills[of], lines)
 
 
 def _tasks(
-    files: Sequence[ReadFile], settings: Mapping[str, Setting], scenes: Mapping[str, Individuals]
+    files: Sequence[ReadFile], settings: Mapping[str, FileContext], scenes: Mapping[str, Individuals]
 ) -> Iterator[Task]:
     for unit in files:
-        setting = settings[unit.file.path]
+        context = settings[unit.file.path]
         for declaration in unit.file.declarations:
             if not isinstance(declaration, s.TaskDeclaration):
                 continue
             there = scenes.get(declaration.name.text)
-            known = None if there is None else narrowest(setting.vocabulary, there)
-            yield task(replace(setting, individuals=known), declaration)
+            known = None if there is None else narrowest(context.vocabulary, there)
+            yield task(replace(context, individuals=known), declaration)
 
 
 def _headers(files: Sequence[ReadFile], base: Vocabulary) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from skillc_compiler.program import ReadFile
+from skillc_compiler.program.typed import ReadFile
 from skillc_compiler.resolve.declared import Declared
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label, Outcome

@@ -1,4 +1,4 @@
-"""The local names that a value or condition can read, and the setting in which it is understood."""
+"""The local names that a value or condition can read, and the context in which it is understood."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
 
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.program import Skill
+from skillc_compiler.program.typed import Skill
+from skillc_compiler.program.types import UNKNOWN, Type
 from skillc_compiler.resolve.names import Names
 from skillc_compiler.resolve.near import correction
-from skillc_compiler.types import UNKNOWN, Type
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label, did_you_mean
 from skillc_dsl.source import Span
@@ -41,7 +41,7 @@ class Scope:
 
 
 @dataclass(frozen=True, slots=True)
-class Setting:
+class FileContext:
     """What does not change within a declaration: the file's names, the vocabulary, the skills.
 
     `individuals` are those of the scene with the class of each, None where several; None where no scene is known.

@@ -4,26 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program import Parameter, Skill
+from skillc_compiler.program.typed import Parameter, Skill
+from skillc_compiler.program.types import of_library
 from skillc_compiler.resolve.members import constant, duration, requirements
-from skillc_compiler.resolve.scope import Scope, Setting, Variable
+from skillc_compiler.resolve.scope import FileContext, Scope, Variable
 from skillc_compiler.resolve.typenames import value_type
-from skillc_compiler.types import of_library
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 
 
-def skill(setting: Setting, written: s.SkillDeclaration) -> Skill:
+def skill(context: FileContext, written: s.SkillDeclaration) -> Skill:
     """Return what a description means."""
-    parameters = tuple(_parameters(setting, written))
+    parameters = tuple(_parameters(context, written))
     before, after = scopes(f"the skill `{written.name.text}`", parameters)
     return Skill(
         name=written.name.text,
         doc=written.doc,
         parameters=parameters,
-        requirements=tuple(requirements(setting, before, after, written.members, {})),
-        duration=duration(setting, before, written.members),
-        devices=tuple(_devices(setting, written, parameters)),
+        requirements=tuple(requirements(context, before, after, written.members, {})),
+        duration=duration(context, before, written.members),
+        devices=tuple(_devices(context, written, parameters)),
         flags=frozenset(m.flag for m in written.members if isinstance(m, s.Flag)),
         name_span=written.name.span,
         span=written.span,
@@ -39,16 +39,16 @@ def scopes(owner: str, parameters: tuple[Parameter, ...]) -> tuple[Scope, Scope]
     return before, after
 
 
-def _parameters(setting: Setting, written: s.SkillDeclaration) -> Iterator[Parameter]:
+def _parameters(context: FileContext, written: s.SkillDeclaration) -> Iterator[Parameter]:
     seen: dict[str, s.Parameter] = {}
     for member in written.members:
         if not isinstance(member, s.Parameter):
             continue
         first = seen.setdefault(member.name.text, member)
         if first is member:
-            yield _parameter(setting, member)
+            yield _parameter(context, member)
             continue
-        setting.report(
+        context.report(
             "duplicate-parameter",
             member.name.span,
             f"the parameter `{member.name.text}` is declared twice",
@@ -57,8 +57,8 @@ def _parameters(setting: Setting, written: s.SkillDeclaration) -> Iterator[Param
         )
 
 
-def _parameter(setting: Setting, written: s.Parameter) -> Parameter:
-    declared = value_type(setting.names, written.type)
+def _parameter(context: FileContext, written: s.Parameter) -> Parameter:
+    declared = value_type(context.names, written.type)
     kind = of_library(declared)
     return Parameter(
         name=written.name.text,
@@ -66,15 +66,17 @@ def _parameter(setting: Setting, written: s.Parameter) -> Parameter:
         any_=written.any,
         declared=declared,
         type=kind,
-        default=constant(setting, written.default, kind),
-        low=constant(setting, written.range.low if written.range else None, kind),
-        high=constant(setting, written.range.high if written.range else None, kind),
+        default=constant(context, written.default, kind),
+        low=constant(context, written.range.low if written.range else None, kind),
+        high=constant(context, written.range.high if written.range else None, kind),
         doc=written.doc,
         span=written.name.span,
     )
 
 
-def _devices(setting: Setting, written: s.SkillDeclaration, parameters: tuple[Parameter, ...]) -> Iterator[s.DeviceUse]:
+def _devices(
+    context: FileContext, written: s.SkillDeclaration, parameters: tuple[Parameter, ...]
+) -> Iterator[s.DeviceUse]:
     names = [p.name for p in parameters]
     for member in written.members:
         if isinstance(member, s.DeviceUse):
@@ -82,4 +84,4 @@ def _devices(setting: Setting, written: s.SkillDeclaration, parameters: tuple[Pa
                 yield member
                 continue
             message = f"the skill `{written.name.text}` has no parameter `{member.parameter.text}`"
-            setting.report_unknown("unknown-parameter", member.parameter, message, names)
+            context.report_unknown("unknown-parameter", member.parameter, message, names)

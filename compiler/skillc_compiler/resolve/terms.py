@@ -15,7 +15,7 @@ from skillc_compiler.library.vocabulary import (
     Signature,
     Vocabulary,
 )
-from skillc_compiler.program import ReadFile, position
+from skillc_compiler.program.typed import ReadFile, position
 from skillc_compiler.resolve.declared import Declared, kind_of, namespace, prefix
 from skillc_compiler.resolve.names import Kind, Names
 from skillc_compiler.resolve.typenames import BUILT_IN, value_type

@@ -14,9 +14,8 @@ from skillc_compiler.library.conditions import (
     PropertyOf,
     Variable,
 )
-from skillc_compiler.program import Valued
-from skillc_compiler.resolve.scope import Scope, Setting
-from skillc_compiler.types import (
+from skillc_compiler.program.typed import TypedExpression
+from skillc_compiler.program.types import (
     BOOL,
     INT,
     TEXT,
@@ -29,78 +28,79 @@ from skillc_compiler.types import (
     fits,
     of_library,
 )
+from skillc_compiler.resolve.scope import FileContext, Scope
 from skillc_dsl import syntax as s
 from skillc_dsl.units import NUMBER, dimension_of, to_si
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class ExpectedType:
     """What fits where a value stands: near misses are chosen by it, and a bare name may be one of `values`."""
 
     type: Type = UNKNOWN
     values: tuple[str, ...] = ()
 
 
-ANYTHING = Wanted()
+ANYTHING = ExpectedType()
 
 
-def value(setting: Setting, scope: Scope, written: s.Value, wanted: Wanted = ANYTHING) -> Valued:
+def value(context: FileContext, scope: Scope, written: s.Value, wanted: ExpectedType = ANYTHING) -> TypedExpression:
     """Return what a value means; what cannot be understood is reported and has an unknown type."""
     match written:
         case s.Quantity(value=number, unit=unit, span=span):
-            return Valued(Literal(to_si(number, unit)), Measure(dimension_of(unit)), span)
+            return TypedExpression(Literal(to_si(number, unit)), Measure(dimension_of(unit)), span)
         case s.Number(value=number, text=text, span=span):
             whole = text.lstrip("-").isdigit() and isfinite(number)
-            return Valued(Literal(int(number) if whole else number), INT if whole else Measure(NUMBER), span)
+            return TypedExpression(Literal(int(number) if whole else number), INT if whole else Measure(NUMBER), span)
         case s.Text(value=text, span=span):
             if wanted.values and text not in wanted.values:
-                _unknown_value(setting, s.Name(text, span), wanted)
-            return Valued(Literal(text), TEXT, span)
+                _unknown_value(context, s.Name(text, span), wanted)
+            return TypedExpression(Literal(text), TEXT, span)
         case s.Boolean(value=truth, span=span):
-            return Valued(Literal(truth), BOOL, span)
+            return TypedExpression(Literal(truth), BOOL, span)
         case s.Reference():
-            return _reference(setting, scope, written, wanted)
+            return _reference(context, scope, written, wanted)
         case s.Member():
-            return _member(setting, scope, written)
+            return _member(context, scope, written)
         case s.Apply():
-            return _apply(setting, scope, written)
+            return _apply(context, scope, written)
         case s.Arithmetic():
-            return _arithmetic(setting, scope, written)
+            return _arithmetic(context, scope, written)
         case _:
             assert_never(written)
 
 
-def _reference(setting: Setting, scope: Scope, written: s.Reference, wanted: Wanted) -> Valued:
+def _reference(context: FileContext, scope: Scope, written: s.Reference, wanted: ExpectedType) -> TypedExpression:
     text, span = written.name.text, written.span
     if ":" in text:
-        return _individual(setting, written, wanted)
+        return _individual(context, written, wanted)
     known = scope.variables.get(text)
     if known is not None:
         if not known.sure:
-            setting.report(
+            context.report(
                 "out-unassigned",
                 span,
                 f"`{text}` has no value here on every path",
                 f"assign it before, with `-> {text}` on a call that always runs",
             )
-        return Valued(Variable(text), known.type, span)
+        return TypedExpression(Variable(text), known.type, span)
     if text in wanted.values:
-        return Valued(Literal(text), TEXT, span)
+        return TypedExpression(Literal(text), TEXT, span)
     if wanted.values:
-        _unknown_value(setting, written.name, wanted)
+        _unknown_value(context, written.name, wanted)
     else:
-        _unknown_name(setting, scope, written, wanted)
-    return Valued(Variable(text), UNKNOWN, span)
+        _unknown_name(context, scope, written, wanted)
+    return TypedExpression(Variable(text), UNKNOWN, span)
 
 
-def _unknown_value(setting: Setting, name: s.Name, wanted: Wanted) -> None:
+def _unknown_value(context: FileContext, name: s.Name, wanted: ExpectedType) -> None:
     message = f"`{name.text}` is no value of this property"
-    setting.report_unknown("unknown-value", name, message, wanted.values, f"it is {' or '.join(wanted.values)}")
+    context.report_unknown("unknown-value", name, message, wanted.values, f"it is {' or '.join(wanted.values)}")
 
 
-def _unknown_name(setting: Setting, scope: Scope, written: s.Reference, wanted: Wanted) -> None:
-    fitting = [n for n, v in scope.variables.items() if fits(setting.vocabulary, v.type, wanted.type)]
-    setting.report_unknown(
+def _unknown_name(context: FileContext, scope: Scope, written: s.Reference, wanted: ExpectedType) -> None:
+    fitting = [n for n, v in scope.variables.items() if fits(context.vocabulary, v.type, wanted.type)]
+    context.report_unknown(
         "unknown-parameter",
         written.name,
         f"{scope.owner} has no parameter or other name `{written.name.text}`",
@@ -109,49 +109,49 @@ def _unknown_name(setting: Setting, scope: Scope, written: s.Reference, wanted: 
     )
 
 
-def _individual(setting: Setting, written: s.Reference, wanted: Wanted) -> Valued:
-    iri = setting.names.individual(written.name)
+def _individual(context: FileContext, written: s.Reference, wanted: ExpectedType) -> TypedExpression:
+    iri = context.names.individual(written.name)
     if iri is None:
-        return Valued(Individual(written.name.text), UNKNOWN, written.span)
-    kind = setting.names.kind_of(iri)
+        return TypedExpression(Individual(written.name.text), UNKNOWN, written.span)
+    kind = context.names.kind_of(iri)
     if kind is not None:
-        setting.report(
+        context.report(
             "not-an-individual",
             written.span,
             f"`{written.name.text}` is a {kind}, where an individual or a value is expected",
             "write a parameter, or an individual of the scene",
         )
-        return Valued(Individual(iri), UNKNOWN, written.span)
-    return Valued(Individual(iri), _class_of(setting, written, iri, wanted), written.span)
+        return TypedExpression(Individual(iri), UNKNOWN, written.span)
+    return TypedExpression(Individual(iri), _class_of(context, written, iri, wanted), written.span)
 
 
-def _class_of(setting: Setting, written: s.Reference, iri: str, wanted: Wanted) -> Type:
+def _class_of(context: FileContext, written: s.Reference, iri: str, wanted: ExpectedType) -> Type:
     """Return the type of an individual; one that the scene does not have is reported."""
-    known = setting.individuals
+    known = context.individuals
     if known is None:
         return Thing(None)
     if iri in known:
         return Thing(known[iri])
-    fitting = [other for other, cls in known.items() if fits(setting.vocabulary, Thing(cls), wanted.type)]
+    fitting = [other for other, cls in known.items() if fits(context.vocabulary, Thing(cls), wanted.type)]
     message = f"there is no `{written.name.text}` in the scene"
-    setting.report_unknown("unknown-individual", written.name, message, [setting.names.short(i) for i in fitting])
+    context.report_unknown("unknown-individual", written.name, message, [context.names.short(i) for i in fitting])
     return UNKNOWN
 
 
-def _member(setting: Setting, scope: Scope, written: s.Member) -> Valued:
-    of = value(setting, scope, written.of)
-    iri = property_of(setting, of, written.property)
+def _member(context: FileContext, scope: Scope, written: s.Member) -> TypedExpression:
+    of = value(context, scope, written.of)
+    iri = property_of(context, of, written.property)
     if iri is None:
-        return Valued(PropertyOf(of.meaning, written.property.text), UNKNOWN, written.span, (of,))
-    kind = of_library(setting.vocabulary.properties[iri].type)
-    return Valued(PropertyOf(of.meaning, iri), kind, written.span, (of,))
+        return TypedExpression(PropertyOf(of.meaning, written.property.text), UNKNOWN, written.span, (of,))
+    kind = of_library(context.vocabulary.properties[iri].type)
+    return TypedExpression(PropertyOf(of.meaning, iri), kind, written.span, (of,))
 
 
-def property_of(setting: Setting, of: Valued, name: s.Name) -> str | None:
+def property_of(context: FileContext, of: TypedExpression, name: s.Name) -> str | None:
     """Return the IRI of a property; near misses are those that `of` can have."""
-    names, vocabulary = setting.names, setting.vocabulary
+    names, vocabulary = context.names, context.vocabulary
     if names.is_term("relation", name.text) and not names.is_term("property", name.text):
-        setting.report(
+        context.report(
             "unknown-property",
             name.span,
             f"`{name.text}` is a relation between individuals, not a property",
@@ -165,27 +165,28 @@ def property_of(setting: Setting, of: Valued, name: s.Name) -> str | None:
     )
 
 
-def _apply(setting: Setting, scope: Scope, written: s.Apply) -> Valued:
-    function = setting.names.function(written.function)
+def _apply(context: FileContext, scope: Scope, written: s.Apply) -> TypedExpression:
+    function = context.names.function(written.function)
     wanted = [of_library(kind) for _, kind in function.parameters] if function else []
     wanted += [UNKNOWN] * (len(written.arguments) - len(wanted))
     arguments = tuple(
-        value(setting, scope, argument, Wanted(kind)) for argument, kind in zip(written.arguments, wanted, strict=False)
+        value(context, scope, argument, ExpectedType(kind))
+        for argument, kind in zip(written.arguments, wanted, strict=False)
     )
     result = of_library(function.result) if function else UNKNOWN
     meaning = Invoke(written.function.text, tuple(a.meaning for a in arguments))
-    return Valued(meaning, result, written.span, arguments)
+    return TypedExpression(meaning, result, written.span, arguments)
 
 
-def _arithmetic(setting: Setting, scope: Scope, written: s.Arithmetic) -> Valued:
-    left, right = value(setting, scope, written.left), value(setting, scope, written.right)
+def _arithmetic(context: FileContext, scope: Scope, written: s.Arithmetic) -> TypedExpression:
+    left, right = value(context, scope, written.left), value(context, scope, written.right)
     meaning = Arithmetic(written.operator, left.meaning, right.meaning)
     turned = _is_turned(written.operator, left, right)
     kind = Direction() if turned else result_type(written.operator, left.type, right.type)
-    return Valued(meaning, kind or UNKNOWN, written.span, (left, right))
+    return TypedExpression(meaning, kind or UNKNOWN, written.span, (left, right))
 
 
-def _is_turned(operator: str, left: Valued, right: Valued) -> bool:
+def _is_turned(operator: str, left: TypedExpression, right: TypedExpression) -> bool:
     """Whether this is a direction times or by 1 or -1, which is a direction still."""
     one, other = (right, left) if operator == "*" and isinstance(right.type, Direction) else (left, right)
     is_one = _number(other.type) == Measure(NUMBER) and other.meaning in (Literal(1), Literal(-1))

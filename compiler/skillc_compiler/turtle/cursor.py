@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from skillc_compiler.turtle.complaints import Complaint, missing_mark
 from skillc_compiler.turtle.lines import Lines
-from skillc_compiler.turtle.problems import Edit, Problem
+from skillc_compiler.turtle.messages import SyntaxMessage, missing_mark
 from skillc_compiler.turtle.statements import Extent
 from skillc_compiler.turtle.tokens import Token, tokens
+from skillc_dsl.diagnostics import Diagnostic, Fix
 
 
 class Cursor:
@@ -16,7 +16,7 @@ class Cursor:
 
     def __init__(self, path: str, text: str) -> None:
         self.lines = Lines(path, text)
-        self.problems: list[Problem] = []
+        self.problems: list[Diagnostic] = []
         self._tokens = list(tokens(text))
         self._next = 0
         self._line_told = 0
@@ -96,33 +96,33 @@ class Cursor:
 
     def put(self, mark: str) -> None:
         """Say that a mark is missing here, and put it before the next token."""
-        self.complain_missing(mark)
+        self.report_missing(mark)
         self.insert(mark)
 
-    def complain_missing(self, mark: str) -> None:
+    def report_missing(self, mark: str) -> None:
         """Say that a mark is missing here."""
         before = self.before
         place = self.lines.place(before.end, before.end)
-        self.complain(before, missing_mark(mark, before), Edit(place, f" {mark}", f"insert `{mark}`"))
+        self.report(before, missing_mark(mark, before), Fix(place, f" {mark}", f"insert `{mark}`", safe=False))
 
     def insert(self, mark: str) -> None:
         """Put a mark before the next token."""
         self._tokens.insert(self._next, Token("mark", mark, self.before.end, self.before.end))
 
-    def replace_last(self, mark: str, complaint: Complaint) -> None:
+    def replace_last(self, mark: str, message: SyntaxMessage) -> None:
         """Say that the token taken last should be a mark, and put that before the next token."""
-        self.complain(self.before, complaint._replace(instead=mark))
+        self.report(self.before, message._replace(instead=mark))
         self.insert(mark)
 
-    def complain(self, token: Token, complaint: Complaint, edit: Edit | None = None) -> None:
-        """Note what is wrong; what comes later on the same line follows from it and is not told."""
+    def report(self, token: Token, message: SyntaxMessage, edit: Fix | None = None) -> None:
+        """Report what is wrong with a token; further problems on the same line follow from it and are left out."""
         place = self.lines.place(token.start, max(token.end, token.start + (token.kind == "end")))
         if self._line_told in (place.line, place.end_line):
             return
         self._line_told = place.end_line
-        if edit is None and complaint.instead is not None:
-            edit = Edit(place, complaint.instead, f"write `{complaint.instead}`")
-        self.problems.append(Problem(place, "broken-turtle", complaint.message, complaint.help, edit=edit))
+        if edit is None and message.instead is not None:
+            edit = Fix(place, message.instead, f"write `{message.instead}`", safe=False)
+        self.problems.append(Diagnostic("broken-turtle", place, message.message, message.help, fix=edit))
 
     def _behind_bracket(self, position: int) -> int:
         depth = 1

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from skillc_compiler.turtle import complaints
-from skillc_compiler.turtle.complaints import Complaint
+from skillc_compiler.turtle import messages
 from skillc_compiler.turtle.cursor import Cursor
+from skillc_compiler.turtle.messages import SyntaxMessage
 from skillc_compiler.turtle.naming import Naming
-from skillc_compiler.turtle.problems import Edit
 from skillc_compiler.turtle.terms import local_of
 from skillc_compiler.turtle.tokens import Token
+from skillc_dsl.diagnostics import Fix
 
 
 class Declarations:
@@ -23,14 +23,16 @@ class Declarations:
         keyword = self._cursor.take()
         word = keyword.text.removeprefix("@")
         if word.lower() not in ("prefix", "base") or (keyword.kind == "at" and word != word.lower()):
-            self._not_understood(keyword, Complaint(f"there is no `{keyword.text}`", "there is `@prefix` and `@base`"))
+            self._not_understood(
+                keyword, SyntaxMessage(f"there is no `{keyword.text}`", "there is `@prefix` and `@base`")
+            )
             return
         name = self._cursor.take() if word.lower() == "prefix" else None
         if name is not None and (name.kind != "name" or local_of(name)[1]):
-            self._not_understood(name, complaints.no_declaration(word.lower()))
+            self._not_understood(name, messages.no_declaration(word.lower()))
         elif self._cursor.peek.kind != "iri":
             self._naming.give_up(name)
-            self._not_understood(self._cursor.peek, complaints.no_declaration(word.lower()))
+            self._not_understood(self._cursor.peek, messages.no_declaration(word.lower()))
         else:
             self._naming.declare(name, self._cursor.take())
             self._end_directive(keyword)
@@ -39,8 +41,8 @@ class Declarations:
         """Read the declaration of a prefix that has lost its first word."""
         name = self._cursor.take()
         place = self._cursor.lines.place(name.start, name.start)
-        edit = Edit(place, "@prefix ", "insert `@prefix`")
-        self._cursor.complain(name, Complaint("before this `@prefix` is missing"), edit)
+        edit = Fix(place, "@prefix ", "insert `@prefix`", safe=False)
+        self._cursor.report(name, SyntaxMessage("before this `@prefix` is missing"), edit)
         self._naming.declare(name, self._cursor.take())
         self._cursor.take_mark(".")
 
@@ -54,19 +56,19 @@ class Declarations:
         if keyword.kind == "at":
             self._end_line()
         elif self._cursor.peek.is_mark("."):
-            complaint = Complaint(f"`{keyword.text}` is not ended by a `.`", "delete the `.`")
-            self._cursor.complain(self._cursor.take(), complaint)
+            message = SyntaxMessage(f"`{keyword.text}` is not ended by a `.`", "delete the `.`")
+            self._cursor.report(self._cursor.take(), message)
 
     def _end_line(self) -> None:
         """Take the `.` of a declaration; if there is none, leave out what else stands on its line."""
         if self._cursor.take_mark("."):
             return
-        self._cursor.complain_missing(".")
+        self._cursor.report_missing(".")
         self.leave_line()
 
-    def _not_understood(self, token: Token, complaint: Complaint) -> None:
+    def _not_understood(self, token: Token, message: SyntaxMessage) -> None:
         """Complain and go on behind the sentence."""
-        self._cursor.complain(token, complaint)
+        self._cursor.report(token, message)
         while not self._cursor.peek.is_mark(".") and not self._cursor.at_end:
             self._naming.doubt(self._cursor.take())
         self._cursor.take_mark(".")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 
-from skillc_compiler.turtle.problems import Place
+from skillc_dsl.source import Span
 
 
 class Lines:
@@ -15,9 +15,9 @@ class Lines:
         self.path = path
         self._starts = [0, *(match.end() for match in re.finditer("\n", text))]
 
-    def place(self, start: int, end: int) -> Place:
+    def place(self, start: int, end: int) -> Span:
         """Return the stretch between two offsets."""
-        return Place(self.path, *self._position(start), *self._position(end))
+        return Span(self.path, *self._position(start), *self._position(end))
 
     def line(self, offset: int) -> int:
         """Return the line of an offset."""

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import pyoxigraph as ox
 
-from skillc_compiler.turtle.complaints import Complaint, no_object, no_term, shown
 from skillc_compiler.turtle.cursor import Cursor, extent
+from skillc_compiler.turtle.messages import SyntaxMessage, no_object, no_term, shown
 from skillc_compiler.turtle.prefixes import Prefixes
 from skillc_compiler.turtle.statements import Extent, Node
 from skillc_compiler.turtle.terms import XSD, TermError, iri_of, local_of, named, number_of, text_of
@@ -58,7 +58,7 @@ class Naming:
             case "word" if token.text in ("true", "false"):
                 return ox.Literal(token.text, datatype=named(f"{XSD}boolean")), extent(token)
         wrong = no_term(token, self._cursor.names)
-        self._cursor.complain(token, wrong or no_object(token, predicate or token))
+        self._cursor.report(token, wrong or no_object(token, predicate or token))
         return None, extent(token)
 
     def doubt(self, token: Token) -> None:
@@ -73,7 +73,7 @@ class Naming:
         try:
             text = text_of(token)
         except TermError as error:
-            self._cursor.complain(token, Complaint(f"this text {error}"))
+            self._cursor.report(token, SyntaxMessage(f"this text {error}"))
             return None, extent(token)
         after = self._cursor.peek
         if after.kind == "at" and after.text not in ("@prefix", "@base"):
@@ -87,12 +87,12 @@ class Naming:
         try:
             return ox.Literal(text, language=tag.text[1:])
         except ValueError:
-            self._cursor.complain(tag, Complaint(f"`{tag.text}` is no language", "a tag is like `@en` or `@en-GB`"))
+            self._cursor.report(tag, SyntaxMessage(f"`{tag.text}` is no language", "a tag is like `@en` or `@en-GB`"))
             return None
 
     def _typed(self, text: str, mark: Token) -> ox.Literal | None:
         if self._cursor.peek.kind not in ("iri", "name"):
-            self._cursor.complain(mark, Complaint("after `^^` a datatype is missing", "such as `xsd:double`"))
+            self._cursor.report(mark, SyntaxMessage("after `^^` a datatype is missing", "such as `xsd:double`"))
             return None
         datatype = self._named(self._cursor.take())
         return ox.Literal(text, datatype=datatype) if datatype is not None else None
@@ -104,7 +104,7 @@ class Naming:
         try:
             return named(iri)
         except TermError as error:
-            self._cursor.complain(token, Complaint(f"{shown(token)} {error}"))
+            self._cursor.report(token, SyntaxMessage(f"{shown(token)} {error}"))
             return None
 
     def _name(self, token: Token) -> str | None:
@@ -112,8 +112,8 @@ class Naming:
         after = self._cursor.peek
         if after.kind == "stray" and after.start == token.end and after.text.startswith("/"):
             whole = token.text + self._cursor.take().text
-            complaint = Complaint(f"`{whole}` is no name", f"an IRI stands in angle brackets: `<{whole}>`")
-            self._cursor.complain(token, complaint)
+            message = SyntaxMessage(f"`{whole}` is no name", f"an IRI stands in angle brackets: `<{whole}>`")
+            self._cursor.report(token, message)
             return None
         base = self.prefixes.base_of(prefix, token)
         return None if base is None else base + local
@@ -122,5 +122,5 @@ class Naming:
         try:
             return iri_of(token, self._base)
         except TermError as error:
-            self._cursor.complain(token, Complaint(f"{shown(token)} {error}"))
+            self._cursor.report(token, SyntaxMessage(f"{shown(token)} {error}"))
             return None

@@ -8,16 +8,17 @@ from types import MappingProxyType
 
 import pyoxigraph as ox
 
-from skillc_compiler.turtle import complaints
-from skillc_compiler.turtle.complaints import Complaint
+from skillc_compiler.turtle import messages
 from skillc_compiler.turtle.cursor import Cursor, extent
 from skillc_compiler.turtle.declarations import Declarations
+from skillc_compiler.turtle.messages import SyntaxMessage
 from skillc_compiler.turtle.naming import Found, Naming
 from skillc_compiler.turtle.other_formats import other_format
-from skillc_compiler.turtle.problems import Place, Problem
 from skillc_compiler.turtle.statements import SOMETHING, Extent, Node, Parsed, Statement
 from skillc_compiler.turtle.terms import RDF, RDF_TYPE, named
 from skillc_compiler.turtle.tokens import Token
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Span
 
 NOTHING_KNOWN: Mapping[str, str] = MappingProxyType({})
 DEEPEST = 100
@@ -33,11 +34,11 @@ def parse(path: str, text: str, base: str = "", known: Mapping[str, str] = NOTHI
     halves = _SURROGATE.search(text)
     if halves is not None:
         line, column = text.count("\n", 0, halves.start()) + 1, halves.start() - text.rfind("\n", 0, halves.start())
-        half = Problem(Place(path, line, column, line, column + 1), "broken-turtle", "this is half a character")
+        half = Diagnostic("broken-turtle", Span(path, line, column, line, column + 1), "this is half a character")
         return Parsed((), {}, (half,), frozenset({SOMETHING}))
     other = other_format(text)
     if other is not None:
-        problem = Problem(Place(path, 1, 1, 1, 2), "not-turtle", f"this is {other[0]}, not Turtle", other[1])
+        problem = Diagnostic("not-turtle", Span(path, 1, 1, 1, 2), f"this is {other[0]}, not Turtle", other[1])
         return Parsed((), {}, (problem,), frozenset())
     return _Parser(Cursor(path, text), base, known).document()
 
@@ -64,31 +65,33 @@ class _Parser:
             elif cursor.at_lost_prefix:
                 self._declarations.read_lost()
             elif cursor.peek.is_mark("."):
-                cursor.complain(cursor.peek, complaints.no_subject(cursor.take()))
+                cursor.report(cursor.peek, messages.no_subject(cursor.take()))
             else:
                 subject = self._sentence(subject)
-        problems = sorted((*cursor.problems, *self._naming.prefixes.problems()), key=lambda problem: problem.place)
+        problems = sorted((*cursor.problems, *self._naming.prefixes.problems()), key=lambda problem: problem.span)
         prefixes = self._naming.prefixes.all()
         return Parsed(tuple(self._statements), prefixes, tuple(problems), frozenset(self._naming.doubtful))
 
     def _give_up(self) -> None:
         """Leave out the rest of a text that is wrong almost everywhere."""
         token = self._cursor.peek
-        complaint = Complaint(f"there are {MOST_PROBLEMS} mistakes before this; the rest of the file is not looked at")
-        self._cursor.complain(token, complaint)
+        message = SyntaxMessage(
+            f"there are {MOST_PROBLEMS} mistakes before this; the rest of the file is not looked at"
+        )
+        self._cursor.report(token, message)
         self._naming.doubtful.add(SOMETHING)
 
     def _sentence(self, before: Found) -> Found:
         """Read what is said of a subject and return it; what goes on with the subject before says more of that."""
         cursor = self._cursor
         if cursor.peek.is_mark(";,"):
-            cursor.complain(cursor.peek, complaints.no_subject(cursor.take()))
+            cursor.report(cursor.peek, messages.no_subject(cursor.take()))
             if before[0] is None:
                 self._declarations.leave_line()
                 return before
             subject = before
         elif cursor.at_value_of_name and before[0] is not None:
-            cursor.complain(cursor.before, complaints.goes_on())
+            cursor.report(cursor.before, messages.goes_on())
             subject = before
         else:
             subject = self._subject()
@@ -108,8 +111,8 @@ class _Parser:
         token = self._cursor.peek
         if token.kind in ("iri", "name", "blank") or token.is_mark("(["):
             return self._term()
-        complaint = complaints.no_term(token, self._cursor.names) or complaints.no_subject(token)
-        self._cursor.complain(token, complaint)
+        message = messages.no_term(token, self._cursor.names) or messages.no_subject(token)
+        self._cursor.report(token, message)
         if not token.is_word("a"):
             self._cursor.take()
         self._naming.doubtful.add(SOMETHING)
@@ -119,11 +122,11 @@ class _Parser:
         """Read `predicate object, .. ; ..` up to a `.` or a `]`; what is broken is left out."""
         cursor = self._cursor
         if self._says_nothing(subject):
-            cursor.complain(cursor.before, complaints.nothing_said(cursor.before))
+            cursor.report(cursor.before, messages.nothing_said(cursor.before))
         while not cursor.peek.is_mark(".])") and not cursor.at_end:
             if cursor.take_mark(";"):
                 if cursor.at_typed_thing and not self._depth:
-                    cursor.replace_last(".", complaints.new_statement(cursor.peek))
+                    cursor.replace_last(".", messages.new_statement(cursor.peek))
                 continue
             statements = len(self._statements)
             if self._pair(subject, at):
@@ -144,7 +147,7 @@ class _Parser:
         predicate = self._predicate()
         while predicate is not None:
             if not cursor.peek.begins_term or self._at_next_statement():
-                self._complain_no_object(written)
+                self._report_no_object(written)
                 return False
             object_, object_at = self._term(written)
             if object_ is None:
@@ -160,12 +163,14 @@ class _Parser:
         """Whether a statement begins on a later line: the one before has lost its end."""
         return not self._depth and self._cursor.at_typed_thing and self._cursor.at_new_line
 
-    def _complain_no_object(self, predicate: Token) -> None:
+    def _report_no_object(self, predicate: Token) -> None:
         before = self._cursor.before
         if before.is_mark(","):
-            self._cursor.complain(before, Complaint("after this `,` a value is missing", "write it, or delete the `,`"))
+            self._cursor.report(
+                before, SyntaxMessage("after this `,` a value is missing", "write it, or delete the `,`")
+            )
         else:
-            self._cursor.complain(predicate, complaints.no_object(self._cursor.peek, predicate))
+            self._cursor.report(predicate, messages.no_object(self._cursor.peek, predicate))
 
     def _predicate(self) -> str | None:
         token = self._cursor.take()
@@ -173,7 +178,7 @@ class _Parser:
             return RDF_TYPE
         if token.kind in ("iri", "name"):
             return self._naming.iri(token)
-        self._cursor.complain(token, complaints.no_term(token, self._cursor.names) or complaints.no_predicate(token))
+        self._cursor.report(token, messages.no_term(token, self._cursor.names) or messages.no_predicate(token))
         return None
 
     def _mended(self) -> bool:
@@ -181,11 +186,11 @@ class _Parser:
         token, before = self._cursor.peek, self._cursor.before
         if token.is_mark(")"):
             while self._cursor.peek.is_mark(")"):
-                self._cursor.complain(self._cursor.take(), Complaint("this `)` closes nothing", "delete it"))
+                self._cursor.report(self._cursor.take(), SyntaxMessage("this `)` closes nothing", "delete it"))
         elif before.kind == "number" and token.is_unit:
-            self._cursor.complain(self._cursor.take(), complaints.number_with_unit(before, token))
+            self._cursor.report(self._cursor.take(), messages.number_with_unit(before, token))
         elif self._is_surplus():
-            self._cursor.complain(token, complaints.surplus(self._cursor.take(), before))
+            self._cursor.report(token, messages.surplus(self._cursor.take(), before))
             self._naming.doubt(token)
             self._cursor.insert(";")
         else:
@@ -235,8 +240,8 @@ class _Parser:
     def _nested(self, bracket: Token) -> Node | None:
         """Read what stands in brackets; None where it goes too deep."""
         if self._depth >= DEEPEST:
-            complaint = Complaint("brackets are nested too deeply", "give the things in them names")
-            self._cursor.complain(bracket, complaint)
+            message = SyntaxMessage("brackets are nested too deeply", "give the things in them names")
+            self._cursor.report(bracket, message)
             return None
         self._depth += 1
         node = self._things(bracket) if bracket.text == "[" else self._list(bracket)
@@ -268,4 +273,4 @@ class _Parser:
 
     def _close(self, bracket: Token, mark: str) -> None:
         if not self._cursor.take_mark(mark):
-            self._cursor.complain(bracket, Complaint(f"the `{bracket.text}` that begins here has no `{mark}`"))
+            self._cursor.report(bracket, SyntaxMessage(f"the `{bracket.text}` that begins here has no `{mark}`"))

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from difflib import SequenceMatcher, get_close_matches
 
 from skillc_compiler.turtle.lines import Lines
-from skillc_compiler.turtle.problems import Edit, Place, Problem
 from skillc_compiler.turtle.tokens import Token
+from skillc_dsl.diagnostics import Diagnostic, Fix
+from skillc_dsl.source import Span
 
 ALIKE = 0.85
 """How alike (0 to 1) two namespaces are when one is the other misspelt."""
@@ -56,7 +57,7 @@ class Prefixes:
         """Return what each declared prefix stands for."""
         return {prefix: declared.iri for prefix, declared in self._declared.items()}
 
-    def problems(self) -> list[Problem]:
+    def problems(self) -> list[Diagnostic]:
         """Return what is wrong, once for each prefix."""
         misspelt = [
             self._misspelt_namespace(prefix, declared)
@@ -71,31 +72,31 @@ class Prefixes:
             return iri
         return known if SequenceMatcher(None, known, iri).ratio() >= ALIKE else iri
 
-    def _misspelt_namespace(self, prefix: str, declared: _Declared) -> Problem:
+    def _misspelt_namespace(self, prefix: str, declared: _Declared) -> Diagnostic:
         message = f"no vocabulary is called <{declared.written}>"
         place = self._place(declared.value)
-        edit = Edit(place, f"<{declared.iri}>", f"write <{declared.iri}>")
-        return Problem(place, "unknown-vocabulary", message, f"`{prefix}:` is <{declared.iri}>", edit=edit)
+        edit = Fix(place, f"<{declared.iri}>", f"write <{declared.iri}>", safe=False)
+        return Diagnostic("unknown-vocabulary", place, message, f"`{prefix}:` is <{declared.iri}>", fix=edit)
 
-    def _undeclared(self, prefix: str, uses: list[Token]) -> Problem:
+    def _undeclared(self, prefix: str, uses: list[Token]) -> Diagnostic:
         """Tell of a prefix where it is used first, or where one that nothing uses was declared under a name like it."""
         near = self._near(prefix)
         first = uses[0]
         if near is not None and near not in self._used and self._known.get(near) != self._declared[near].iri:
             place = self._place(self._declared[near].name)
             message = f"`{prefix}:` is used and not declared, `{near}:` is declared and not used"
-            edit = Edit(place, f"{prefix}:", f"write `{prefix}:`")
-            return Problem(place, "unknown-prefix", message, f"did you mean `{prefix}:`?", edit=edit)
+            edit = Fix(place, f"{prefix}:", f"write `{prefix}:`", safe=False)
+            return Diagnostic("unknown-prefix", place, message, f"did you mean `{prefix}:`?", fix=edit)
         place = self._lines.place(first.start, first.start + len(prefix) + 1)
         message = f"the prefix `{prefix}:` is not declared"
         if near is not None:
-            edit = Edit(place, f"{near}:", f"write `{near}:`")
-            return Problem(place, "unknown-prefix", message, f"did you mean `{near}:`?", edit=edit)
+            edit = Fix(place, f"{near}:", f"write `{near}:`", safe=False)
+            return Diagnostic("unknown-prefix", place, message, f"did you mean `{near}:`?", fix=edit)
         if prefix in self._known:
             line = f"@prefix {prefix}: <{self._known[prefix]}> ."
-            edit = Edit(Place(place.path, 1, 1, 1, 1), f"{line}\n", "declare it")
-            return Problem(place, "unknown-prefix", message, f"begin the file with `{line}`", edit=edit)
-        return Problem(place, "unknown-prefix", message, f"begin the file with `@prefix {prefix}: <IRI> .`")
+            edit = Fix(Span(place.path, 1, 1, 1, 1), f"{line}\n", "declare it", safe=False)
+            return Diagnostic("unknown-prefix", place, message, f"begin the file with `{line}`", fix=edit)
+        return Diagnostic("unknown-prefix", place, message, f"begin the file with `@prefix {prefix}: <IRI> .`")
 
     def _near(self, prefix: str) -> str | None:
         if prefix in self._known and not any(self._known[prefix] == each.iri for each in self._declared.values()):
@@ -103,5 +104,5 @@ class Prefixes:
         near = get_close_matches(prefix, self._declared, n=1, cutoff=0.7)
         return near[0] if near else None
 
-    def _place(self, token: Token) -> Place:
+    def _place(self, token: Token) -> Span:
         return self._lines.place(token.start, token.end)

@@ -8,7 +8,8 @@ from typing import NamedTuple, TypeAlias
 import pyoxigraph as ox
 
 from skillc_compiler.turtle.lines import Lines
-from skillc_compiler.turtle.problems import Place, Problem
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Span
 
 Node: TypeAlias = ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple
 """A term; `ox.Triple` only for the type checker, Turtle 1.1 has no statements about statements."""
@@ -37,17 +38,17 @@ class Statement(NamedTuple):
     lines: Lines
 
     @property
-    def subject_place(self) -> Place:
+    def subject_place(self) -> Span:
         """Where its subject stands, once for all that is said of it."""
         return self.lines.place(*self.subject_at)
 
     @property
-    def predicate_place(self) -> Place:
+    def predicate_place(self) -> Span:
         """Where its predicate stands."""
         return self.lines.place(*self.predicate_at)
 
     @property
-    def object_place(self) -> Place:
+    def object_place(self) -> Span:
         """Where its object stands."""
         return self.lines.place(*self.object_at)
 
@@ -61,5 +62,5 @@ class Parsed:
 
     statements: tuple[Statement, ...]
     prefixes: dict[str, str]
-    problems: tuple[Problem, ...]
+    problems: tuple[Diagnostic, ...]
     doubtful: frozenset[str]

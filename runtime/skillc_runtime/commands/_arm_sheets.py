@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from skillc_dsl.diagnostics import Diagnostic, Fix
-from skillc_runtime.commands._diagnostics import span_of
+from skillc_runtime.commands._diagnostics import with_shown_path
 from skillc_runtime.world.individuals import iri_of
 from skillc_runtime.world.scene import Scene
 from skillc_runtime.world.sheet import Sheet, SheetError
@@ -27,7 +27,7 @@ def unfit_sheets(scene: Scene, path: str) -> Iterator[Diagnostic]:
             if lacking is not None:
                 message = f"{scene.state.vocabulary.short(arm)} cannot be run with this sheet: {lacking}"
                 yield _misspelt_home(scene, path, sheet, message) or Diagnostic(
-                    "unfit-sheet", span_of(each.object_place), message, "name the sheet of this arm"
+                    "unfit-sheet", with_shown_path(each.object_place), message, "name the sheet of this arm"
                 )
 
 
@@ -37,7 +37,7 @@ def _misspelt_home(scene: Scene, path: str, sheet: Sheet, message: str) -> Diagn
     for each in scene.said:
         named = each.predicate == POSTURE_NAME and iri_of(each.subject) in sheet.postures and each.lines.path == path
         if named and scene.state.value(iri_of(each.subject), POSTURE_NAME) in near:
-            span = span_of(each.object_place)
+            span = with_shown_path(each.object_place)
             fix = Fix(span, f'"{HOME}"', f'write "{HOME}"', safe=False)
             return Diagnostic("unfit-sheet", span, message, f"did you mean `{HOME}`?", fix=fix)
     return None

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from skillc_compiler.emit.picture import svg
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.picture import svg
 from skillc_runtime.commands import _files, _library, _listing, _mission, _world_diff, _world_edit, _world_graph
 from skillc_runtime.commands import _world_show as _show
 from skillc_runtime.commands._keeping import NOT_KEPT, Keeping

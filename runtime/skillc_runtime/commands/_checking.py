@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from skillc_compiler.allowances import without_allowed
+from skillc_compiler.diagnostics.suppressions import without_suppressed
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.program import Program
+from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.source import Source
 from skillc_runtime.commands import _library, _named_texts, _telling
@@ -27,7 +27,7 @@ def check(library: LibraryFiles, scene: Path | None) -> tuple[Diagnostic, ...]:
     around = () if populated is None else _around(outcome, program, populated, library)
     texts = _named_texts.warned(outcome, program, populated, around, library.shown)
     sources = [Source(library.shown(each.path), each.text) for each in library.sources]
-    return _telling.in_order((*outcome.diagnostics, *without_allowed((*around, *texts), sources)))
+    return _telling.in_order((*outcome.diagnostics, *without_suppressed((*around, *texts), sources)))
 
 
 def _around(

@@ -10,7 +10,7 @@ import pyoxigraph as ox
 from skillc_compiler.turtle.statements import Statement
 from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean
 from skillc_dsl.source import Span
-from skillc_runtime.commands._diagnostics import span_of
+from skillc_runtime.commands._diagnostics import with_shown_path
 from skillc_runtime.world.scene import Scene
 from skillc_runtime.world.terms import COMPLIANT_CONTROLLER
 
@@ -28,7 +28,7 @@ def unknown_controllers(scene: Scene, path: str) -> Iterator[Diagnostic]:
         name = _text(each)
         if name not in known:
             span, message = (
-                span_of(each.object_place),
+                with_shown_path(each.object_place),
                 f'there is no controller "{name}"; there are: {", ".join(known)}',
             )
             yield Diagnostic(

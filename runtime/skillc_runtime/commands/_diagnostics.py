@@ -1,12 +1,12 @@
-"""The problems of a scene as diagnostics."""
+"""The diagnostics of a scene, with paths that people can open."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.turtle.problems import Edit, Place, Problem
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Source, Span
 from skillc_ontology import catalogue
@@ -19,37 +19,34 @@ def of_scene(scene: Path, vocabulary: Vocabulary) -> list[Diagnostic]:
     try:
         load_scene(scene, vocabulary)
     except SceneError as error:
-        return of_problems(error.problems)
+        return with_shown_paths(error.problems)
     return []
 
 
-def of_problems(problems: Iterable[Problem]) -> list[Diagnostic]:
-    """Return the problems of a scene as diagnostics; those of the shipped ontology are shown below it."""
+def with_shown_paths(problems: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """Return the diagnostics of a scene with the paths that people can open."""
     return [
-        Diagnostic(
-            name=problem.name,
-            span=span_of(problem.place),
-            message=problem.message,
-            help=problem.help,
-            severity=problem.severity,
-            labels=tuple(Label(span_of(note.place), note.message) for note in problem.notes),
-            fix=None if problem.edit is None else _fix(problem.edit),
+        replace(
+            each, span=with_shown_path(each.span), labels=tuple(map(_shown_label, each.labels)), fix=_shown_fix(each)
         )
-        for problem in problems
+        for each in problems
     ]
 
 
-def _fix(edit: Edit) -> Fix:
-    return Fix(span_of(edit.place), edit.text, edit.message, safe=False)
+def with_shown_path(span: Span) -> Span:
+    """Return a place in a Turtle file; a file of the shipped ontology gets its path on this machine."""
+    shipped, here = catalogue.ROOT / span.path, Path.cwd()
+    if Path(span.path).exists() or not shipped.is_file():
+        return span
+    return replace(span, path=str(shipped.relative_to(here) if shipped.is_relative_to(here) else shipped))
 
 
-def span_of(place: Place) -> Span:
-    """Return a place in a Turtle file as a span; a file of the shipped ontology is shown below it."""
-    shipped, here = catalogue.ROOT / place.path, Path.cwd()
-    if Path(place.path).exists() or not shipped.is_file():
-        return Span(place.path, place.line, place.column, place.end_line, place.end_column)
-    shown = shipped.relative_to(here) if shipped.is_relative_to(here) else shipped
-    return Span(str(shown), place.line, place.column, place.end_line, place.end_column)
+def _shown_label(label: Label) -> Label:
+    return replace(label, span=with_shown_path(label.span))
+
+
+def _shown_fix(problem: Diagnostic) -> Fix | None:
+    return problem.fix and replace(problem.fix, span=with_shown_path(problem.fix.span))
 
 
 def scene_text(scene: Path) -> dict[str, Source]:

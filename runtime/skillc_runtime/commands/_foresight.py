@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from skillc_compiler.library.skills import SkillLibrary, Task
 from skillc_compiler.library.vocabulary import Position
-from skillc_compiler.program import Program
+from skillc_compiler.program.typed import Program
 from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_dsl.diagnostics import Diagnostic, Label, Outcome, Severity, did_you_mean
 from skillc_dsl.source import Span
@@ -91,7 +91,7 @@ def _of_individuals(library: SkillLibrary, scene: Scene, path: str) -> Iterator[
     here = {iri: each for iri, each in own.items() if each.lines.path == path}
     for each in unsupported_individuals(library, scene.state, frozenset(here)):
         statement = here[each.individual]
-        span = _diagnostics.span_of(statement.object_place)
+        span = _diagnostics.with_shown_path(statement.object_place)
         yield Diagnostic("no-implementation-fits", span, _unfit(each, scene), _accepted(each, scene), "warning")
 
 
@@ -146,7 +146,7 @@ class _Teller:
         words = set(re.findall(r"[\w.-]*:[\w-]+", message))
         typed = {iri_of(each.subject): each for each in reversed(self._scene.said) if each.predicate == RDF_TYPE}
         found = sorted(each.subject_place for iri, each in typed.items() if short(iri) in words)
-        return [Label(_diagnostics.span_of(place), "this one") for place in found[:LABELLED]]
+        return [Label(_diagnostics.with_shown_path(place), "this one") for place in found[:LABELLED]]
 
     def _span(self, place: Position) -> Span:
         path = self._shown(place.path)

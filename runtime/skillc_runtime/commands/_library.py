@@ -11,15 +11,15 @@ from typing import TypeAlias
 import click
 
 from skillc_compiler import pipeline
-from skillc_compiler.collecting import no_collection
 from skillc_compiler.library.skills import SkillLibrary, Task
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.program import Program
+from skillc_compiler.program.typed import Program
 from skillc_compiler.resolve.files import read
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
+from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source, Span
 from skillc_ontology import catalogue
@@ -48,7 +48,7 @@ def compile_library(library: LibraryFiles, peopled: Peopled | None = None) -> Ou
 
     `peopled` gives the individuals that the tasks of a program may name; those of other tasks are not checked.
     """
-    with no_collection():
+    with gc_disabled():
         known = vocabulary_with(library.vocabularies)
         files = read(library.sources, library.shelf, library.name, _parsed)
         program = resolve(files.value, known.value, library.name, pipeline.NO_SCENES)

@@ -5,21 +5,19 @@ from __future__ import annotations
 import sys
 import textwrap
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict
 
 import click
 
-from skillc_compiler.families import by_family, family
-from skillc_compiler.manual import Page
+from skillc_compiler.manual import Page, by_family
 from skillc_runtime.commands import _telling
 
 _WIDEST = 100
 """Cells of a line of prose that is read with ease."""
 
 
-def page(shown: Page) -> str:
+def format_page(shown: Page) -> str:
     """Return a page as text, in colours if the terminal has some."""
-    lines = [f"{_styled(shown.name, fg='cyan')}: {shown.title}", f"family: {family(shown.name)}", ""]
+    lines = [f"{_styled(shown.name, fg='cyan')}: {shown.title}", f"family: {shown.family}", ""]
     for paragraph in filter(None, shown.prose.split("\n\n")):
         lines += [*_paragraph(paragraph), ""]
     lines += [_styled("Bad", fg="red"), "", *_indented(shown.bad), ""]
@@ -27,23 +25,18 @@ def page(shown: Page) -> str:
     return "".join(f"{line}\n" for line in lines)
 
 
-def contents(pages: Mapping[str, Page]) -> str:
+def format_contents(pages: Mapping[str, Page]) -> str:
     """Return the names and titles of all pages by family."""
     widest = max(len(name) for name in pages)
     lines: list[str] = []
-    for title, names in by_family(pages).items():
-        lines.append(_styled(title, fg="cyan"))
-        for name in names:
-            first, *rest = textwrap.wrap(pages[name].title, max(_width() - widest - 4, 24))
-            lines.append(f"  {name:{widest}}  {first}")
+    for family, members in by_family(pages.values()).items():
+        lines.append(_styled(family, fg="cyan"))
+        for each in members:
+            first, *rest = textwrap.wrap(each.title, max(_width() - widest - 4, 24))
+            lines.append(f"  {each.name:{widest}}  {first}")
             lines += (f"  {'':{widest}}  {line}" for line in rest)
         lines.append("")
     return "".join(f"{line}\n" for line in (*lines, "skillc explain NAME shows a page with examples."))
-
-
-def as_data(shown: Page) -> dict[str, str]:
-    """Return the fields of a page."""
-    return {**asdict(shown), "family": family(shown.name)}
 
 
 def _paragraph(text: str) -> Iterator[str]:

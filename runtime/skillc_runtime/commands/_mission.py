@@ -12,8 +12,7 @@ import click
 
 from skillc_compiler.goals import parse_call, parse_goal
 from skillc_compiler.library.skills import SkillLibrary, Task
-from skillc_compiler.turtle.problems import Problem
-from skillc_dsl.diagnostics import Outcome
+from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.source import Source
 from skillc_runtime.commands import _diagnostics, _files, _library, _scenes, _telling
 from skillc_runtime.commands._keeping import NOT_KEPT, Keeping
@@ -91,8 +90,8 @@ def compiled(files: _library.LibraryFiles) -> SkillLibrary:
 def loaded(scene: Path, library: SkillLibrary) -> WorldState:
     """Load a scene and tell what is doubtful in it; exit with what is wrong with it."""
 
-    def tell(problems: Sequence[Problem]) -> None:
-        _telling.tell(_diagnostics.of_problems(problems), _diagnostics.scene_text(scene))
+    def tell(problems: Sequence[Diagnostic]) -> None:
+        _telling.tell(_diagnostics.with_shown_paths(problems), _diagnostics.scene_text(scene))
 
     try:
         return load_scene(scene, library.vocabulary, tell)

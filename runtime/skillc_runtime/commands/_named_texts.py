@@ -8,11 +8,11 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from skillc_compiler import walk
 from skillc_compiler.library.conditions import Literal
 from skillc_compiler.library.skills import Compound, SkillLibrary
 from skillc_compiler.library.vocabulary import Position
-from skillc_compiler.program import Implementation, Program, Valued, position
+from skillc_compiler.program import walk
+from skillc_compiler.program.typed import Implementation, Program, TypedExpression, position
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label, Outcome, Severity, did_you_mean
 from skillc_dsl.source import Span
 
@@ -109,13 +109,13 @@ def _given(program: Program) -> Iterator[_Given]:
                 pass
 
 
-def _arguments(program: Program) -> Iterator[tuple[Valued, str, str, None]]:
+def _arguments(program: Program) -> Iterator[tuple[TypedExpression, str, str, None]]:
     for call in walk.calls(program):
         if call.skill:
             yield from ((each.value, each.name.text, call.skill.name, None) for each in call.arguments)
 
 
-def _defaults(program: Program) -> Iterator[tuple[Valued, str, str, None]]:
+def _defaults(program: Program) -> Iterator[tuple[TypedExpression, str, str, None]]:
     for skill in program.skills.values():
         yield from ((each.default, each.name, skill.name, None) for each in skill.parameters if each.default)
     for one in program.implementations:
@@ -124,7 +124,7 @@ def _defaults(program: Program) -> Iterator[tuple[Valued, str, str, None]]:
                 yield new.default, new.of.name, one.skill.name, None
 
 
-def _local(program: Program) -> Iterator[tuple[Valued, str, str, Implementation]]:
+def _local(program: Program) -> Iterator[tuple[TypedExpression, str, str, Implementation]]:
     for one in program.implementations:
         yield from ((each.value, each.name.text, one.skill.name, one) for each in one.lets)
 

@@ -8,7 +8,7 @@ from typing import assert_never
 
 import click
 
-from skillc_compiler.picture.boxes import Box
+from skillc_compiler.emit.picture.boxes import Box
 from skillc_runtime.commands import _mission
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable, describe_quality

@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 from skillc_compiler.library.skills import Task
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.program import Program
+from skillc_compiler.program.typed import Program
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
 from skillc_ontology import catalogue
@@ -58,8 +58,8 @@ def read(path: Path, vocabulary: Vocabulary, text: str | None = None) -> Outcome
         document = Document.read(path) if text is None else Document(str(path), text)
         scene = scene_in(document, vocabulary)
     except SceneError as error:
-        return Outcome(None, tuple(_diagnostics.of_problems(error.problems)))
-    return Outcome(scene, tuple(_diagnostics.of_problems(scene.problems)))
+        return Outcome(None, tuple(_diagnostics.with_shown_paths(error.problems)))
+    return Outcome(scene, tuple(_diagnostics.with_shown_paths(scene.problems)))
 
 
 def populated(program: Program, desk: Desk, others: Collection[Path] = (), read_by: Read = read) -> Populated:

@@ -115,7 +115,7 @@ def _sarif(diagnostics: Sequence[Diagnostic], texts: Mapping[str, Source]) -> st
     from skillc_compiler.manual import pages
     from skillc_dsl.rendering.sarif import SarifRule, render
 
-    rules = {page.name: SarifRule(page.name, page.title, page.prose or page.title) for page in pages().values()}
+    rules = {page.name: SarifRule(page.name, page.title, page.prose) for page in pages().values()}
     return render(diagnostics, texts, rules, version("skillc"))
 
 

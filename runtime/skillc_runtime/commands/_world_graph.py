@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from skillc_compiler.picture.boxes import Box, Look
+from skillc_compiler.emit.picture.boxes import Box, Look
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.terms import (
     ARM_DEVICE,

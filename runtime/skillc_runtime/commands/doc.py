@@ -19,8 +19,8 @@ FOLDER = click.Path(path_type=Path, file_okay=False)
 @click.option("-o", "--output", required=True, type=FOLDER, help="The folder to write to.")
 def command(path: Path, output: Path) -> None:
     """Write the reference of the library at PATH into the folder OUTPUT."""
+    from skillc_compiler.emit.docs.site import MARK, site
     from skillc_compiler.emit.write import EmitError, write
-    from skillc_compiler.reference.site import MARK, site
     from skillc_compiler.resolve.files import read
     from skillc_runtime.commands import _library, _telling
 

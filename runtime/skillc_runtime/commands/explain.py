@@ -6,6 +6,7 @@ Without a name, lists all diagnostics by family. Exit code 2 for a name that the
 from __future__ import annotations
 
 import json
+from dataclasses import asdict
 
 import click
 
@@ -15,16 +16,15 @@ import click
 @click.option("--json", "as_json", is_flag=True, help="Print the page, or all pages, as JSON.")
 def command(name: str | None, as_json: bool) -> None:
     """Explain the diagnostic NAME, such as `unknown-class`; list them all without a name."""
-    from skillc_compiler.manual import pages
+    from skillc_compiler.manual import page, page_names, pages
     from skillc_dsl.diagnostics import did_you_mean
     from skillc_runtime.commands import _manual
 
-    known = pages()
-    if name is not None and name not in known:
-        hint = did_you_mean(name, known) or "`skillc explain` lists them all"
+    if name is not None and name not in page_names():
+        hint = did_you_mean(name, page_names()) or "`skillc explain` lists them all"
         raise click.UsageError(f"there is no diagnostic `{name}`; {hint}")
     if as_json:
-        data = _manual.as_data(known[name]) if name else [_manual.as_data(page) for page in known.values()]
+        data = asdict(page(name)) if name else [asdict(each) for each in pages().values()]
         click.echo(json.dumps(data, indent=2, ensure_ascii=False))
     else:
-        click.echo(_manual.page(known[name]) if name else _manual.contents(known), nl=False, color=True)
+        click.echo(_manual.format_page(page(name)) if name else _manual.format_contents(pages()), nl=False, color=True)

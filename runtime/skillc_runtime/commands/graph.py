@@ -24,8 +24,8 @@ FILE = click.Path(path_type=Path, dir_okay=False)
 @click.option("-o", "--output", type=FILE, help="The file to write; without, it is printed.")
 def command(path: Path, name: str, with_plan: bool, form: str | None, output: Path | None) -> None:
     """Draw the skill or the task NAME of the library at PATH."""
-    from skillc_compiler.picture import mermaid, svg
-    from skillc_compiler.picture.find import drawable, picture_of
+    from skillc_compiler.emit.picture import mermaid, svg
+    from skillc_compiler.emit.picture.find import drawable, picture_of
     from skillc_compiler.resolve.files import read
     from skillc_dsl.diagnostics import did_you_mean
     from skillc_runtime.commands import _library, _telling

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from skillc_compiler.library.vocabulary import Position
-from skillc_compiler.turtle.problems import Note, Place, Problem
 from skillc_compiler.turtle.statements import Statement
 from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.source import Span
 from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.individuals import iri_of
 from skillc_runtime.world.reading import Written
@@ -18,7 +19,7 @@ RIVALS = frozenset({"functional-relation", "asymmetric-relation", "disjoint-clas
 """Axioms that two statements break together, neither more than the other."""
 
 
-def breaches(state: WorldState, written: Sequence[Written]) -> Iterator[Problem]:
+def breaches(state: WorldState, written: Sequence[Written]) -> Iterator[Diagnostic]:
     """Yield a problem for each breach; `state` is the world after all that is written.
 
     Of statements that cannot be true together, one that is wrong by itself is told for that alone.
@@ -59,17 +60,19 @@ def _together(breach: Breach, own: Fact | None) -> frozenset[Fact]:
 
 def _problem(
     state: WorldState, breach: Breach, own: Statement, together: Sequence[Statement], places: Mapping[Fact, Statement]
-) -> Problem:
+) -> Diagnostic:
     if breach.axiom in RIVALS and together:
         first, *others = sorted((each.object_place for each in together), reverse=True)
     else:
         first, others = _place(breach, own), []
-    notes = [Note(place, "said here too") for place in others]
-    notes += (Note(places[fact].object_place, "its class") for fact in breach.causes if fact in places)
-    return Problem(first, breach.axiom, breach.message, _help(breach), (*notes, *_declared(state, breach, own)))
+    notes = [Label(place, "said here too") for place in others]
+    notes += (Label(places[fact].object_place, "its class") for fact in breach.causes if fact in places)
+    return Diagnostic(
+        breach.axiom, first, breach.message, _help(breach), labels=(*notes, *_declared(state, breach, own))
+    )
 
 
-def _place(breach: Breach, own: Statement) -> Place:
+def _place(breach: Breach, own: Statement) -> Span:
     """Return the term that is wrong: the predicate where it does not fit what it is said of, else the object."""
     subject_is_wrong = breach.misfit is not None and breach.misfit == iri_of(own.subject)
     return own.predicate_place if subject_is_wrong and breach.misfit != iri_of(own.object) else own.object_place
@@ -79,12 +82,12 @@ def _help(breach: Breach) -> str:
     return "keep one of them" if breach.axiom in RIVALS else ""
 
 
-def _declared(state: WorldState, breach: Breach, own: Statement) -> Iterator[Note]:
+def _declared(state: WorldState, breach: Breach, own: Statement) -> Iterator[Label]:
     """Yield where the vocabulary says what a relation or property is about."""
     terms = state.vocabulary.relations.get(own.predicate) or state.vocabulary.properties.get(own.predicate)
     source: Position | None = terms.source if terms is not None and breach.causes else None
     if source is not None:
-        yield Note(Place(source.path, source.line, source.column, source.line, source.column + 1), "declared here")
+        yield Label(Span(source.path, source.line, source.column, source.line, source.column + 1), "declared here")
 
 
 def _fact(change: Change) -> Fact | None:

@@ -11,9 +11,10 @@ from pathlib import Path
 import pyoxigraph as ox
 
 from skillc_compiler.turtle.parser import parse as parse_turtle
-from skillc_compiler.turtle.problems import Place, Problem
 from skillc_compiler.turtle.statements import Parsed, Statement
 from skillc_compiler.turtle.terms import RDF, XSD
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Span
 from skillc_runtime.world.room import QUICKLY, NoRoom, make_sure
 
 BASE = "file:///scene"
@@ -30,8 +31,8 @@ REMEMBERED = 32
 class SceneError(ValueError):
     """A scene that cannot be loaded, with everything that is wrong with it."""
 
-    def __init__(self, problems: Iterable[Problem]) -> None:
-        self.problems = tuple(sorted(problems, key=lambda each: (each.place, each.name, each.message)))
+    def __init__(self, problems: Iterable[Diagnostic]) -> None:
+        self.problems = tuple(sorted(problems, key=lambda each: (each.span, each.name, each.message)))
         super().__init__("\n".join(map(str, self.problems)))
 
 
@@ -83,10 +84,12 @@ def resolved(statement: Statement, aliases: Mapping[str, str]) -> Statement:
     return changed
 
 
-def unreadable(path: str, reason: str, line: int = 1, column: int = 1) -> Problem:
+def unreadable(path: str, reason: str, line: int = 1, column: int = 1) -> Diagnostic:
     """Return the problem of a file that there is no reading."""
-    place = Place(path, line, column, line, column + 1)
-    return Problem(place, "unreadable-scene", f"cannot read {path}: {reason}", "save it as UTF-8" * ("UTF" in reason))
+    place = Span(path, line, column, line, column + 1)
+    return Diagnostic(
+        "unreadable-scene", place, f"cannot read {path}: {reason}", "save it as UTF-8" * ("UTF" in reason)
+    )
 
 
 @lru_cache(maxsize=REMEMBERED)
@@ -94,7 +97,7 @@ def _parsed(document: Document, prefixes: tuple[tuple[str, str], ...]) -> Parsed
     return parse_turtle(document.path, document.text, BASE, dict(prefixes))
 
 
-def _not_utf8(path: Path, data: bytes, start: int) -> Problem:
+def _not_utf8(path: Path, data: bytes, start: int) -> Diagnostic:
     """Return the problem of a file at its first byte that is not UTF-8."""
     if data[:2] in (b"\xff\xfe", b"\xfe\xff") or b"\0" in data[:2]:
         return unreadable(str(path), "it is UTF-16 or UTF-32, not UTF-8")

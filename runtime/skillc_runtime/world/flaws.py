@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 
-from skillc_compiler.turtle.problems import Place, Problem
 from skillc_compiler.turtle.statements import Statement
 from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Span
 from skillc_runtime.world.device_sheets import unsuited
 from skillc_runtime.world.flaw import Flaw
 from skillc_runtime.world.holding import circular
@@ -19,8 +20,8 @@ from skillc_runtime.world.state import WorldState
 
 
 def flaws(
-    state: WorldState, said: Sequence[Statement], problems: Collection[Problem], doubtful: Collection[str]
-) -> Iterator[Problem]:
+    state: WorldState, said: Sequence[Statement], problems: Collection[Diagnostic], doubtful: Collection[str]
+) -> Iterator[Diagnostic]:
     """Yield what is wrong with individuals of which every statement made sense.
 
     Where things are is looked at only when there is no other problem: a frame may be missing because of it.
@@ -32,20 +33,20 @@ def flaws(
     places = {(iri_of(each.subject), each.predicate): each for each in reversed(said)}
     for flaw in found:
         if flaw.individual not in troubled:
-            yield Problem(_place(flaw, places), flaw.name, flaw.message, flaw.help)
+            yield Diagnostic(flaw.name, _place(flaw, places), flaw.message, flaw.help)
 
 
-def _subjects(said: Sequence[Statement], problems: Collection[Problem]) -> Iterator[str]:
+def _subjects(said: Sequence[Statement], problems: Collection[Diagnostic]) -> Iterator[str]:
     """Yield the individuals whose statements have problems."""
     if not problems:
         return
-    wrong = {problem.place for problem in problems}
+    wrong = {problem.span for problem in problems}
     for each in said:
         if not wrong.isdisjoint((each.subject_place, each.predicate_place, each.object_place)):
             yield iri_of(each.subject)
 
 
-def _place(flaw: Flaw, places: dict[tuple[str, str], Statement]) -> Place:
+def _place(flaw: Flaw, places: dict[tuple[str, str], Statement]) -> Span:
     if flaw.predicate is not None:
         return places[flaw.individual, flaw.predicate].object_place
     return places[flaw.individual, RDF_TYPE].subject_place

@@ -8,9 +8,9 @@ from itertools import pairwise
 
 import pyoxigraph as ox
 
-from skillc_compiler.turtle.problems import Note, Problem
 from skillc_compiler.turtle.statements import Node, Statement
 from skillc_compiler.turtle.terms import RDF, RDF_TYPE
+from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_runtime.world.individuals import OWL, iri_of
 from skillc_runtime.world.literals import LiteralError, read
 from skillc_runtime.world.state import WorldState
@@ -37,31 +37,33 @@ class Claims:
             self._about[each.subject].append(each)
         self.used: set[Node] = set()
 
-    def problems(self) -> Iterator[Problem]:
+    def problems(self) -> Iterator[Diagnostic]:
         """Yield what is wrong; `used` is complete afterwards."""
         for each in self._said:
             if each.predicate == SAME:
                 yield from self._same(each)
             elif each.predicate == DIFFERENT and each.subject == each.object:
                 name = self._short(each.object)
-                yield Problem(each.object_place, "different-from-itself", f"{name} is said to be another than itself")
+                yield Diagnostic(
+                    "different-from-itself", each.object_place, f"{name} is said to be another than itself"
+                )
             elif each.predicate == RDF_TYPE and iri_of(each.object) == ALL_DIFFERENT:
                 yield from self._all_different(each.subject)
             elif each.predicate == RDF_TYPE and iri_of(each.object) == DENIAL:
                 yield from self._denied(self._about[each.subject])
 
-    def _same(self, each: Statement) -> Iterator[Problem]:
+    def _same(self, each: Statement) -> Iterator[Diagnostic]:
         if each.subject == each.object:
             return
         one, other = self._short(each.subject), self._short(each.object)
         if self._state.exists(iri_of(each.subject)) and self._state.exists(iri_of(each.object)):
             message = f"{one} and {other} are said to be the same, and different names are different individuals here"
-            yield Problem(each.object_place, "same-individuals", message, f"call it {one} everywhere")
+            yield Diagnostic("same-individuals", each.object_place, message, f"call it {one} everywhere")
         else:
             message = f"`{self._state.vocabulary.short(SAME)}` has no effect in a scene: there is no individual {other}"
-            yield Problem(each.predicate_place, "no-effect", message, severity="warning")
+            yield Diagnostic("no-effect", each.predicate_place, message, severity="warning")
 
-    def _all_different(self, node: Node) -> Iterator[Problem]:
+    def _all_different(self, node: Node) -> Iterator[Diagnostic]:
         lists = [each for each in self._about[node] if each.predicate in MEMBERS]
         members = [member for each in lists for member in self._members(each.object)]
         if lists:
@@ -69,8 +71,8 @@ class Claims:
         for one, other in pairwise(sorted(members, key=lambda each: (str(each.object), each.object_at))):
             if one.object == other.object:
                 message = f"{self._short(one.object)} is said to be another than itself"
-                notes = (Note(one.object_place, "said here too"),)
-                yield Problem(other.object_place, "different-from-itself", message, "keep one of them", notes)
+                notes = (Label(one.object_place, "said here too"),)
+                yield Diagnostic("different-from-itself", other.object_place, message, "keep one of them", labels=notes)
 
     def _members(self, head: Node) -> Iterator[Statement]:
         """Yield the statements that say what is in a list, in order."""
@@ -86,7 +88,7 @@ class Claims:
                 return
             head = rest.object
 
-    def _denied(self, parts: Sequence[Statement]) -> Iterator[Problem]:
+    def _denied(self, parts: Sequence[Statement]) -> Iterator[Diagnostic]:
         by = {each.predicate: each for each in parts}
         target = next((by[each] for each in TARGETS if each in by), None)
         if SOURCE not in by or PROPERTY not in by or target is None or not by.keys() <= PARTS:
@@ -99,12 +101,14 @@ class Claims:
             value = target.object
             words = (self._short(by[SOURCE].object), self._short(by[PROPERTY].object), self._short(value))
             message = f"`{' '.join(words)}` is true in this scene, and said not to be"
-            yield Problem(target.object_place, "denied-fact", message, "keep one of them", self._saying(by, value))
+            yield Diagnostic(
+                "denied-fact", target.object_place, message, "keep one of them", labels=self._saying(by, value)
+            )
 
-    def _saying(self, by: dict[str, Statement], value: Node) -> tuple[Note, ...]:
+    def _saying(self, by: dict[str, Statement], value: Node) -> tuple[Label, ...]:
         source, predicate = by[SOURCE].object, iri_of(by[PROPERTY].object)
         said = (each for each in self._about[source] if each.predicate == predicate and each.object == value)
-        return tuple(Note(each.object_place, "said here") for each in said)
+        return tuple(Label(each.object_place, "said here") for each in said)
 
     def _holds(self, subject: str, predicate: str, value: Node) -> bool | None:
         """Whether something is so; None where the vocabulary does not know what it means."""

@@ -9,9 +9,10 @@ import pyoxigraph as ox
 
 from skillc_compiler.library.closure import reachable
 from skillc_compiler.library.vocabulary import THING, Vocabulary
-from skillc_compiler.turtle.problems import Note, Place, Problem
 from skillc_compiler.turtle.statements import Node, Statement
 from skillc_compiler.turtle.terms import RDF, RDF_TYPE
+from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.source import Span
 from skillc_runtime.world.individuals import (
     ANNOTATION,
     CLASS_DECLARATIONS,
@@ -49,7 +50,7 @@ _HELP = {
 
 def ineffective(
     said: Sequence[Statement], facts: Iterable[Statement], vocabulary: Vocabulary, own: Set[str], used: Set[Node]
-) -> Iterator[Problem]:
+) -> Iterator[Diagnostic]:
     """Yield a warning for each kind of statement of a scene that is no fact and changes nothing.
 
     `own` are the classes that the scene declares; `used` are things that other rules have read.
@@ -119,13 +120,13 @@ class _Kinds:
                 return kind in TYPES_ELSEWHERE
 
 
-def language_tags(facts: Iterable[Statement], vocabulary: Vocabulary) -> Iterator[Problem]:
+def language_tags(facts: Iterable[Statement], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
     """Yield a warning for each text of a property that says in which language it is."""
     for each in facts:
         if each.predicate in vocabulary.properties and isinstance(each.object, ox.Literal) and each.object.language:
             message = f"the language `@{each.object.language}` has no effect: the text counts, in whatever language"
-            yield Problem(
-                each.object_place, NAME, message, f"write {ox.Literal(each.object.value)}", severity="warning"
+            yield Diagnostic(
+                NAME, each.object_place, message, f"write {ox.Literal(each.object.value)}", severity="warning"
             )
 
 
@@ -139,7 +140,7 @@ def is_ordinary_class(cls: str) -> bool:
     return cls in DECLARATIONS or not is_term_kind(cls)
 
 
-def without_class(said: Sequence[Statement], vocabulary: Vocabulary) -> Iterator[Problem]:
+def without_class(said: Sequence[Statement], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
     """Yield an error for each named individual of which no class is said, and for each of the class that is empty."""
     typed = {each.subject for each in said if _is_type(each) and iri_of(each.object) != NAMED_INDIVIDUAL}
     told: set[Node] = set()
@@ -149,13 +150,13 @@ def without_class(said: Sequence[Statement], vocabulary: Vocabulary) -> Iterator
         name = vocabulary.short(each.subject.value)
         if iri_of(each.object) == NOTHING:
             message = f"{name} is of the class owl:Nothing, and nothing is"
-            yield Problem(each.object_place, "disjoint-classes", message, "say what it is")
+            yield Diagnostic("disjoint-classes", each.object_place, message, "say what it is")
         elif iri_of(each.object) == NAMED_INDIVIDUAL and each.subject not in typed | told:
             told.add(each.subject)
             others = [one for one in said if one.subject == each.subject and not is_remark(one.predicate)]
             if len(others) == 1:
                 help_ = "say what it is: `a CLASS ;`"
-                yield Problem(each.subject_place, "unknown-individual", f"{name} is of no class", help_)
+                yield Diagnostic("unknown-individual", each.subject_place, f"{name} is of no class", help_)
 
 
 def _kind(each: Statement) -> str:
@@ -195,14 +196,14 @@ def _blank(nodes: Iterable[Node]) -> Iterator[Node]:
     return (each for each in nodes if isinstance(each, ox.BlankNode))
 
 
-def _problem(term: str, statements: Sequence[Statement], vocabulary: Vocabulary) -> Problem:
+def _problem(term: str, statements: Sequence[Statement], vocabulary: Vocabulary) -> Diagnostic:
     places = [_place(each, term) for each in statements]
     times = f", {len(places)} times" if len(places) > 1 else ""
-    more = [Note(place, "and here") for place in places[1:SHOWN]]
+    more = [Label(place, "and here") for place in places[1:SHOWN]]
     help_ = _HELP.get(term, "the rest of the scene is used")
     message = f"`{vocabulary.short(term)}` has no effect in a scene{times}"
-    return Problem(places[0], NAME, message, help_, tuple(more), severity="warning")
+    return Diagnostic(NAME, places[0], message, help_, labels=tuple(more), severity="warning")
 
 
-def _place(each: Statement, term: str) -> Place:
+def _place(each: Statement, term: str) -> Span:
     return each.object_place if iri_of(each.object) == term else each.predicate_place

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
-from skillc_compiler.turtle.problems import Edit, Place
+from skillc_dsl.diagnostics import Fix
+from skillc_dsl.source import Span
 
 LISTED = 12
 """How many names help lists at most."""
@@ -15,20 +16,20 @@ LISTED = 12
 
 @dataclass(frozen=True, slots=True)
 class Suggestion:
-    """A line of help, and the edit that puts the only near name in the place of the wrong one."""
+    """A line of help, and the fix that puts the only near name in the place of the wrong one."""
 
     help: str
-    edit: Edit | None = None
+    fix: Fix | None = None
 
 
 def suggest(
-    wrong: str, place: Place, vocabulary: Vocabulary, known: Iterable[str], fitting: Sequence[str] = ()
+    wrong: str, place: Span, vocabulary: Vocabulary, known: Iterable[str], fitting: Sequence[str] = ()
 ) -> Suggestion:
     """Return what is like a wrong IRI, first among the fitting ones; else the fitting ones that there are."""
     near = _near(wrong, fitting) or _near(wrong, known)
     if near:
         names = [vocabulary.short(iri) for iri in near]
-        return Suggestion(f"did you mean {' or '.join(f'`{name}`' for name in names)}?", _edit(names, place))
+        return Suggestion(f"did you mean {' or '.join(f'`{name}`' for name in names)}?", _fix(names, place))
     listed = [vocabulary.short(iri) for iri in sorted(fitting)]
     more = ", .." if listed[LISTED:] else ""
     return Suggestion(f"there is {', '.join(f'`{name}`' for name in listed[:LISTED])}{more}" if listed else "")
@@ -48,5 +49,5 @@ def _near(wrong: str, known: Iterable[str]) -> list[str]:
     return [iri for each in near for iri in by_name[small[each]]]
 
 
-def _edit(names: list[str], place: Place) -> Edit | None:
-    return Edit(place, names[0], f"write `{names[0]}`") if len(names) == 1 else None
+def _fix(names: list[str], place: Span) -> Fix | None:
+    return Fix(place, names[0], f"write `{names[0]}`", safe=False) if len(names) == 1 else None

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from skillc_compiler.library.vocabulary import THING, Vocabulary
-from skillc_compiler.turtle.problems import Note, Problem
 from skillc_compiler.turtle.statements import Statement
 from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_runtime.world.individuals import SUBCLASS, iri_of
 from skillc_runtime.world.names import suggest
 from skillc_runtime.world.standard import is_misspelt, standard_terms
@@ -19,7 +19,7 @@ def are_placed(classes: Iterable[str], vocabulary: Vocabulary) -> bool:
     return all(parent in vocabulary.ancestors and not vocabulary.is_a(parent, iri) for iri, parent in parents)
 
 
-def misplaced_classes(said: Iterable[Statement], own: frozenset[str], vocabulary: Vocabulary) -> Iterator[Problem]:
+def misplaced_classes(said: Iterable[Statement], own: frozenset[str], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
     """Yield a problem for each statement that puts an own class below one that there is not, or below itself.
 
     Of the statements that make a circle the last one is told, with the others beside it.
@@ -45,11 +45,11 @@ def of_lost_classes(said: Iterable[Statement], own: frozenset[str], vocabulary: 
     )
 
 
-def _unknown(each: Statement, parent: str, vocabulary: Vocabulary) -> Problem:
+def _unknown(each: Statement, parent: str, vocabulary: Vocabulary) -> Diagnostic:
     known = standard_terms(parent) if is_misspelt(parent) else vocabulary.classes
     near = suggest(parent, each.object_place, vocabulary, known)
     message = f"there is no class {vocabulary.short(parent)}"
-    return Problem(each.object_place, "unknown-class", message, near.help or "declare it too", edit=near.edit)
+    return Diagnostic("unknown-class", each.object_place, message, near.help or "declare it too", fix=near.fix)
 
 
 def _circle(cls: str, vocabulary: Vocabulary) -> frozenset[str]:
@@ -57,10 +57,10 @@ def _circle(cls: str, vocabulary: Vocabulary) -> frozenset[str]:
     return frozenset(other for other in vocabulary.ancestors[cls] - {THING} if vocabulary.is_a(other, cls))
 
 
-def _around(statements: list[Statement], vocabulary: Vocabulary) -> Problem:
+def _around(statements: list[Statement], vocabulary: Vocabulary) -> Diagnostic:
     *others, last = statements
     names = [vocabulary.short(iri_of(each.subject)) for each in others if each.subject != last.subject]
     way = "".join(f", by {name}" for name in dict.fromkeys(names))
     message = f"{vocabulary.short(iri_of(last.subject))} is declared below itself{way}"
-    notes = tuple(Note(each.object_place, "this goes round with it") for each in others)
-    return Problem(last.object_place, "class-cycle", message, "take one of the parents away", notes)
+    notes = tuple(Label(each.object_place, "this goes round with it") for each in others)
+    return Diagnostic("class-cycle", last.object_place, message, "take one of the parents away", labels=notes)

@@ -11,9 +11,9 @@ from typing import TypeAlias
 import msgspec
 import pyoxigraph as ox
 
-from skillc_compiler.collecting import no_collection
 from skillc_compiler.library.vocabulary import PropertyTerm, Vocabulary
 from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_dsl.garbage import gc_disabled
 from skillc_runtime.world.bulk import Facts, state_of
 from skillc_runtime.world.device_sheets import unsuited
 from skillc_runtime.world.documents import BASE, Document
@@ -72,7 +72,7 @@ def quick_world(documents: Sequence[Document], vocabulary: Vocabulary) -> WorldS
 
     The first one must say of something what it is. NoRoom when the machine has too little memory for them.
     """
-    with no_collection():
+    with gc_disabled():
         try:
             said = _said(documents, vocabulary)
             vocabulary = _own(said, vocabulary)

@@ -9,9 +9,10 @@ from typing import TypeAlias
 import pyoxigraph as ox
 
 from skillc_compiler.library.vocabulary import THING, Vocabulary
-from skillc_compiler.turtle.problems import Edit, Note, Place, Problem
 from skillc_compiler.turtle.statements import SOMETHING, Statement
 from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_dsl.diagnostics import Diagnostic, Fix, Label
+from skillc_dsl.source import Span
 from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.individuals import iri_of
 from skillc_runtime.world.literals import LiteralError, read
@@ -40,7 +41,7 @@ class Reader:
         self._doubtful = doubtful
         self._untyped: set[str] = set()
         self._missing: dict[str, list[Statement]] = defaultdict(list)
-        self.problems: list[Problem] = []
+        self.problems: list[Diagnostic] = []
 
     def changes(self) -> Iterator[Written]:
         """Yield the changes, individuals first; `problems` is complete afterwards."""
@@ -95,7 +96,7 @@ class Reader:
             yield read(each.object, term), each
         except LiteralError as error:
             instead = error.instead
-            edit = Edit(each.object_place, instead, f"write {instead}") if instead is not None else None
+            edit = Fix(each.object_place, instead, f"write {instead}", safe=False) if instead is not None else None
             self._note("wrong-data-type", each.object_place, f"{name}: {error}", error.help, edit)
 
     def _property(self, subject: str, property_: str, found: list[tuple[Value, Statement]]) -> Iterator[Written]:
@@ -111,10 +112,12 @@ class Reader:
         for other, second in distinct[1:]:
             both = f"{show(value)} and {show(other)}"
             message = f"{self._short(subject)} has two values of {self._short(property_)}: {both}"
-            notes = (Note(place.object_place, "the other one"),)
+            notes = (Label(place.object_place, "the other one"),)
             point = _decimal(place, second)
             help_ = f"write `{point.text}`: decimals take a point" if point else "keep one of them"
-            self.problems.append(Problem(second.object_place, "functional-property", message, help_, notes, point))
+            self.problems.append(
+                Diagnostic("functional-property", second.object_place, message, help_, labels=notes, fix=point)
+            )
 
     def _is_within(self, property_: str, value: Value) -> bool:
         bounds = self._vocabulary.properties[property_].bounds
@@ -127,8 +130,8 @@ class Reader:
         place = each.subject_place
         near = suggest(subject, place, self._vocabulary, self._declared)
         message = f"{self._short(subject)} is of no class"
-        help_ = near.help if near.edit else "say what it is: `a CLASS ;`"
-        self._note("unknown-individual", place, message, help_, near.edit)
+        help_ = near.help if near.fix else "say what it is: `a CLASS ;`"
+        self._note("unknown-individual", place, message, help_, near.fix)
 
     def _unknown_predicate(self, each: Statement, subject: str) -> None:
         literal = isinstance(each.object, ox.Literal)
@@ -147,7 +150,7 @@ class Reader:
             self._vocabulary.is_a(cls, domain) for cls in self._classes.get(subject, (THING,)) for domain in domains
         )
 
-    def _unknown_individual(self, iri: str, uses: list[Statement]) -> Problem:
+    def _unknown_individual(self, iri: str, uses: list[Statement]) -> Diagnostic:
         """Tell of an individual that is not in the scene, at its first use; the others are noted."""
         first = uses[0]
         ranges = {each.range for use in uses for each in self._vocabulary.relations[use.predicate].signatures}
@@ -157,20 +160,20 @@ class Reader:
             if any(self._vocabulary.is_a(cls, range_) for cls in classes for range_ in ranges)
         ]
         near = suggest(iri, first.object_place, self._vocabulary, fitting or self._declared, fitting)
-        notes = [Note(use.object_place, "and here") for use in uses[1:]]
-        if near.edit is not None:
-            meant = next((s for one, s in self._declared.items() if self._short(one) == near.edit.text), None)
-            notes += [Note(meant.subject_place, "this one is there")] if meant is not None else []
+        notes = [Label(use.object_place, "and here") for use in uses[1:]]
+        if near.fix is not None:
+            meant = next((s for one, s in self._declared.items() if self._short(one) == near.fix.text), None)
+            notes += [Label(meant.subject_place, "this one is there")] if meant is not None else []
         message = f"there is no individual {self._short(iri)}"
-        edit = near.edit if len(uses) == 1 else None
-        return Problem(first.object_place, "unknown-individual", message, near.help, tuple(notes), edit)
+        edit = near.fix if len(uses) == 1 else None
+        return Diagnostic("unknown-individual", first.object_place, message, near.help, labels=tuple(notes), fix=edit)
 
-    def _unknown(self, kind: str, iri: str, place: Place, known: Iterable[str], fitting: Sequence[str] = ()) -> None:
+    def _unknown(self, kind: str, iri: str, place: Span, known: Iterable[str], fitting: Sequence[str] = ()) -> None:
         near = suggest(iri, place, self._vocabulary, known, fitting if len(fitting) < len(list(known)) else ())
-        self._note(f"unknown-{kind}", place, f"there is no {kind} {self._short(iri)}", near.help, near.edit)
+        self._note(f"unknown-{kind}", place, f"there is no {kind} {self._short(iri)}", near.help, near.fix)
 
-    def _note(self, name: str, place: Place, message: str, help_: str, edit: Edit | None = None) -> None:
-        self.problems.append(Problem(place, name, message, help_, edit=edit))
+    def _note(self, name: str, place: Span, message: str, help_: str, edit: Fix | None = None) -> None:
+        self.problems.append(Diagnostic(name, place, message, help_, fix=edit))
 
     def _short(self, iri: str) -> str:
         return self._vocabulary.short(iri)
@@ -183,11 +186,11 @@ def _text(node: object) -> str:
     return "something without a name" if isinstance(node, ox.BlankNode) else str(node)
 
 
-def _decimal(first: Statement, second: Statement) -> Edit | None:
+def _decimal(first: Statement, second: Statement) -> Fix | None:
     """Return the edit that makes one number of two whole ones with but a comma between them."""
     whole, digits = (each.object.value if isinstance(each.object, ox.Literal) else "" for each in (first, second))
     if first.object_at.end + 1 != second.object_at.start or not (whole.lstrip("+-").isdigit() and digits.isdigit()):
         return None
     start, end = first.object_place, second.object_place
-    place = Place(start.path, start.line, start.column, end.end_line, end.end_column)
-    return Edit(place, f"{whole}.{digits}", "write a decimal point")
+    place = Span(start.path, start.line, start.column, end.end_line, end.end_column)
+    return Fix(place, f"{whole}.{digits}", "write a decimal point", safe=False)

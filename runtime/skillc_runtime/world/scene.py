@@ -10,9 +10,10 @@ from typing import Literal
 import pyoxigraph as ox
 
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.turtle.problems import Place, Problem
 from skillc_compiler.turtle.statements import Node, Parsed, Statement
 from skillc_compiler.turtle.terms import RDF, RDF_TYPE
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Span
 from skillc_ontology.catalogue import sheet_files
 from skillc_runtime.world.breaches import breaches
 from skillc_runtime.world.documents import Document, SceneError, parse, resolved, unreadable
@@ -39,7 +40,7 @@ class Scene:
     """
 
     state: WorldState
-    problems: tuple[Problem, ...]
+    problems: tuple[Diagnostic, ...]
     said: tuple[Statement, ...]
     doubtful: frozenset[str]
 
@@ -50,7 +51,7 @@ class Scene:
 
 
 def load_scene(
-    path: Path, vocabulary: Vocabulary, warn: Callable[[Sequence[Problem]], None] = lambda problems: None
+    path: Path, vocabulary: Vocabulary, warn: Callable[[Sequence[Diagnostic]], None] = lambda problems: None
 ) -> WorldState:
     """Return the world of a scene file and of the packaged data sheets; SceneError with all that is wrong.
 
@@ -125,13 +126,13 @@ def scene_in(own: Document, vocabulary: Vocabulary) -> Scene:
     scene = scene_of([own, *sheets()], vocabulary)
     if scene.problems or any(each.lines.path == own.path for each in scene.said):
         return scene
-    place = Place(own.path, 1, 1, 1, 1)
-    nothing = Problem(place, "empty-scene", "there is nothing in this scene", "name a thing: `:x a CLASS .`")
+    place = Span(own.path, 1, 1, 1, 1)
+    nothing = Diagnostic("empty-scene", place, "there is nothing in this scene", "name a thing: `:x a CLASS .`")
     return Scene(scene.state, (nothing,), scene.said, scene.doubtful)
 
 
 def _understood(
-    said: tuple[Statement, ...], vocabulary: Vocabulary, problems: list[Problem], doubtful: frozenset[str]
+    said: tuple[Statement, ...], vocabulary: Vocabulary, problems: list[Diagnostic], doubtful: frozenset[str]
 ) -> Scene:
     reader = Reader(vocabulary, said, doubtful)
     written = list(reader.changes())
@@ -150,8 +151,8 @@ def _with_rest(scene: Scene, written: Sequence[Statement], own: frozenset[str]) 
     return replace(scene, problems=_ordered([*scene.problems, *found]))
 
 
-def _ordered(problems: Iterable[Problem]) -> tuple[Problem, ...]:
-    return tuple(sorted(dict.fromkeys(problems), key=lambda each: (each.place, each.name, each.message)))
+def _ordered(problems: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+    return tuple(sorted(dict.fromkeys(problems), key=lambda each: (each.span, each.name, each.message)))
 
 
 def _sound(scene: Scene) -> WorldState:
@@ -164,7 +165,7 @@ def _doubtful(parsed: Sequence[Parsed]) -> frozenset[str]:
     return frozenset[str]().union(*(document.doubtful for document in parsed))
 
 
-def _misused(said: Iterable[Statement], vocabulary: Vocabulary) -> Iterator[Problem]:
+def _misused(said: Iterable[Statement], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
     """Yield what is wrong with terms of OWL and RDFS, and with things that have no name."""
     for each in said:
         cls = iri_of(each.object) if each.predicate == RDF_TYPE else ""
@@ -174,10 +175,12 @@ def _misused(said: Iterable[Statement], vocabulary: Vocabulary) -> Iterator[Prob
             yield _misspelt("class", cls, each.object_place, vocabulary)
         elif isinstance(each.subject, ox.BlankNode) and cls in vocabulary.classes:
             message = f"this {vocabulary.short(cls)} has no name"
-            yield Problem(each.subject_place, "unnamed-individual", message, f"write `:NAME a {vocabulary.short(cls)}`")
+            yield Diagnostic(
+                "unnamed-individual", each.subject_place, message, f"write `:NAME a {vocabulary.short(cls)}`"
+            )
 
 
-def _unnamed(said: Sequence[Statement], vocabulary: Vocabulary) -> Iterator[Problem]:
+def _unnamed(said: Sequence[Statement], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
     """Yield a problem for each thing without a name, and of no class, that a relation or a property is said of."""
     typed = {each.subject for each in said if each.predicate == RDF_TYPE and iri_of(each.object) in vocabulary.classes}
     lists = {each.subject for each in said if each.predicate == FIRST}
@@ -187,16 +190,16 @@ def _unnamed(said: Sequence[Statement], vocabulary: Vocabulary) -> Iterator[Prob
         if relation and each.object in lists:
             message = f"{vocabulary.short(each.predicate)} leads to an individual, and this is a list"
             help_ = "name its members one after another, with a `,` between them"
-            yield Problem(each.object_place, "relation-range", message, help_)
+            yield Diagnostic("relation-range", each.object_place, message, help_)
         for node, place in ((each.subject, each.subject_place), (each.object, each.object_place)):
             said_of = relation or (each.predicate in vocabulary.properties and node is each.subject)
             if said_of and isinstance(node, ox.BlankNode) and node not in typed | lists | told:
                 told.add(node)
-                yield Problem(
-                    place, "unnamed-individual", "this has no name", "give it one, and a class: `:NAME a CLASS`"
+                yield Diagnostic(
+                    "unnamed-individual", place, "this has no name", "give it one, and a class: `:NAME a CLASS`"
                 )
 
 
-def _misspelt(kind: Literal["class", "property"], term: str, place: Place, vocabulary: Vocabulary) -> Problem:
+def _misspelt(kind: Literal["class", "property"], term: str, place: Span, vocabulary: Vocabulary) -> Diagnostic:
     near = suggest(term, place, vocabulary, standard_terms(term))
-    return Problem(place, f"unknown-{kind}", f"there is no {kind} {vocabulary.short(term)}", near.help, edit=near.edit)
+    return Diagnostic(f"unknown-{kind}", place, f"there is no {kind} {vocabulary.short(term)}", near.help, fix=near.fix)

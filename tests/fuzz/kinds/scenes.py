@@ -77,8 +77,8 @@ def _check_problems(scene: Scene, text: str) -> None:
     last = text.count("\n") + 2
     for each in scene.problems:
         assert each.name and each.message and each.message.strip() == each.message, each
-        assert each.place.path != "scene.ttl" or 1 <= each.place.line <= each.place.end_line <= last, each
-        assert each.place.column >= 1 and each.place.end_column >= 1, each
+        assert each.span.path != "scene.ttl" or 1 <= each.span.line <= each.span.end_line <= last, each
+        assert each.span.column >= 1 and each.span.end_column >= 1, each
 
 
 def _check_statements(scene: Scene, document: Document, vocabulary: Vocabulary) -> None:

@@ -1,1 +1,1 @@
-"""The language server: the protocol around `skillc_compiler.assist`, and the libraries that are being edited."""
+"""The language server: the protocol around `skillc_compiler.ide`, and the libraries that are being edited."""

@@ -10,7 +10,7 @@ from urllib.parse import quote, urlsplit
 
 from pygls.uris import from_fs_path, to_fs_path
 
-from skillc_compiler.assist.analysis import Analysis, Library, analyse
+from skillc_compiler.ide.analysis import Analysis, Library, analyse
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.encoding import normalise_text
 from skillc_dsl.parsing import parser

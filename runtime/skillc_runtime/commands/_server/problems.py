@@ -8,7 +8,7 @@ from pathlib import Path
 from lsprotocol import types
 from pygls.uris import from_fs_path
 
-from skillc_compiler.assist.analysis import Analysis
+from skillc_compiler.ide.analysis import Analysis
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 from skillc_runtime.commands._server import scenes

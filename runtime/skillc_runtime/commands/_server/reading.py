@@ -6,11 +6,11 @@ from collections.abc import Iterable, Iterator
 
 from lsprotocol import types
 
-from skillc_compiler.assist import highlighting, outline, places
-from skillc_compiler.assist.calls import signature
-from skillc_compiler.assist.hover import hover
-from skillc_compiler.assist.outline import Entry
-from skillc_compiler.assist.symbols import ImplementationSymbol, SkillSymbol
+from skillc_compiler.ide import highlighting, outline, places
+from skillc_compiler.ide.calls import signature
+from skillc_compiler.ide.hover import hover
+from skillc_compiler.ide.outline import Entry
+from skillc_compiler.ide.symbols import ImplementationSymbol, SkillSymbol
 from skillc_dsl.source import Source, Span
 from skillc_runtime.commands._server.files import Root
 from skillc_runtime.commands._server.positions import Lines, units

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from skillc_compiler.allowances import without_allowed
-from skillc_compiler.assist.analysis import Analysis
+from skillc_compiler.diagnostics.suppressions import without_suppressed
+from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.program import Program
+from skillc_compiler.program.typed import Program
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_ontology import catalogue
@@ -65,7 +65,7 @@ def problems(populated: Populated, analysis: Analysis) -> tuple[Diagnostic, ...]
     """Return what is wrong with scenes that do not ship, what keeps tasks from being done, what texts name nothing."""
     found = () if populated.scenes is None else _around(populated.scenes, analysis)
     unknown = _named_texts.warned(analysis.compiled, analysis.program, populated.scenes, found, str)
-    left = without_allowed((*found, *unknown), analysis.library.sources.values())
+    left = without_suppressed((*found, *unknown), analysis.library.sources.values())
     return tuple(each for each in left if not _is_shipped(each.span.path))
 
 

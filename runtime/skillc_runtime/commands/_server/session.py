@@ -12,7 +12,7 @@ from typing import Protocol
 from lsprotocol import types
 from pygls.lsp.server import LanguageServer
 
-from skillc_compiler.assist.analysis import Analysis
+from skillc_compiler.ide.analysis import Analysis
 from skillc_runtime.commands import _crashes
 from skillc_runtime.commands._server import problems
 from skillc_runtime.commands._server.files import Root

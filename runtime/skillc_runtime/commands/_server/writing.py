@@ -8,11 +8,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from lsprotocol import types
 from pygls.exceptions import JsonRpcInvalidParams
 
-from skillc_compiler.assist.completion import complete
-from skillc_compiler.assist.imports import import_of
-from skillc_compiler.assist.offers import Offer
-from skillc_compiler.assist.rename import Refused, renamable
-from skillc_compiler.assist.rename import rename as renamed
+from skillc_compiler.ide.completion import complete
+from skillc_compiler.ide.imports import import_of
+from skillc_compiler.ide.offers import Offer
+from skillc_compiler.ide.rename import Refused, renamable
+from skillc_compiler.ide.rename import rename as renamed
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.edits import drop_overlapping
 from skillc_dsl.source import Source, Span

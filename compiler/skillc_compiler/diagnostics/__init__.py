@@ -1,0 +1,4 @@
+"""Which diagnostics an author sees: consequences of other mistakes left out, suppression comments applied.
+
+Start with `suppressions` for the comments of an author, and with `consequences` for what is left out.
+"""

@@ -1,0 +1,140 @@
+"""Calls of skills: a skill that must look up, test or choose anything is a tree, any other a single action."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from xml.etree.ElementTree import Element
+
+from skillc_compiler.emit.bt.body import Bound, Writer, after, holding, leaf, pointer, sequence
+from skillc_compiler.emit.bt.model import Kind, Port
+from skillc_compiler.emit.bt.names import port
+from skillc_compiler.emit.bt.ports import (
+    action_ports,
+    called,
+    default_text,
+    defaults,
+    passed_on,
+    port_type,
+    tree_ports,
+    whole_ports,
+)
+from skillc_compiler.library.closure import reachable
+from skillc_compiler.library.reading import calls_in
+from skillc_compiler.library.skills import Compound, Implementation, Parameter, Skill, SkillLibrary
+from skillc_compiler.library.tree import Call, Node
+from skillc_compiler.library.vocabulary import Position
+
+
+def is_tree(library: SkillLibrary, skill: Skill) -> bool:
+    """Whether a skill is a tree; else it is a single action."""
+    implementations = library.implementations_of(skill.name)
+    inferred = any(each.direction == "infer" for each in skill.parameters)
+    return inferred or len(implementations) > 1 or any(_demands(each, skill) for each in implementations)
+
+
+def _demands(implementation: Implementation, skill: Skill) -> bool:
+    """Whether there is more to it than to run a primitive, which writes its posts itself."""
+    described = {each.name: each.type for each in skill.parameters}
+    narrower = any(described.get(each.name, each.type) != each.type for each in implementation.parameters)
+    sensed = any(post.sensed for post in implementation.post)
+    tested = narrower or sensed or bool(implementation.pre or implementation.hold)
+    return tested or isinstance(implementation.body, Compound)
+
+
+def may_break_hold(library: SkillLibrary, node: Node) -> bool:
+    """Whether a skill below the node has a hold condition."""
+    names = reached([each.skill for each in calls_in(node)], library)
+    return any(each.hold for name in names for each in library.implementations_of(name))
+
+
+def reached(start: Sequence[str], library: SkillLibrary) -> set[str]:
+    """Return these skills and all that they call, directly or not."""
+
+    def called(name: str) -> Iterator[str]:
+        bodies = (each.body for each in library.implementations_of(name))
+        nodes = (body.node for body in bodies if isinstance(body, Compound))
+        return (each.skill for node in nodes for each in calls_in(node))
+
+    return reachable(start, called)
+
+
+def call(writer: Writer, written: Call) -> Element:
+    """Return the call of a skill, after the expressions among its arguments."""
+    skill = writer.library.skills[written.skill]
+    before, attributes = _arguments(writer, written, skill)
+    outputs, converted = _outputs(writer, written, skill)
+    attributes |= outputs
+    if not is_tree(writer.library, skill):
+        ports = action_ports(skill.parameters)
+        single = node(writer, "Action", (skill.name,), ports, skill.doc, attributes, written.source)
+        return sequence([*before, single, *converted])
+    path: tuple[str, ...] = (skill.name,)
+    described = skill.parameters
+    if written.implementation is not None:
+        path = (skill.name, "", "only", written.implementation)
+        described = writer.library.implementations[f"{skill.name}.{written.implementation}"].parameters
+    attributes = {**defaults(described), **attributes}
+    ports = tree_ports(described)
+    tree = node(writer, "SubTree", path, ports, skill.doc, attributes, written.source)
+    return sequence([*before, tree, *converted])
+
+
+def run(writer: Writer, implementation: Implementation) -> Element:
+    """Return the node that runs an implementation of the skill whose tree this is, on the entries of that tree."""
+    kind: Kind = "SubTree" if isinstance(implementation.body, Compound) else "Action"
+    path, ports = (implementation.skill, implementation.name), action_ports(implementation.parameters)
+    attributes = passed_on(implementation.parameters)
+    return node(writer, kind, path, ports, implementation.doc, attributes, implementation.source)
+
+
+def scoped(writer: Writer, written: Call, child: Callable[[], Element]) -> Element:
+    """Return the child in a decorator that sets a skill up before it and undoes it however the child ends."""
+    skill = writer.library.skills[written.skill]
+    before, attributes = _arguments(writer, written, skill)
+    outputs, converted = _outputs(writer, written, skill)
+    ports = whole_ports(skill.parameters)
+    path = ("", "With", skill.name)
+    around = node(writer, "Decorator", path, ports, skill.doc, attributes | outputs, written.source)
+    return after(before, holding(around, after(converted, child())))
+
+
+def node(
+    writer: Writer,
+    kind: Kind,
+    path: tuple[str, ...],
+    ports: Sequence[Port],
+    doc: str,
+    attributes: Mapping[str, str],
+    source: Position,
+) -> Element:
+    """Return a node that stands for a skill or an implementation, declared."""
+    identity = writer.names.of(*path)
+    writer.model.declare(kind, identity, path, ports, doc)
+    if kind == "SubTree":
+        return leaf("SubTree", {"ID": identity, **attributes}, source)
+    return leaf(identity, attributes, source)
+
+
+def _arguments(writer: Writer, written: Call, skill: Skill) -> tuple[list[Element], dict[str, str]]:
+    """Return the nodes that compute arguments, and the attributes of the call; a default no port can have is passed."""
+    before: list[Element] = []
+    attributes: dict[str, str] = {}
+    parameters: dict[str, Parameter] = {each.name: each for each in skill.parameters}
+    odd = {p.name: p.default for p in skill.parameters if p.default is not None and default_text(p) is None}
+    for name, expression in {**odd, **written.arguments}.items():
+        parameter = parameters[name]
+        attributes[called(parameter)] = writer.value(name, expression, before, port_type(parameter.type))
+    return before, attributes
+
+
+def _outputs(writer: Writer, written: Call, skill: Skill) -> tuple[dict[str, str], list[Element]]:
+    """Return where outputs go, and the nodes that convert them; those that the call does not name, nobody reads."""
+    outputs = [each for each in skill.parameters if each.direction == "out"]
+    if written.out is None or len(outputs) != 1:
+        return {port(each.name): pointer(writer.entry(each.name)) for each in outputs}, []
+    (output,) = outputs
+    kind, target = port_type(output.type), writer.bind(written.out, output.type)
+    if None in (kind, target.type) or kind == target.type:
+        return {port(output.name): pointer(target.entry)}, []
+    found = Bound(writer.entry(written.out), kind)
+    return {port(output.name): pointer(found.entry)}, [writer.converted(written.out, found, target)]

@@ -1,0 +1,203 @@
+"""The nodes of an implementation's body as nodes of BehaviorTree.CPP.
+
+What that cannot say with its own nodes is declared under a name of its own: OWNER_evaluate_ENTRY (an expression of the
+language), With_SKILL (what is undone when the child ends), ForEach, and Try and Invert where the child may break a
+hold, which neither may hide. In a race that two children end in one tick the first of them decides, not a failure.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence as Several
+from dataclasses import dataclass
+from functools import partial
+from typing import assert_never
+from xml.etree.ElementTree import Element
+
+from skillc_compiler.emit.bt.body import Writer, after, holding, pointer, sequence
+from skillc_compiler.emit.bt.calls import call, may_break_hold, scoped
+from skillc_compiler.emit.bt.model import Port
+from skillc_compiler.emit.bt.patterns import count_text, forget, kept, lead, once, sequence_of, until, while_
+from skillc_compiler.library.conditions import Arithmetic, Expression, Literal
+from skillc_compiler.library.reading import calls_in, free_variables_in_order, walk
+from skillc_compiler.library.skills import Post
+from skillc_compiler.library.tree import (
+    Apply,
+    Call,
+    Check,
+    ForEach,
+    If,
+    Invert,
+    Node,
+    Once,
+    Parallel,
+    Repeat,
+    Retry,
+    Selector,
+    Sequence,
+    Timeout,
+    Try,
+    Wait,
+    WaitUntil,
+    While,
+    With,
+)
+
+COUNTS = {"all": ("-1", "1"), "any": ("1", "-1"), "race": ("1", "1")}
+MAX_MILLISECONDS = 2**32 - 1
+"""The longest time of Sleep and Timeout, about 49 days."""
+HIDING = {
+    "Try": ("ForceSuccess", "Turns a failure of its child into success, but not that of a broken hold condition."),
+    "Invert": (
+        "Inverter",
+        "Exchanges success and failure of its child, but not the failure of a broken hold condition.",
+    ),
+}
+
+
+@dataclass
+class Body(Writer):
+    """Makes the nodes of one tree."""
+
+    def node(self, node: Node) -> Element:
+        """Return the node with everything below it."""
+        match node:
+            case Sequence(reactive=True):
+                return self._reactive(node)
+            case Sequence(children=children):
+                return self._control("Sequence", [self.node(each) for each in children], node)
+            case Selector(children=children, reactive=reactive):
+                return self._control("ReactiveFallback" if reactive else "Fallback", self._apart(children), node)
+            case Parallel():
+                return self._parallel(node)
+            case Retry(count=count, child=child):
+                return holding(Element("RetryUntilSuccessful", num_attempts=count_text(count)), self.node(child))
+            case Repeat(count=count, child=child):
+                return holding(Element("Repeat", num_cycles=count_text(count)), self.node(child))
+            case Timeout(seconds=seconds, child=child):
+                return self._timed("Timeout", seconds, 1, self.node(child))
+            case Wait(seconds=seconds):
+                return self._timed("Sleep", seconds, 0)
+            case Try(child=child):
+                return self._hiding("Try", child)
+            case Invert(child=child):
+                return self._hiding("Invert", child)
+            case Once(child=child):
+                return self._once(child)
+            case _:
+                return self._deciding(node)
+
+    def _deciding(self, node: WaitUntil | If | While | ForEach | Check | Apply | Call | With) -> Element:
+        match node:
+            case WaitUntil(condition=condition, text=text, source=source):
+                return until(self.test("until", condition, text, source))
+            case If(condition=condition, text=text, source=source):
+                test = self.test("if", condition, text, source)
+                branches = self._apart([each for each in (node.then, node.orelse) if each])
+                otherwise = [] if node.orelse else [Element("AlwaysSuccess")]
+                return holding(Element("IfThenElse"), test, *branches, *otherwise)
+            case While(child=child, limit=limit, source=source):
+                test = self.test("while", node.condition, node.text, source)
+                return while_(test, self.node(child), limit, self.entry("done"), self.entry("rounds"))
+            case ForEach():
+                return self._for_each(node)
+            case Check(condition=condition, text=text, source=source):
+                return self.test("check", condition, text, source)
+            case Apply(labels=labels):
+                return sequence([self._apply(post) for label in labels for post in self.posts if post.label == label])
+            case Call():
+                return call(self, node)
+            case With(call=set_up, child=child):
+                return scoped(self, set_up, partial(self.node, child))
+            case _:
+                assert_never(node)
+
+    def _control(self, tag: str, children: Several[Element], node: Sequence | Selector) -> Element:
+        return holding(Element(tag, _description=str(node.source)), *children)
+
+    def _apart(self, nodes: Several[Node]) -> list[Element]:
+        return self.apart([partial(self.node, each) for each in nodes])
+
+    def _parallel(self, node: Parallel) -> Element:
+        children = self._apart(node.children)
+        if node.policy == "lead":
+            parallel = lead(children[0], children[1:])
+        else:
+            success, failure = COUNTS[node.policy]
+            parallel = holding(Element("Parallel", success_count=success, failure_count=failure), *children)
+        parallel.set("_description", str(node.source))
+        return parallel
+
+    def _reactive(self, node: Sequence) -> Element:
+        """Return the sequence; a child that worked, but for tests, is kept while what it relied on still holds."""
+        entries: list[str] = []
+        reactive = Element("ReactiveSequence", _description=str(node.source))
+        for child in node.children:
+            if isinstance(child, Check | WaitUntil):
+                reactive.append(self.node(child))
+                continue
+            entries.append(self.entry("done"))
+            reactive.append(kept(self.node(child), self._still(child), entries[-1]))
+        return sequence_of(Element("Script", code=forget(entries)), reactive) if entries else reactive
+
+    def _still(self, child: Node) -> list[Element]:
+        """Return the test whether what the child established and found still holds; none if that is nothing."""
+        calls = list(calls_in(child))
+        tested = [each for each in walk(child) if isinstance(each, Check | WaitUntil | If | While)]
+        relied = [f"{each.skill}: {post.text}" for each in calls for post in self.library.skills[each.skill].post]
+        relied += [each.text for each in tested]
+        if not relied:
+            return []
+        arguments = [value for each in calls for value in each.arguments.values()]
+        read = (*arguments, *(each.condition for each in tested))
+        variables = list(dict.fromkeys(name for each in read for name in free_variables_in_order(each)))
+        path = (*self.owner, f"still{self.number('still')}")
+        return [self.reading("Condition", path, variables, f"Still: {'; '.join(relied)}", child.source)]
+
+    def _once(self, child: Node) -> Element:
+        entry = self.entry("once")
+        self.start.append(forget([entry]))
+        return once(self.node(child), entry)
+
+    def _hiding(self, word: str, child: Node) -> Element:
+        tag, doc = HIDING[word]
+        if may_break_hold(self.library, child):
+            tag = self.names.of("", word)
+            self.model.declare("Decorator", tag, ("", word), (), doc)
+        return holding(Element(tag), self.node(child))
+
+    def _timed(self, tag: str, seconds: Expression, least: int, child: Element | None = None) -> Element:
+        """Return a node that takes milliseconds, at least so many: a timeout of 0 would never come."""
+        before: list[Element] = []
+        if isinstance(seconds, Literal) and isinstance(seconds.value, int | float):
+            milliseconds = str(min(max(least, round(seconds.value * 1000)), MAX_MILLISECONDS))
+        else:
+            product = Arithmetic("*", seconds, Literal(1000.0))
+            milliseconds = self.value("milliseconds", product, before, "unsigned int")
+        timed = Element(tag, msec=milliseconds)
+        return after(before, timed if child is None else holding(timed, child))
+
+    def _for_each(self, node: ForEach) -> Element:
+        before: list[Element] = []
+        items = self.value("items", node.items, before)
+        identity = self.names.of("", "ForEach")
+        ports = (Port("items"), Port("item", "output"))
+        self.model.declare(
+            "Decorator", identity, ("", "ForEach"), ports, "Runs its child once for every item, in order."
+        )
+        around, item = self.bound, self.bind(node.variable, None)
+        attributes = {"items": items, "item": pointer(item.entry), "_description": str(node.source)}
+        child = self.node(node.child)
+        self.bound = {name: each for name, each in self.bound.items() if name != node.variable or name in around}
+        return after(before, holding(Element(identity, attributes), child))
+
+    def _apply(self, post: Post) -> Element:
+        path = (*self.owner, "apply", post.label)
+        return self.reading(
+            "Action", path, free_variables_in_order(post.condition), f"Writes: {post.text}", post.source
+        )
+
+
+def started(body: Body, steps: list[Element]) -> Element:
+    """Return the steps in order, after the scripts that they need at the start."""
+    scripts = [Element("Script", code="; ".join(body.start))] if body.start else []
+    return sequence([*scripts, *steps])

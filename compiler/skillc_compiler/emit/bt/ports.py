@@ -1,0 +1,144 @@
+"""The ports of skills, and what is written for them in a call.
+
+BehaviorTree.CPP refuses a call of a tree that does not map each port of its model that has no default. So a tree
+declares what every caller passes or takes, and what has a default; the rest may be mapped, but need not be.
+
+A constant that is passed to a tree becomes an entry of the blackboard. Since version 4.9 the type of that entry is
+guessed from the text: `12` is an int, `12.0`, `1e3` and `nan` are a double. The port that reads it must be of the same
+type, so numbers are written as their type is, and text that looks like a number is not written as a constant.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import assert_never
+
+from skillc_compiler.emit.bt.model import Direction, Port
+from skillc_compiler.emit.bt.names import NOT_IN_XML, given, port
+from skillc_compiler.library.conditions import Expression, Individual, Literal
+from skillc_compiler.library.rewriting import constant_number
+from skillc_compiler.library.skills import Parameter
+from skillc_compiler.library.vocabulary import (
+    ClassType,
+    DirectionType,
+    ListType,
+    NumberType,
+    PlainType,
+    ValueType,
+    VectorType,
+)
+
+PLAIN = {"Bool": "bool", "Int": "int", "Text": "std::string", "Pose": None}
+TAKEN_OTHERWISE = re.compile(
+    r"|=| *\{.*|json:.*"  # no value, an entry, JSON
+    r"|-?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?|-?inf(inity)?|-?nan(\(\w*\))?",  # a number
+    re.IGNORECASE | re.ASCII | re.DOTALL,
+)
+"""Text that is not read as it is written."""
+INT_MIN, INT_MAX = -(2**31), 2**31 - 1
+
+
+def action_ports(parameters: Sequence[Parameter]) -> tuple[Port, ...]:
+    """Return the ports of a single action on values that are there already."""
+    return tuple(_port(each) for each in parameters)
+
+
+def whole_ports(parameters: Sequence[Parameter]) -> tuple[Port, ...]:
+    """Return the ports of a node that stands for a whole skill and infers what it is not given."""
+    return tuple(_given(each) if each.direction == "infer" else _port(each) for each in parameters)
+
+
+def inferring_ports(parameters: Sequence[Parameter]) -> tuple[Port, ...]:
+    """Return the ports of an action that finds the inferred parameters, except those that are given."""
+    inferred = [each for each in parameters if each.direction == "infer"]
+    return (*whole_ports(parameters), *(_port(each, "output") for each in inferred))
+
+
+def tree_ports(parameters: Sequence[Parameter]) -> tuple[Port, ...]:
+    """Return the ports of a skill that is a tree: what is required, what has a default, and the outputs."""
+    return tuple(_port(each) for each in parameters if each.direction in ("in", "out") or default_text(each))
+
+
+def called(parameter: Parameter) -> str:
+    """Return the port through which a caller passes a parameter."""
+    return given(parameter.name) if parameter.direction == "infer" else port(parameter.name)
+
+
+def defaults(parameters: Sequence[Parameter]) -> dict[str, str]:
+    """Return the attributes that give every parameter with a default its default."""
+    texts = ((port(each.name), default_text(each)) for each in parameters)
+    return {name: text for name, text in texts if text}
+
+
+def passed_on(parameters: Sequence[Parameter]) -> dict[str, str]:
+    """Return the attributes that map each parameter to the entry of its name."""
+    return {port(each.name): f"{{{port(each.name)}}}" for each in parameters}
+
+
+def default_text(parameter: Parameter) -> str | None:
+    """Return the default as a port has it, None without one or if no port can have it."""
+    match parameter.default:
+        case None:
+            return None
+        case Literal() | Individual() as value:
+            return plain_value(value, port_type(parameter.type))
+        case computed:
+            number = constant_number(computed)
+            return None if number is None else plain_value(Literal(number), port_type(parameter.type))
+
+
+def plain_value(expression: Expression, type_: str | None) -> str | None:
+    """Return what a port of a C++ type is given for a constant or an individual; None for what must be computed."""
+    match expression:
+        case Literal(value=value):
+            return constant_text(value, type_)
+        case Individual(iri=iri):
+            return iri
+        case _:
+            return None
+
+
+def constant_text(value: bool | int | float | str, type_: str | None) -> str | None:
+    """Return a constant as every version of the library reads it with this type, None if no text is read so."""
+    match value:
+        case bool():
+            return "true" if value else "false"
+        case str():
+            return None if TAKEN_OTHERWISE.fullmatch(value) or NOT_IN_XML.search(value) else value
+        case int() | float() if type_ == "int":
+            return str(int(value)) if INT_MIN <= value <= INT_MAX else None
+        case int() | float():
+            return repr(float(value))
+        case _:
+            assert_never(value)
+
+
+def port_type(type_: ValueType) -> str | None:
+    """Return the C++ type of values in SI units and of names; None for poses, vectors and lists."""
+    match type_:
+        case NumberType():
+            return "double"
+        case PlainType(name=name):
+            return PLAIN[name]
+        case ClassType():
+            return "std::string"
+        case VectorType() | DirectionType() | ListType():
+            return None
+        case _:
+            assert_never(type_)
+
+
+def _given(parameter: Parameter) -> Port:
+    return Port(given(parameter.name), "input", port_type(parameter.type), None, parameter.doc, parameter.name)
+
+
+def _port(parameter: Parameter, direction: Direction | None = None) -> Port:
+    return Port(
+        port(parameter.name),
+        direction or ("output" if parameter.direction == "out" else "input"),
+        port_type(parameter.type),
+        default_text(parameter),
+        parameter.doc,
+        parameter.name,
+    )

@@ -1,0 +1,144 @@
+"""What the page of a skill shows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from markupsafe import Markup
+
+from skillc_compiler.emit.docs import prose
+from skillc_compiler.emit.docs.linking import Links
+from skillc_compiler.emit.docs.listing import excerpt
+from skillc_compiler.emit.docs.mentions import called, mentioned
+from skillc_compiler.emit.docs.reasons import reasons
+from skillc_compiler.emit.docs.written import Written
+from skillc_compiler.emit.picture import svg
+from skillc_compiler.emit.picture.drawing import implementation_box
+from skillc_compiler.library.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
+from skillc_compiler.library.vocabulary import local_name
+from skillc_dsl import syntax as s
+
+COLUMNS = ("name", "kind", "type", "default", "range", "what it is")
+Row: TypeAlias = tuple[str, Markup, str, Markup]
+"""A condition: label, text, remark, place."""
+KINDS = {"in": "required", "opt": "optional", "infer": "inferred", "out": "output"}
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """An implementation: its name, documentation, place in the order, picture, text and what it calls."""
+
+    name: str
+    doc: Markup
+    why: Markup
+    place: Markup
+    python: str
+    picture: Markup
+    text: Markup
+    calls: tuple[Markup, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SkillPage:
+    """A skill; `columns` heads the cells of each row of `parameters`."""
+
+    name: str
+    doc: Markup
+    place: Markup
+    traits: tuple[Markup, ...]
+    columns: tuple[str, ...]
+    parameters: tuple[tuple[Markup, ...], ...]
+    conditions: tuple[tuple[str, tuple[Row, ...]], ...]
+    ways: tuple[Way, ...]
+    callers: tuple[Markup, ...]
+    terms: tuple[Markup, ...]
+
+
+def skill_page(skill: Skill, library: SkillLibrary, written: Written, links: Links) -> SkillPage:
+    """Return what is shown of a skill."""
+    declared = written.skills[skill.name]
+    ranked = library.implementations_of(skill.name)
+    why = reasons(ranked, library.vocabulary)
+    terms = frozenset[str]().union(*map(mentioned, (skill, *ranked)))
+    return SkillPage(
+        skill.name,
+        prose.block(skill.doc),
+        links.source(skill.source),
+        tuple(_traits(skill, declared, written)),
+        *_parameters(skill, declared, written, links),
+        _conditions(skill, links),
+        tuple(_way(each, reason, written, links) for each, reason in zip(ranked, why, strict=True)),
+        tuple(links.skill(name) for name in _callers(skill.name, library)),
+        tuple(links.term(name) for name in sorted(terms, key=lambda name: (local_name(name).lower(), name))),
+    )
+
+
+def _traits(skill: Skill, declared: s.SkillDeclaration, written: Written) -> list[Markup]:
+    durations = (each for each in declared.members if isinstance(each, s.Duration))
+    said = [
+        *(f"takes `{written.words(each.value.span)}`" for each in durations),
+        *(f"locks `{name}`" for name in skill.uses),
+        *(f"adds to the motion of `{name}`" for name in skill.shares),
+        *(["for use in `with`: what it sets up is undone at the end"] if skill.scoped else []),
+        *([] if skill.planned else ["not used in planning"]),
+        *(["another implementation takes over when one fails"] if skill.fallback else []),
+    ]
+    return [prose.line(each) for each in said]
+
+
+def _parameters(
+    skill: Skill, declared: s.SkillDeclaration, written: Written, links: Links
+) -> tuple[tuple[str, ...], tuple[tuple[Markup, ...], ...]]:
+    """Return the heads of the columns in which some parameter has something, and the cells of each row."""
+    as_written = {each.name.text: each for each in declared.members if isinstance(each, s.Parameter)}
+    rows = [_parameter(each, as_written[each.name], written, links) for each in skill.parameters]
+    filled = [index for index in range(len(COLUMNS)) if any(row[index] for row in rows)]
+    return tuple(COLUMNS[index] for index in filled), tuple(tuple(row[index] for index in filled) for row in rows)
+
+
+def _parameter(parameter: Parameter, declared: s.Parameter, written: Written, links: Links) -> tuple[Markup, ...]:
+    """Return the cells of all columns."""
+    default = written.words(declared.default.span) if declared.default else ""
+    bounds = declared.range
+    range_ = f"{written.words(bounds.low.span)} .. {written.words(bounds.high.span)}" if bounds else ""
+    kind = KINDS[parameter.direction] + (", any of several" if parameter.any_ else "")
+    return (
+        Markup("<code>{}</code>").format(parameter.name),
+        Markup.escape(kind),
+        links.type(parameter.type),
+        links.code(default, ()) if default else Markup(""),
+        links.code(range_, ()) if range_ else Markup(""),
+        prose.line(parameter.doc),
+    )
+
+
+def _conditions(skill: Skill, links: Links) -> tuple[tuple[str, tuple[Row, ...]], ...]:
+    after = tuple(_condition(post, "measured" if post.sensed else "", links) for post in skill.post)
+    before, during = (tuple(_condition(each, "", links) for each in kind) for kind in (skill.pre, skill.hold))
+    groups = (("Must hold when it starts", before), ("Must hold while it runs", during), ("Holds afterwards", after))
+    return tuple(group for group in groups if group[1])
+
+
+def _condition(condition: Requirement | Post, remark: str, links: Links) -> Row:
+    return (condition.label, links.code(condition.text, mentioned(condition)), remark, links.line(condition.source))
+
+
+def _way(implementation: Implementation, reason: str, written: Written, links: Links) -> Way:
+    declared = written.implementations[f"{implementation.skill}.{implementation.name}"]
+    source, body = written.source(declared.span), implementation.body
+    return Way(
+        implementation.name,
+        prose.block(implementation.doc),
+        prose.line(reason),
+        links.source(implementation.source),
+        body.python if isinstance(body, Primitive) else "",
+        Markup(svg.draw(implementation_box(declared, source), links.page)),
+        excerpt(source, declared.span.line, declared.span.end_line),
+        tuple(links.skill(name) for name in called(implementation)),
+    )
+
+
+def _callers(name: str, library: SkillLibrary) -> list[str]:
+    """Return the skills with an implementation that calls this one."""
+    return sorted({each.skill for each in library.implementations.values() if name in called(each)})

@@ -1,0 +1,44 @@
+"""What was written of each skill, implementation and task, by name and with its text."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from skillc_compiler.program.typed import ReadFile
+from skillc_dsl import syntax as s
+from skillc_dsl.parsing.building.places import TreeBuilder
+from skillc_dsl.source import Source, Span
+
+
+@dataclass(frozen=True, slots=True)
+class Written:
+    """The declarations of a library's files; implementations are keyed `Skill.name`."""
+
+    sources: Mapping[str, Source]
+    skills: Mapping[str, s.SkillDeclaration]
+    implementations: Mapping[str, s.ImplementationDeclaration]
+    tasks: Mapping[str, s.TaskDeclaration]
+
+    def source(self, span: Span) -> Source:
+        """Return the file in which something stands."""
+        return self.sources[span.path]
+
+    def words(self, span: Span) -> str:
+        """Return what stands there, on one line."""
+        return TreeBuilder(self.source(span)).written(span)
+
+
+def written(files: Sequence[ReadFile]) -> Written:
+    """Return what the files declare."""
+    declared = [each for unit in files for each in unit.file.declarations]
+    return Written(
+        {unit.file.path: Source(unit.file.path, unit.text) for unit in files},
+        {each.name.text: each for each in declared if isinstance(each, s.SkillDeclaration)},
+        {
+            f"{each.skill.text}.{each.name.text}": each
+            for each in declared
+            if isinstance(each, s.ImplementationDeclaration)
+        },
+        {each.name.text: each for each in declared if isinstance(each, s.TaskDeclaration)},
+    )

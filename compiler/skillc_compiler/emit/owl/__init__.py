@@ -1,0 +1,43 @@
+"""skills.ttl: the library as OWL.
+
+A description is a class of capabilities and, under the same name, an individual with its parameters and conditions. An
+implementation is a defined class of invocations, so that a reasoner orders implementations by how specific they are and
+finds those that fit an invocation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.emit.owl.skills import description, implementation
+from skillc_compiler.emit.owl.terms import used_terms
+from skillc_compiler.emit.owl.turtle import RDF_TYPE, Iri, Object, turtle
+from skillc_compiler.emit.owl.words import OWL, PREFIXES, RDFS, SKILLC, library_base
+from skillc_compiler.library.skills import SkillLibrary
+
+REPEATED = (
+    "Terms of other vocabularies are repeated here as far as these skills need them, so that this file can be read by "
+    "itself; what else is said of them stands where their namespaces are published."
+)
+
+
+def emit(library: SkillLibrary) -> dict[str, str]:
+    """Return the ontology of the library's skills."""
+    base = library_base(library)
+    ours = {**PREFIXES, "": base}
+    theirs = {prefix: iri for prefix, iri in library.vocabulary.prefixes.items() if iri not in ours.values()}
+    prefixes = {**theirs, **ours}
+    return {"skills.ttl": turtle(prefixes, _statements(library))}
+
+
+def _statements(library: SkillLibrary) -> Iterator[tuple[str, str, Object]]:
+    ontology = library_base(library).removesuffix("#")
+    yield ontology, RDF_TYPE, Iri(f"{OWL}Ontology")
+    yield ontology, f"{RDFS}label", library.name
+    yield ontology, f"{RDFS}comment", REPEATED
+    yield ontology, f"{SKILLC}sha256", library.hash
+    for skill in library.skills.values():
+        yield from description(skill, library)
+        for each in library.implementations_of(skill.name):
+            yield from implementation(each, skill, library)
+    yield from used_terms(library)

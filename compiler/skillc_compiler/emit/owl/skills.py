@@ -1,0 +1,178 @@
+"""Descriptions and implementations as OWL statements."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Literal as OneOf
+
+from skillc_compiler.emit.owl.turtle import RDF_TYPE, Anonymous, Iri, Listed, Object
+from skillc_compiler.emit.owl.values import type_statements, value
+from skillc_compiler.emit.owl.words import (
+    ARGUMENT,
+    CAPABILITY,
+    CSS,
+    INVOCATION,
+    INVOKES,
+    OWL,
+    RDFS,
+    SKILLC,
+    SKIROS,
+    library_base,
+)
+from skillc_compiler.library.conditions import (
+    Compare,
+    Condition,
+    HasProperty,
+    Holds,
+    IsA,
+    Literal,
+    Not,
+    PropertyOf,
+    Same,
+    Term,
+    Variable,
+)
+from skillc_compiler.library.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
+from skillc_compiler.library.vocabulary import ClassType, NumberType, Position
+from skillc_compiler.library.words import SI_UNITS
+
+Statement = tuple[str, str, Object]
+BOUND = ("in", "infer")
+"""Parameters that every invocation binds."""
+KINDS = {"pre": "PreCondition", "hold": "HoldCondition", "post": "PostCondition"}
+
+
+def description(skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
+    """Yield a description: a class of capabilities, and an individual that has parameters and conditions."""
+    iri = f"{library_base(library)}{skill.name}"
+    yield iri, RDF_TYPE, Iri(f"{OWL}Class")
+    yield iri, RDF_TYPE, Iri(f"{SKIROS}Skill")
+    yield iri, f"{RDFS}subClassOf", Iri(CAPABILITY)
+    yield from _named(iri, skill.name, skill.doc, skill.source)
+    if skill.duration:
+        yield iri, f"{SKILLC}duration", value(skill.duration, NumberType("Time"), library.vocabulary)
+        yield iri, f"{SKILLC}durationUnit", SI_UNITS["Time"]
+    for parameter in skill.parameters:
+        yield from _parameter(iri, parameter, library)
+    for kind, listed in (("pre", skill.pre), ("hold", skill.hold), ("post", skill.post)):
+        for each in listed:
+            yield from _condition(iri, kind, each, skill, library)
+
+
+def implementation(each: Implementation, skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
+    """Yield an implementation: the class of those invocations whose arguments are of its refined types."""
+    base = f"{library_base(library)}{skill.name}"
+    iri = f"{base}.{each.name}"
+    yield iri, RDF_TYPE, Iri(f"{OWL}Class")
+    yield iri, f"{OWL}equivalentClass", _invocations(base, each.parameters)
+    yield from _named(iri, f"{skill.name}[{each.name}]", each.doc, each.source)
+    yield iri, f"{SKILLC}implements", Iri(base)
+    yield iri, f"{SKILLC}rank", skill.implementations.index(each.name) + 1
+    if each.prefer:
+        yield iri, f"{SKILLC}preference", float(each.prefer)
+    if isinstance(each.body, Primitive):
+        yield iri, f"{SKILLC}python", each.body.python
+    for kind, own, described in (("pre", each.pre, skill.pre), ("hold", each.hold, skill.hold)):
+        for requirement in (own_one for own_one in own if own_one not in described):
+            yield from _condition(iri, kind, requirement, skill, library, base)
+
+
+def _invocations(base: str, parameters: Sequence[Parameter]) -> Anonymous:
+    arguments = [
+        _restriction(f"{base}.argument.{each.name}", "some" if each.direction in BOUND else "all", cls)
+        for each in sorted(parameters, key=lambda each: each.name)
+        if (cls := _argument_class(each))
+    ]
+    parts = Listed((Iri(INVOCATION), _restriction(INVOKES, "some", base), *arguments))
+    return Anonymous(((RDF_TYPE, Iri(f"{OWL}Class")), (f"{OWL}intersectionOf", parts)))
+
+
+def _argument_class(parameter: Parameter) -> str | None:
+    """Return the class of the things that an invocation may bind a parameter to, None for other types and outputs."""
+    return parameter.type.iri if parameter.direction != "out" and isinstance(parameter.type, ClassType) else None
+
+
+def _restriction(relation: str, kind: OneOf["some", "all"], cls: str) -> Anonymous:
+    """Return the things that have such a value, or whose values, if any, are all such."""
+    of, on = (RDF_TYPE, Iri(f"{OWL}Restriction")), (f"{OWL}onProperty", Iri(relation))
+    return Anonymous((of, on, (f"{OWL}{kind}ValuesFrom", Iri(cls))))
+
+
+def _named(iri: str, label: str, doc: str, source: Position) -> Iterator[Statement]:
+    yield iri, f"{RDFS}label", label
+    yield iri, f"{SKILLC}definedAt", str(source)
+    if doc:
+        yield iri, f"{RDFS}comment", doc
+
+
+def _parameter(skill: str, parameter: Parameter, library: SkillLibrary) -> Iterator[Statement]:
+    iri = f"{skill}.parameter.{parameter.name}"
+    yield skill, f"{SKIROS}hasParam", Iri(iri)
+    yield iri, RDF_TYPE, Iri(f"{SKIROS}Parameter")
+    yield iri, RDF_TYPE, Iri(f"{CSS}{'OutputParameter' if parameter.direction == 'out' else 'InputParameter'}")
+    yield from _named(iri, parameter.name, parameter.doc, parameter.source)
+    yield iri, f"{SKILLC}direction", parameter.direction
+    yield from type_statements(iri, parameter.type)
+    if parameter.default is not None:
+        yield iri, f"{SKILLC}defaultValue", value(parameter.default, parameter.type, library.vocabulary)
+    for name, bound in (("leastValue", parameter.low), ("greatestValue", parameter.high)):
+        if bound is not None:
+            yield iri, f"{SKILLC}{name}", float(bound)
+    if _argument_class(parameter):
+        yield from _argument(f"{skill}.argument.{parameter.name}")
+
+
+def _argument(iri: str) -> Iterator[Statement]:
+    yield iri, RDF_TYPE, Iri(f"{OWL}ObjectProperty")
+    yield iri, RDF_TYPE, Iri(f"{OWL}FunctionalProperty")
+    yield iri, f"{RDFS}subPropertyOf", Iri(ARGUMENT)
+
+
+def _condition(
+    owner: str, kind: str, requirement: Requirement | Post, skill: Skill, library: SkillLibrary, described: str = ""
+) -> Iterator[Statement]:
+    """Yield a condition of a description, or of an implementation of the description `described`."""
+    iri = f"{owner}.{kind}.{requirement.label}"
+    yield owner, f"{SKIROS}has{KINDS[kind]}", Iri(iri)
+    if not described:
+        yield owner, f"{CSS}isRestrictedBy", Iri(iri)
+    yield iri, RDF_TYPE, Iri(f"{SKILLC if kind == 'hold' else SKIROS}{KINDS[kind]}")
+    yield iri, RDF_TYPE, Iri(f"{CSS}Constraint")
+    yield from _named(iri, requirement.label, "", requirement.source)
+    yield iri, f"{SKILLC}conditionText", requirement.text
+    if isinstance(requirement, Post):
+        yield iri, f"{SKILLC}sensed", requirement.sensed
+    parameters = {each.name: f"{described or owner}.parameter.{each.name}" for each in skill.parameters}
+    yield from ((iri, predicate, part) for predicate, part in _literal(requirement.condition, parameters))
+
+
+def _literal(condition: Condition, parameters: dict[str, str]) -> Iterator[tuple[str, Object]]:
+    """Yield the parts of a condition that is one literal, for readers that know only such; nothing for others."""
+    literal = condition.body if isinstance(condition, Not) else condition
+    if isinstance(literal, Holds | Compare | HasProperty | IsA | Same):
+        yield f"{SKILLC}desiredState", literal is condition
+    match literal:
+        case Holds(subject=subject, relation=relation, object=object_):
+            yield f"{SKILLC}conditionRelation", Iri(relation)
+            yield from _ends(parameters, subject, object_)
+        case Same(left=left, right=right):
+            yield f"{SKILLC}operator", "=="
+            yield from _ends(parameters, left, right)
+        case HasProperty(subject=subject, property=iri):
+            yield f"{SKILLC}conditionProperty", Iri(iri)
+            yield from _ends(parameters, subject)
+        case IsA(subject=subject, cls=cls):
+            yield f"{SKILLC}parameterType", Iri(cls)
+            yield from _ends(parameters, subject)
+        case Compare(left=PropertyOf(of=Variable() as subject, property=iri), operator=operator, right=right):
+            yield f"{SKILLC}conditionProperty", Iri(iri)
+            yield f"{SKILLC}operator", operator
+            if isinstance(right, Literal):
+                yield f"{SKILLC}comparedValue", right.value
+            yield from _ends(parameters, subject)
+
+
+def _ends(parameters: dict[str, str], subject: Term, object_: Term | None = None) -> Iterator[tuple[str, Object]]:
+    for word, term in (("subject", subject), ("object", object_)):
+        if isinstance(term, Variable) and term.name in parameters:
+            yield f"{SKILLC}{word}", Iri(parameters[term.name])

@@ -1,0 +1,143 @@
+"""The vocabulary terms that a library uses, with their axioms, so that its ontology can be read by itself."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.emit.owl.turtle import RDF_TYPE, Anonymous, Iri, Listed, Object
+from skillc_compiler.emit.owl.words import DATATYPES, OWL, RDFS, SKILLC, XSD, frame, library_base
+from skillc_compiler.library.conditions import IsA
+from skillc_compiler.library.read_write import terms_read
+from skillc_compiler.library.reading import walk
+from skillc_compiler.library.skills import Implementation, Skill, SkillLibrary
+from skillc_compiler.library.vocabulary import (
+    THING,
+    ClassType,
+    NumberType,
+    PlainType,
+    PropertyTerm,
+    RelationTerm,
+    VectorType,
+    Vocabulary,
+)
+from skillc_compiler.library.words import SI_UNITS
+
+Statement = tuple[str, str, Object]
+FLAGS = {
+    "functional": "FunctionalProperty",
+    "inverse_functional": "InverseFunctionalProperty",
+    "symmetric": "SymmetricProperty",
+    "transitive": "TransitiveProperty",
+    "asymmetric": "AsymmetricProperty",
+    "irreflexive": "IrreflexiveProperty",
+}
+
+
+def used_terms(library: SkillLibrary) -> Iterator[Statement]:
+    """Yield the frame, the terms the library declares or mentions, and what those need to be understood."""
+    vocabulary = library.vocabulary
+    read = _mentioned(library)
+    relations = _relations(read, vocabulary)
+    properties = [vocabulary.properties[iri] for iri in sorted(read) if iri in vocabulary.properties]
+    classes = _classes(read, relations, properties, vocabulary)
+    yield from frame()
+    for term in relations:
+        yield from _relation(term)
+    for each in properties:
+        yield from _property(each)
+    for iri in sorted(classes):
+        yield from _class(iri, classes, vocabulary)
+
+
+def _mentioned(library: SkillLibrary) -> set[str]:
+    base = library_base(library)
+    vocabulary = library.vocabulary
+    terms = (*vocabulary.classes, *vocabulary.relations, *vocabulary.properties)
+    found = {iri for iri in terms if iri.startswith(base)}
+    owners: list[Skill | Implementation] = [*library.skills.values(), *library.implementations.values()]
+    for owner in owners:
+        found |= {each.type.iri for each in owner.parameters if isinstance(each.type, ClassType)}
+        conditions = [each.condition for each in (*owner.pre, *owner.hold)]
+        conditions += [each.condition for each in owner.post]
+        for condition in conditions:
+            found |= terms_read(condition) | {each.cls for each in walk(condition) if isinstance(each, IsA)}
+    return found
+
+
+def _relations(read: set[str], vocabulary: Vocabulary) -> list[RelationTerm]:
+    found = {upper for iri in read if iri in vocabulary.relations for upper in vocabulary.super_relations[iri]}
+    found |= {inverse for iri in found if (inverse := vocabulary.relations[iri].inverse)}
+    return [vocabulary.relations[iri] for iri in sorted(found) if iri in vocabulary.relations]
+
+
+def _classes(
+    read: set[str], relations: list[RelationTerm], properties: list[PropertyTerm], vocabulary: Vocabulary
+) -> set[str]:
+    found = {iri for iri in read if iri in vocabulary.classes}
+    found |= {end for term in relations for each in term.signatures for end in (each.domain, each.range)}
+    found |= {domain for term in properties for domain in term.domains}
+    return {upper for iri in found for upper in vocabulary.ancestors.get(iri, ())} - {THING}
+
+
+def _class(iri: str, classes: set[str], vocabulary: Vocabulary) -> Iterator[Statement]:
+    term = vocabulary.classes[iri]
+    yield iri, RDF_TYPE, Iri(f"{OWL}Class")
+    yield from ((iri, f"{RDFS}subClassOf", Iri(parent)) for parent in term.parents)
+    yield from ((iri, f"{OWL}disjointWith", Iri(other)) for other in term.disjoint if other in classes)
+    if term.comment:
+        yield iri, f"{RDFS}comment", term.comment
+
+
+def _relation(term: RelationTerm) -> Iterator[Statement]:
+    yield term.iri, RDF_TYPE, Iri(f"{OWL}ObjectProperty")
+    for name, kind in FLAGS.items():
+        if getattr(term, name):
+            yield term.iri, RDF_TYPE, Iri(f"{OWL}{kind}")
+    yield from ((term.iri, f"{RDFS}subPropertyOf", Iri(parent)) for parent in term.parents)
+    if term.inverse:
+        yield term.iri, f"{OWL}inverseOf", Iri(term.inverse)
+    for side, ends in (
+        ("domain", [each.domain for each in term.signatures]),
+        ("range", [each.range for each in term.signatures]),
+    ):
+        if ends:
+            yield term.iri, f"{RDFS}{side}", _union(ends)
+    if term.comment:
+        yield term.iri, f"{RDFS}comment", term.comment
+
+
+def _property(term: PropertyTerm) -> Iterator[Statement]:
+    yield term.iri, RDF_TYPE, Iri(f"{OWL}DatatypeProperty")
+    if term.functional:
+        yield term.iri, RDF_TYPE, Iri(f"{OWL}FunctionalProperty")
+    if term.domains:
+        yield term.iri, f"{RDFS}domain", _union(list(term.domains))
+    datatype = _datatype(term)
+    if datatype is not None:
+        yield term.iri, f"{RDFS}range", datatype
+    if isinstance(term.type, NumberType | VectorType) and term.type.dimension in SI_UNITS:
+        yield term.iri, f"{SKILLC}dimension", term.type.dimension
+    if term.comment:
+        yield term.iri, f"{RDFS}comment", term.comment
+
+
+def _datatype(term: PropertyTerm) -> Object | None:
+    """Return the range as reasoners know it; None for poses, vectors and lists, which are no datatypes to them."""
+    if term.values:
+        values = Listed(tuple(term.values))
+        return Anonymous(((RDF_TYPE, Iri(f"{RDFS}Datatype")), (f"{OWL}oneOf", values)))
+    match term.type:
+        case NumberType():
+            return Iri(f"{XSD}double")
+        case PlainType(name=name) if name in DATATYPES:
+            return Iri(DATATYPES[name])
+    return None
+
+
+def _union(classes: list[str]) -> Object:
+    """Return the class, or the union of several: an overload accepts each, a second axiom would narrow it."""
+    unique = sorted(set(classes))
+    if len(unique) == 1:
+        return Iri(unique[0])
+    members = Listed(tuple(Iri(each) for each in unique))
+    return Anonymous(((RDF_TYPE, Iri(f"{OWL}Class")), (f"{OWL}unionOf", members)))

@@ -1,0 +1,73 @@
+"""Types and values as OWL has them: a type is always an IRI, a constant a typed literal, its unit stands beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import assert_never
+
+from skillc_compiler.emit.owl.turtle import RDF_TYPE, Iri, Object
+from skillc_compiler.emit.owl.words import DATATYPES, DIMENSION, RDFS, SKILLC, XSD
+from skillc_compiler.library.conditions import Expression, Individual, Literal
+from skillc_compiler.library.format_condition import format_expression
+from skillc_compiler.library.rewriting import constant_number
+from skillc_compiler.library.vocabulary import (
+    ClassType,
+    DirectionType,
+    ListType,
+    NumberType,
+    PlainType,
+    ValueType,
+    VectorType,
+    Vocabulary,
+)
+from skillc_compiler.library.words import SI_UNITS
+
+Statement = tuple[str, str, Object]
+
+
+def type_statements(subject: str, type_: ValueType) -> Iterator[Statement]:
+    """Yield the type of a parameter, with its SI unit, and whether it takes a list of such values."""
+    element = type_.element if isinstance(type_, ListType) else type_
+    yield subject, f"{SKILLC}parameterType", Iri(_type_iri(element))
+    if element is not type_:
+        yield subject, f"{SKILLC}isList", True
+    if isinstance(element, NumberType | VectorType) and element.dimension in SI_UNITS:
+        yield subject, f"{SKILLC}unit", SI_UNITS[element.dimension]
+        yield from _dimension(element.dimension)
+
+
+def value(expression: Expression, type_: ValueType, vocabulary: Vocabulary) -> Object:
+    """Return a constant as a literal of its type or as an individual; the text of what is computed at run time."""
+    match expression:
+        case Individual(iri=iri):
+            return Iri(iri)
+        case Literal(value=bool() | str() as plain):
+            return plain
+        case Literal(value=int() as whole) if type_ == PlainType("Int"):
+            return whole
+    number = constant_number(expression)
+    return format_expression(expression, vocabulary) if number is None else number
+
+
+def _type_iri(type_: ValueType) -> str:
+    match type_:
+        case ClassType(iri=iri):
+            return iri
+        case NumberType(dimension=dimension):
+            return f"{SKILLC}{dimension}" if dimension in SI_UNITS else f"{XSD}double"
+        case VectorType():
+            return f"{SKILLC}Vector"
+        case DirectionType():
+            return f"{SKILLC}Direction"
+        case PlainType(name=name):
+            return DATATYPES.get(name, f"{SKILLC}{name}")
+        case ListType(element=element):
+            return _type_iri(element)
+        case _:
+            assert_never(type_)
+
+
+def _dimension(name: str) -> Iterator[Statement]:
+    yield f"{SKILLC}{name}", RDF_TYPE, Iri(DIMENSION)
+    yield f"{SKILLC}{name}", f"{RDFS}label", name
+    yield f"{SKILLC}{name}", f"{SKILLC}unit", SI_UNITS[name]

@@ -1,0 +1,75 @@
+"""The words of the OWL output: namespaces and the frame every library stands in.
+
+Those in css: are of the Capability-Skill-Service ontology, https://github.com/CaSkade-Automation/CSS, version 3.0.0:
+a description is a capability restricted by constraints. An implementation is what they call a skill, so no constraint
+restricts it there; it is not said to be one, as reasoners lose a defined class that is also the object of a relation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.emit.owl.turtle import RDF_TYPE, Iri, Object
+from skillc_compiler.library.skills import SkillLibrary
+
+OWL = "http://www.w3.org/2002/07/owl#"
+RDFS = "http://www.w3.org/2000/01/rdf-schema#"
+XSD = "http://www.w3.org/2001/XMLSchema#"
+CSS = "http://www.w3id.org/hsu-aut/css#"
+SKIROS = "http://rvmi.aau.dk/ontologies/skiros.owl#"
+SKILLC = "https://w3id.org/skillc/core#"
+PREFIXES = {"owl": OWL, "rdfs": RDFS, "xsd": XSD, "css": CSS, "skiros": SKIROS, "skillc": SKILLC}
+
+DATATYPES = {"Bool": f"{XSD}boolean", "Int": f"{XSD}integer", "Text": f"{XSD}string"}
+
+INVOCATION = f"{SKILLC}Invocation"
+INVOKES = f"{SKILLC}invokes"
+ARGUMENT = f"{SKILLC}argument"
+CAPABILITY = f"{CSS}Capability"
+DIMENSION = f"{SKILLC}Dimension"
+
+CLASSES = (
+    INVOCATION,
+    CAPABILITY,
+    DIMENSION,
+    *(f"{CSS}{name}" for name in ("Constraint", "SkillParameter", "InputParameter", "OutputParameter")),
+    *(f"{SKIROS}{name}" for name in ("Skill", "Parameter", "Condition", "PreCondition", "PostCondition")),
+    f"{SKILLC}HoldCondition",
+)
+SUBCLASSES = (
+    (f"{CSS}InputParameter", f"{CSS}SkillParameter"),
+    (f"{CSS}OutputParameter", f"{CSS}SkillParameter"),
+    (f"{SKIROS}PreCondition", f"{SKIROS}Condition"),
+    (f"{SKIROS}PostCondition", f"{SKIROS}Condition"),
+    (f"{SKILLC}HoldCondition", f"{SKIROS}Condition"),
+)
+RELATIONS = (
+    *(f"{SKIROS}{name}" for name in ("hasParam", "hasPreCondition", "hasPostCondition", "hasHoldCondition")),
+    *(f"{SKILLC}{name}" for name in ("subject", "object")),
+    INVOKES,
+    ARGUMENT,
+    f"{CSS}isRestrictedBy",
+)
+PROPERTIES = tuple(f"{SKILLC}{name}" for name in ("desiredState", "operator", "conditionText"))
+_NOTES = """
+    comparedValue conditionProperty conditionRelation definedAt defaultValue dimension direction duration durationUnit
+    greatestValue implements isList leastValue parameterType preference python rank sensed sha256 unit
+"""
+ANNOTATIONS = tuple(f"{SKILLC}{name}" for name in _NOTES.split())
+
+
+def library_base(library: SkillLibrary) -> str:
+    """Return the namespace of the terms of a library."""
+    return f"https://w3id.org/skillc/library/{library.name}#"
+
+
+def frame() -> Iterator[tuple[str, str, Object]]:
+    """Yield the declarations of every word above."""
+    for iris, kind in (
+        (CLASSES, "Class"),
+        (RELATIONS, "ObjectProperty"),
+        (PROPERTIES, "DatatypeProperty"),
+        (ANNOTATIONS, "AnnotationProperty"),
+    ):
+        yield from ((iri, RDF_TYPE, Iri(f"{OWL}{kind}")) for iri in iris)
+    yield from ((lower, f"{RDFS}subClassOf", Iri(upper)) for lower, upper in SUBCLASSES)

@@ -1,0 +1,65 @@
+"""Where each box goes: every box on its own rows, children below their parent and indented, as in an outline."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from skillc_compiler.emit.picture.boxes import Box, Look
+from skillc_compiler.emit.picture.wrapping import cells, wrapped
+
+CELL = 7.5
+"""Pixels a character takes at most: fonts of one width have 0.60 to 0.62 of their size, which is 12."""
+LINE = 17
+"""Pixels from line to line."""
+SYMBOL = 28
+"""Pixels of the field with the symbol."""
+PADDING = 8
+INDENT = 30
+GAP = 9
+MARGIN = 8
+WIDEST = 58
+"""Cells of the longest line."""
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """A box in its place: pixels from the upper left corner; `parent` is the row at which its line begins."""
+
+    look: Look
+    symbol: str
+    title: tuple[str, ...]
+    lines: tuple[str, ...]
+    called: str | None
+    x: float
+    y: float
+    width: float
+    height: float
+    parent: tuple[float, float] | None
+
+
+def lay_out(box: Box) -> tuple[Placed, ...]:
+    """Return all boxes of a picture from top to bottom, parents before their children."""
+    return tuple(_place(box, MARGIN, MARGIN, None))
+
+
+def extent(placed: tuple[Placed, ...]) -> tuple[int, int]:
+    """Return the width and height of the picture in pixels."""
+    right = max(each.x + each.width for each in placed)
+    bottom = max(each.y + each.height for each in placed)
+    return int(right) + MARGIN + 1, int(bottom) + MARGIN + 1
+
+
+def _place(box: Box, x: float, y: float, parent: tuple[float, float] | None) -> Iterator[Placed]:
+    title = wrapped(box.title, WIDEST)
+    lines = tuple(line for text in box.lines for line in wrapped(text, WIDEST))
+    longest = max(cells(line) for line in (*title, *lines))
+    width = SYMBOL + 2 * PADDING + CELL * longest
+    height = 2 * PADDING + LINE * (len(title) + len(lines)) - 3
+    yield Placed(box.look, box.symbol, title, lines, box.called, x, y, width, height, parent)
+    knee = (x + SYMBOL / 2, y + height)
+    below = y + height + GAP
+    for child in box.children:
+        for placed in _place(child, x + INDENT, below, knee):
+            yield placed
+            below = placed.y + placed.height + GAP

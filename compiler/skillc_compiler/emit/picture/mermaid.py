@@ -1,0 +1,32 @@
+"""A picture as a Mermaid flow chart, which many wikis and code hosts draw."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import count
+
+from skillc_compiler.emit.picture.boxes import Box
+from skillc_compiler.emit.picture.wrapping import wrapped
+
+WIDEST = 40
+"""Cells of the longest line of a box."""
+OUTSIDE = {"#": "#35;", '"': "#quot;", "<": "#lt;", ">": "#gt;", "&": "#amp;", "`": "#96;"}
+"""Characters that mean something in Mermaid or HTML, as Mermaid writes them."""
+
+
+def draw(box: Box) -> str:
+    """Return the picture as the text of a Mermaid diagram."""
+    return "flowchart TD\n" + "".join(f"  {line}\n" for line in _lines(box, "n0", count(1)))
+
+
+def _lines(box: Box, name: str, numbers: Iterator[int]) -> Iterator[str]:
+    yield f'{name}["{_label(box)}"]'
+    for child in box.children:
+        other = f"n{next(numbers)}"
+        yield from _lines(child, other, numbers)
+        yield f"{name} --> {other}"
+
+
+def _label(box: Box) -> str:
+    rows = [f"{box.symbol} {box.title}", *(line for text in box.lines for line in wrapped(text, WIDEST))]
+    return "<br/>".join("".join(OUTSIDE.get(character, character) for character in row) for row in rows)

@@ -1,0 +1,76 @@
+"""From the nodes of a behaviour tree to boxes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import assert_never
+
+from skillc_compiler.emit.picture.boxes import Box
+from skillc_dsl import syntax as s
+from skillc_dsl.parsing.building.places import TreeBuilder
+
+SYMBOLS = {"seq": "→", "sel": "?", "par": "⇉", "try": "~", "invert": "!", "once": "1"}
+
+
+@dataclass(frozen=True, slots=True)
+class Nodes:
+    """Draws the nodes of one file; `places` has its text."""
+
+    places: TreeBuilder
+
+    def box(self, node: s.Node) -> Box:
+        """Return the box of a node with those of its children."""
+        match node:
+            case s.CallSkill():
+                return self._call(node, "", ())
+            case s.With(call=call, children=children):
+                return self._call(call, "with ", self._all(children))
+            case s.Wait(time=time):
+                return Box("time", "◷", "wait", (self.places.written(time.span),))
+            case s.WaitUntil(text=text):
+                return Box("time", "◷", "wait until", (text,))
+            case s.CheckNode(text=text):
+                return Box("guard", "✓", "check", (text,))
+            case s.ApplyPosts(labels=labels):
+                return Box("guard", "✎", "apply", (", ".join(label.text for label in labels),))
+            case _:
+                return self._around(node)
+
+    def _around(self, node: s.Block | s.Counted | s.Timeout | s.If | s.While | s.For) -> Box:
+        """Return the box of a node that is there for its children."""
+        match node:
+            case s.Block(kind=kind, children=children):
+                reactive = kind.startswith("reactive")
+                symbol = "↻" if reactive else SYMBOLS[kind.split()[0]]
+                return Box("flow", symbol, kind, (), self._all(children))
+            case s.Counted(kind=kind, count=count, children=children):
+                return Box("flow", "↻", f"{kind} {count.text}", (), self._all(children))
+            case s.Timeout(limit=limit, children=children):
+                return Box("time", "◷", "timeout", (self.places.written(limit.span),), self._all(children))
+            case s.If(text=text):
+                return Box("guard", "?", "if", (text,), self._branches(node))
+            case s.While(text=text, limit=limit, children=children):
+                return Box("guard", "↻", "while", (text, f"max {limit.text}"), self._all(children))
+            case s.For(variable=variable, items=items, children=children):
+                head = f"{variable.text} in {self.places.written(items.span)}"
+                return Box("flow", "↻", "for", (head,), self._all(children))
+            case _:
+                assert_never(node)
+
+    def _branches(self, node: s.If) -> tuple[Box, ...]:
+        if node.orelse is None:
+            return self._all(node.then)
+        return (
+            Box("flow", "+", "then", (), self._all(node.then)),
+            Box("flow", "−", "else", (), self._all(node.orelse)),
+        )
+
+    def _all(self, nodes: tuple[s.Node, ...]) -> tuple[Box, ...]:
+        return tuple(self.box(node) for node in nodes)
+
+    def _call(self, call: s.CallSkill, before: str, children: tuple[Box, ...]) -> Box:
+        fixed = f"[{call.implementation.text}]" if call.implementation else ""
+        arguments = ", ".join(self.places.written(argument.span) for argument in call.arguments)
+        out = f"-> {call.out.text}" if call.out else ""
+        lines = tuple(line for line in (arguments, out) if line)
+        return Box("call", "▶", f"{before}{call.skill.text}{fixed}", lines, children, call.skill.text)

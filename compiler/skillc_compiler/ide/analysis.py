@@ -1,0 +1,106 @@
+"""A library as an editor sees it: understood as far as possible, with its problems and the places of its names."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from skillc_compiler.ide.index import Index, index_of
+from skillc_compiler.ide.visible import Visible, visible_in
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.pipeline import NO_SCENES, finish, problems
+from skillc_compiler.program.typed import Program, ReadFile
+from skillc_compiler.program.types import Type
+from skillc_compiler.program.walk import values
+from skillc_compiler.resolve.files import Parse, read
+from skillc_compiler.resolve.individuals import Individuals
+from skillc_compiler.resolve.program import resolve
+from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.parsing.parser import parse
+from skillc_dsl.source import Source, Span
+
+
+@dataclass(frozen=True, slots=True)
+class Library:
+    """What is analysed: the texts of a library, the files that it may import, the ontology, the scenes of its tasks.
+
+    `sources` are keyed by path relative to the library, `importable` by the name that an import gives.
+    """
+
+    name: str
+    sources: Mapping[str, Source]
+    importable: Mapping[str, Source]
+    vocabulary: Vocabulary
+    scenes: Mapping[str, Individuals] = field(default_factory=lambda: dict(NO_SCENES))
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """A library with what was understood of it."""
+
+    library: Library
+    files: Outcome[tuple[ReadFile, ...]]
+    resolved: Outcome[Program]
+    parsed_by: Parse = parse
+
+    @property
+    def program(self) -> Program:
+        """The program that the files mean together."""
+        return self.resolved.value
+
+    @cached_property
+    def compiled(self) -> Outcome[SkillLibrary]:
+        """The compiled library with what the author is told, as by the compiler. Takes longer than all else here."""
+        checked = Outcome(self.program, problems(self.files, self.resolved))
+        return finish(checked, _ordered(self.library))
+
+    @property
+    def problems(self) -> tuple[Diagnostic, ...]:
+        """What the author is told, in order of place."""
+        return self.compiled.diagnostics
+
+    @cached_property
+    def texts(self) -> Mapping[str, str]:
+        """The text of every file that was read, by path."""
+        read = {unit.file.path: unit.text for unit in self.program.files}
+        return {**{path: source.text for path, source in self.library.sources.items()}, **read}
+
+    @cached_property
+    def visible(self) -> Mapping[str, Visible]:
+        """What each file can name."""
+        return visible_in(self.program, self.library.vocabulary)
+
+    @cached_property
+    def index(self) -> Index:
+        """Where each name stands and what it stands for."""
+        return index_of(self.program, self.visible)
+
+    @cached_property
+    def types(self) -> Mapping[Span, Type]:
+        """The type of every value that was understood, by its place."""
+        return {value.span: value.type for value in values(self.program)}
+
+    def line(self, path: str, number: int) -> str:
+        """Return a line of a file, counted from 1; empty where there is none."""
+        lines = self.texts.get(path, "").split("\n")
+        return lines[number - 1] if 0 < number <= len(lines) else ""
+
+    def text_of(self, span: Span) -> str:
+        """Return what stands at a place, its lines joined with blanks."""
+        lines = [self.line(span.path, number) for number in range(span.line, span.end_line + 1)]
+        lines[-1] = lines[-1][: span.end_column - 1]
+        lines[0] = lines[0][span.column - 1 :]
+        return " ".join(line.strip() for line in lines)
+
+
+def analyse(library: Library, parsed_by: Parse = parse) -> Analysis:
+    """Understand a library; `parsed_by` may remember what it parsed before."""
+    files = read(_ordered(library), library.importable, library.name, parsed_by)
+    program = resolve(files.value, library.vocabulary, library.name, library.scenes)
+    return Analysis(library, files, program, parsed_by)
+
+
+def _ordered(library: Library) -> tuple[Source, ...]:
+    return tuple(library.sources[path] for path in sorted(library.sources))

@@ -1,0 +1,106 @@
+"""The names in bodies: calls, arguments, outputs, loops, labels."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import assert_never
+
+from skillc_compiler.ide.symbols import (
+    ImplementationSymbol,
+    LabelSymbol,
+    LocalSymbol,
+    Occurrence,
+    ParameterSymbol,
+    SkillSymbol,
+    Symbol,
+)
+from skillc_compiler.ide.values import Locals, Values
+from skillc_dsl import syntax as s
+from skillc_dsl.source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Home:
+    """Where a body stands: the place of its declaration, and the skill it implements if it is no task's."""
+
+    span: Span
+    skill: str = ""
+    implementation: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Bodies(Values):
+    """Finds the occurrences in bodies. A name bound by a node is known to the nodes after it."""
+
+    def node(self, home: Home, known: dict[str, Symbol], written: s.Node) -> Iterator[Occurrence]:
+        """Yield the occurrences in a node; `known` gains the names it binds."""
+        match written:
+            case s.Block(children=children) | s.Counted(children=children):
+                yield from self.nodes(home, known, children)
+            case s.Timeout(limit=limit, children=children):
+                yield from self.value(known, limit)
+                yield from self.nodes(home, known, children)
+            case s.Wait(time=time):
+                yield from self.value(known, time)
+            case s.WaitUntil(condition=condition) | s.CheckNode(condition=condition):
+                yield from self.condition(known, condition)
+            case s.If(condition=condition, then=then, orelse=orelse):
+                yield from self.condition(known, condition)
+                yield from self.nodes(home, known, (*then, *(orelse or ())))
+            case s.While(condition=condition, children=children):
+                yield from self.condition(known, condition)
+                yield from self.nodes(home, known, children)
+            case s.For():
+                yield from self._for(home, known, written)
+            case s.ApplyPosts(labels=labels):
+                for label in labels:
+                    yield Occurrence(label.span, self.label(home, label.text))
+            case s.CallSkill():
+                yield from self._call(home, known, written)
+            case s.With(call=call, children=children):
+                yield from self._call(home, known, call)
+                yield from self.nodes(home, known, children)
+            case _:
+                assert_never(written)
+
+    def nodes(self, home: Home, known: dict[str, Symbol], written: Sequence[s.Node]) -> Iterator[Occurrence]:
+        """Yield the occurrences in nodes, one after the other."""
+        for node in written:
+            yield from self.node(home, known, node)
+
+    def label(self, home: Home, text: str) -> LabelSymbol:
+        """Return the label of that name in a skill or, failing that, in the implementation itself."""
+        own = f"{home.skill}.{home.implementation}"
+        return LabelSymbol(home.skill if (home.skill, text) in self.labels else own, text)
+
+    def _for(self, home: Home, known: dict[str, Symbol], written: s.For) -> Iterator[Occurrence]:
+        yield from self.value(known, written.items)
+        symbol = LocalSymbol("loop variable", written.span, written.variable.text)
+        yield from self.bound(known, written.variable, symbol)
+        inner: dict[str, Symbol] = {written.variable.text: symbol, **known}
+        yield from self.nodes(home, inner, written.children)
+        known.update({name: found for name, found in inner.items() if found != symbol})
+
+    def _call(self, home: Home, known: dict[str, Symbol], written: s.CallSkill) -> Iterator[Occurrence]:
+        skill = written.skill.text
+        if skill in self.visible.skills:
+            yield Occurrence(written.skill.span, SkillSymbol(skill))
+            if written.implementation is not None:
+                symbol = ImplementationSymbol(skill, written.implementation.text)
+                yield Occurrence(written.implementation.span, symbol)
+        for argument in written.arguments:
+            yield from self._argument(known, skill, argument)
+        if written.out is not None:
+            symbol_ = LocalSymbol("output", home.span, written.out.text)
+            yield from self.bound(known, written.out, symbol_)
+            known.setdefault(written.out.text, symbol_)
+
+    def _argument(self, known: Locals, skill: str, written: s.Argument) -> Iterator[Occurrence]:
+        called = self.skills.get(skill)
+        short = written.value.span == written.name.span
+        if called and called.parameter(written.name.text):
+            symbol = ParameterSymbol(skill, written.name.text)
+            yield Occurrence(written.name.span, symbol, shorthand=short)
+        for occurrence in self.value(known, written.value):
+            yield Occurrence(occurrence.span, occurrence.symbol, shorthand=short)

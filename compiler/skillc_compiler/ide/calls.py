@@ -1,0 +1,109 @@
+"""The call whose parentheses are open at the cursor, and its signature."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from lark import Token
+
+from skillc_compiler.ide.analysis import Analysis
+from skillc_compiler.ide.cursor import InCode, cursor_at
+from skillc_compiler.ide.describing import parameter_line
+from skillc_compiler.ide.term_pages import function_head, type_text
+from skillc_compiler.program.typed import Skill
+
+_CLOSING = {")": "(", "]": "[", "}": "{"}
+
+
+@dataclass(frozen=True, slots=True)
+class OpenCall:
+    """A call at the cursor: who is called, the labels passed so far, the argument that is being written.
+
+    `position` counts the commas before the cursor; `label` is the parameter named for this argument, if any.
+    """
+
+    name: str
+    passed: tuple[str, ...]
+    position: int
+    label: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class Signature:
+    """What a call takes: its head, documentation, and each parameter as it stands in the head, with its own."""
+
+    head: str
+    documentation: str
+    parameters: tuple[tuple[str, str], ...]
+    active: int | None
+
+
+def open_call(tokens: Sequence[Token]) -> OpenCall | None:
+    """Return the innermost call that is not closed after `tokens`."""
+    opening = _unclosed(tokens)
+    if opening is None or tokens[opening].type != "LPAR" or opening == 0:
+        return None
+    callee = opening - 4 if tokens[opening - 1].type == "RSQB" and opening >= 4 else opening - 1
+    if not tokens[callee].value[:1].isalpha() or tokens[callee].type in ("CHECK", "NOT", "AND", "OR", "IMPLIES"):
+        return None
+    arguments = _split(tokens[opening + 1 :])
+    names = [part[0].value.rstrip(":") for part in arguments[:-1] if part]
+    current = arguments[-1]
+    label = current[0].value.rstrip(":") if current and current[0].type == "LABEL" else None
+    return OpenCall(tokens[callee].value, tuple(names), len(arguments) - 1, label)
+
+
+def signature(analysis: Analysis, path: str, line: int, column: int) -> Signature | None:
+    """Return the signature of the call around a place; None outside of calls and for unknown names."""
+    cursor = cursor_at(analysis.texts.get(path, ""), path, line, column)
+    call = open_call(cursor.before) if isinstance(cursor, InCode) else None
+    if call is None:
+        return None
+    skill = analysis.program.skills.get(call.name)
+    if skill is not None:
+        return _of_skill(analysis, skill, call)
+    function = analysis.program.vocabulary.functions.get(call.name)
+    if function is None:
+        return None
+    parameters = tuple((f"{name}: {type_text(kind)}", "") for name, kind in function.parameters)
+    active = call.position if call.position < len(parameters) else None
+    return Signature(function_head(function).removeprefix("function "), function.comment, parameters, active)
+
+
+def _of_skill(analysis: Analysis, skill: Skill, call: OpenCall) -> Signature:
+    """The next parameter that is not passed is active until another one is named."""
+    takes = [parameter for parameter in skill.parameters if parameter.direction != "out"]
+    parameters = tuple((parameter_line(analysis, parameter), parameter.doc) for parameter in takes)
+    outputs = [type_text(parameter.declared) for parameter in skill.parameters if parameter.direction == "out"]
+    head = f"{skill.name}({', '.join(line for line, _ in parameters)})" + "".join(f" -> {kind}" for kind in outputs)
+    free = [index for index, parameter in enumerate(takes) if parameter.name not in call.passed]
+    named = [index for index, parameter in enumerate(takes) if parameter.name == call.label]
+    active = next(iter((*named, *free)), None)
+    return Signature(head, skill.doc, parameters, active)
+
+
+def _unclosed(tokens: Sequence[Token]) -> int | None:
+    """Return where the innermost bracket stands that is not closed."""
+    depth = 0
+    for index in range(len(tokens) - 1, -1, -1):
+        if tokens[index].value in _CLOSING:
+            depth += 1
+        elif tokens[index].value in _CLOSING.values():
+            if depth == 0:
+                return index
+            depth -= 1
+    return None
+
+
+def _split(tokens: Sequence[Token]) -> list[list[Token]]:
+    """Return the tokens between the commas that stand in no further brackets."""
+    parts: list[list[Token]] = [[]]
+    depth = 0
+    for token in tokens:
+        depth += (token.value in _CLOSING.values()) - (token.value in _CLOSING)
+        if token.type == "COMMA" and depth == 0:
+            parts.append([])
+        else:
+            parts[-1].append(token)
+    return parts

@@ -1,0 +1,181 @@
+"""The names in declarations, and in the lines above them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import assert_never
+
+from skillc_compiler.ide.bodies import Bodies, Home
+from skillc_compiler.ide.symbols import (
+    FileSymbol,
+    FunctionSymbol,
+    ImplementationSymbol,
+    LabelSymbol,
+    LocalSymbol,
+    Occurrence,
+    ParameterSymbol,
+    PrefixSymbol,
+    SceneSymbol,
+    SkillSymbol,
+    Symbol,
+    TaskSymbol,
+)
+from skillc_compiler.ide.values import Locals
+from skillc_compiler.program.typed import ReadFile
+from skillc_dsl import syntax as s
+
+
+class Walk(Bodies):
+    """Finds every occurrence of one file."""
+
+    __slots__ = ()
+
+    def file(self, unit: ReadFile) -> Iterator[Occurrence]:
+        """Yield the occurrences in a file, in no particular order."""
+        imported = {line.path.span: path for line, path in unit.imports}
+        for line in unit.file.header:
+            match line:
+                case s.Use(vocabularies=vocabularies):
+                    for name in vocabularies:
+                        yield Occurrence(name.span, PrefixSymbol(name.text))
+                case s.Prefix(name=name):
+                    yield Occurrence(name.span, PrefixSymbol(name.text), declares=True)
+                case s.Import(path=path):
+                    if path.span in imported:
+                        yield Occurrence(path.span, FileSymbol(imported[path.span]))
+                case _:
+                    assert_never(line)
+        for declaration in unit.file.declarations:
+            yield from self.declaration(declaration)
+
+    def declaration(self, written: s.Declaration) -> Iterator[Occurrence]:
+        """Yield the occurrences in a declaration."""
+        match written:
+            case s.ClassDeclaration(name=name, parents=parents, disjoint=disjoint):
+                yield from self.term("class", name, declares=True)
+                for other in (*parents, *disjoint):
+                    yield from self.term("class", other)
+            case s.RelationDeclaration():
+                yield from self._relation(written)
+            case s.PropertyDeclaration(name=name, domain=domain, type=type_):
+                yield from self.term("property", name, declares=True)
+                yield from self.term("class", domain)
+                yield from self.type(type_)
+            case s.FunctionDeclaration():
+                yield from self._function(written)
+            case s.SkillDeclaration():
+                yield from self._skill(written)
+            case s.ImplementationDeclaration():
+                yield from self._implementation(written)
+            case s.TaskDeclaration():
+                yield from self._task(written)
+            case _:
+                assert_never(written)
+
+    def _relation(self, written: s.RelationDeclaration) -> Iterator[Occurrence]:
+        yield from self.term("relation", written.name, declares=True)
+        yield from self.term("class", written.domain)
+        yield from self.term("class", written.range)
+        for trait in written.traits:
+            if trait.name is not None:
+                yield from self.term("relation", trait.name)
+
+    def _function(self, written: s.FunctionDeclaration) -> Iterator[Occurrence]:
+        yield Occurrence(written.name.span, FunctionSymbol(written.name.text), declares=True)
+        for parameter in written.parameters:
+            symbol = LocalSymbol("function parameter", written.span, parameter.name.text)
+            yield Occurrence(parameter.name.span, symbol, declares=True)
+            yield from self.type(parameter.type)
+        yield from self.type(written.result)
+
+    def _skill(self, written: s.SkillDeclaration) -> Iterator[Occurrence]:
+        name = written.name.text
+        known: dict[str, Symbol] = {}
+        yield Occurrence(written.name.span, SkillSymbol(name), declares=True)
+        for member in written.members:
+            if isinstance(member, s.Parameter):
+                symbol = ParameterSymbol(name, member.name.text)
+                known[member.name.text] = symbol
+                yield Occurrence(member.name.span, symbol, declares=True)
+                yield from self._typed(member)
+        for member in written.members:
+            match member:
+                case s.Requirement():
+                    yield from self._requirement(known, name, member)
+                case s.Duration(value=value):
+                    yield from self.value(known, value)
+                case s.DeviceUse(parameter=parameter):
+                    yield from self.reference(known, parameter)
+                case s.Parameter() | s.Flag():
+                    pass
+                case _:
+                    assert_never(member)
+
+    def _implementation(self, written: s.ImplementationDeclaration) -> Iterator[Occurrence]:
+        home = Home(written.span, written.skill.text, written.name.text)
+        skill = self.skills.get(home.skill)
+        known: dict[str, Symbol] = (
+            {p.name: ParameterSymbol(home.skill, p.name) for p in skill.parameters} if skill else {}
+        )
+        yield Occurrence(written.name.span, ImplementationSymbol(home.skill, home.implementation), declares=True)
+        if skill:
+            yield Occurrence(written.skill.span, SkillSymbol(home.skill))
+        lets = [member for member in written.members if isinstance(member, s.Let)]
+        for let in lets:
+            yield from self.value(known, let.value)
+            symbol = LocalSymbol("let", written.span, let.name.text)
+            yield from self.bound(known, let.name, symbol)
+            known.setdefault(let.name.text, symbol)
+        yield from self._members(home, known, written.members)
+
+    def _members(
+        self, home: Home, known: dict[str, Symbol], members: Sequence[s.ImplementationMember]
+    ) -> Iterator[Occurrence]:
+        for member in members:
+            match member:
+                case s.Refinement(name=name):
+                    yield from self.reference(known, name)
+                    yield from self._typed(member)
+                case s.Requirement():
+                    yield from self._requirement(known, f"{home.skill}.{home.implementation}", member)
+                case s.Duration(value=value):
+                    yield from self.value(known, value)
+                case s.Body(node=node):
+                    yield from self.node(home, known, node)
+                case s.Verify(first=first, second=second):
+                    for event in (first, second):
+                        yield from self._event(known, event)
+                case s.Let() | s.Prefer() | s.RunPython():
+                    pass
+                case _:
+                    assert_never(member)
+
+    def _task(self, written: s.TaskDeclaration) -> Iterator[Occurrence]:
+        yield Occurrence(written.name.span, TaskSymbol(written.name.text), declares=True)
+        if written.scene is not None:
+            yield Occurrence(written.scene.span, SceneSymbol(written.scene.value))
+        if written.goal is not None:
+            yield from self.condition({}, written.goal)
+        if written.body is not None:
+            yield from self.node(Home(written.span), {}, written.body.node)
+
+    def _typed(self, member: s.Parameter | s.Refinement) -> Iterator[Occurrence]:
+        yield from self.type(member.type)
+        bounds = (member.range.low, member.range.high) if member.range else ()
+        for value in (*((member.default,) if member.default is not None else ()), *bounds):
+            yield from self.value({}, value)
+
+    def _requirement(self, known: Locals, owner: str, member: s.Requirement) -> Iterator[Occurrence]:
+        if member.label is not None:
+            yield Occurrence(member.label.span, LabelSymbol(owner, member.label.text), declares=True)
+        yield from self.condition(known, member.condition)
+
+    def _event(self, known: Locals, event: s.Event | None) -> Iterator[Occurrence]:
+        match event:
+            case None:
+                return
+            case s.Event(what=s.Name(text=text, span=span)):
+                if text in self.visible.skills:
+                    yield Occurrence(span, SkillSymbol(text))
+            case s.Event(what=condition) if not isinstance(condition, s.Name):
+                yield from self.condition(known, condition)

@@ -1,0 +1,131 @@
+"""What a symbol is, in Markdown."""
+
+from __future__ import annotations
+
+from typing import assert_never
+
+from skillc_compiler.ide import term_pages
+from skillc_compiler.ide.analysis import Analysis
+from skillc_compiler.ide.symbols import (
+    ChoiceSymbol,
+    FileSymbol,
+    FunctionSymbol,
+    ImplementationSymbol,
+    IndividualSymbol,
+    LabelSymbol,
+    LocalSymbol,
+    ParameterSymbol,
+    PrefixSymbol,
+    QuantitySymbol,
+    SceneSymbol,
+    SkillSymbol,
+    Symbol,
+    TaskSymbol,
+    TermSymbol,
+    TypeSymbol,
+)
+from skillc_compiler.ide.term_pages import page
+from skillc_compiler.library.vocabulary import local_name
+from skillc_compiler.program.typed import Parameter, Requirement, Skill
+from skillc_compiler.program.types import describe
+
+
+def described(analysis: Analysis, symbol: Symbol) -> str:
+    """Return what a symbol is, in Markdown; empty when nothing is known."""
+    vocabulary = analysis.program.vocabulary
+    match symbol:
+        case TermSymbol(kind=kind, iri=iri):
+            return term_pages.term(vocabulary, kind, iri)
+        case TypeSymbol(name=name):
+            return term_pages.built_in(name)
+        case FunctionSymbol(name=name):
+            return term_pages.function(vocabulary.functions[name]) if name in vocabulary.functions else ""
+        case ChoiceSymbol(text=text):
+            return term_pages.choice(vocabulary, text)
+        case QuantitySymbol(value=value, unit=unit):
+            return term_pages.quantity(value, unit)
+        case PrefixSymbol(name=name):
+            return page(f"prefix {name}: <{vocabulary.prefixes[name]}>") if name in vocabulary.prefixes else ""
+        case IndividualSymbol(iri=iri):
+            return _individual(analysis, iri)
+        case FileSymbol(path=path) | SceneSymbol(name=path):
+            return f"`{path}`"
+        case _:
+            return _of_program(analysis, symbol)
+
+
+def parameter_line(analysis: Analysis, parameter: Parameter) -> str:
+    """Return a parameter as it is declared."""
+    direction = f"{parameter.direction} any" if parameter.any_ else parameter.direction
+    default = f" = {analysis.text_of(parameter.default.span)}" if parameter.default else ""
+    low, high = parameter.low, parameter.high
+    bounds = f" range {analysis.text_of(low.span)} .. {analysis.text_of(high.span)}" if low and high else ""
+    return f"{direction} {parameter.name}: {term_pages.type_text(parameter.declared)}{default}{bounds}"
+
+
+_OfProgram = SkillSymbol | ImplementationSymbol | TaskSymbol | ParameterSymbol | LocalSymbol | LabelSymbol
+
+
+def _of_program(analysis: Analysis, symbol: _OfProgram) -> str:
+    match symbol:
+        case SkillSymbol(name=name):
+            found = analysis.program.skills.get(name)
+            return _skill(analysis, found) if found else ""
+        case ImplementationSymbol(skill=skill, name=name):
+            doc = next((i.doc for i in analysis.program.implementations if i.key == f"{skill}.{name}"), "")
+            return page(f"impl {name} of {skill}", doc)
+        case TaskSymbol(name=name):
+            return page(f"task {name}", next((task.doc for task in analysis.program.tasks if task.name == name), ""))
+        case ParameterSymbol():
+            return _parameter(analysis, symbol)
+        case LocalSymbol():
+            return _local(analysis, symbol)
+        case LabelSymbol():
+            return _label(analysis, symbol)
+        case _:
+            assert_never(symbol)
+
+
+def _skill(analysis: Analysis, skill: Skill) -> str:
+    lines = [f"    {parameter_line(analysis, parameter)}" for parameter in skill.parameters]
+    lines += [f"    {analysis.text_of(requirement.span)}" for requirement in skill.requirements]
+    ways = [way.name for way in analysis.program.implementations_of.get(skill.name, ())]
+    found = f"implementations: {', '.join(f'`{way}`' for way in ways)}" if ways else "no implementation here"
+    return page("\n".join((f"skill {skill.name}", *lines)), skill.doc, found)
+
+
+def _parameter(analysis: Analysis, symbol: ParameterSymbol) -> str:
+    skill = analysis.program.skills.get(symbol.skill)
+    parameter = skill.parameter(symbol.name) if skill else None
+    if parameter is None:
+        return ""
+    return page(parameter_line(analysis, parameter), parameter.doc, f"parameter of `{symbol.skill}`")
+
+
+def _local(analysis: Analysis, symbol: LocalSymbol) -> str:
+    places = [occurrence.span for occurrence in analysis.index.of(symbol)]
+    kinds = [describe(analysis.types[place]) for place in places if place in analysis.types]
+    lets = (let for way in analysis.program.implementations for let in way.lets)
+    value = next((let.value for let in lets if let.name.span in places), None)
+    if value is not None:
+        return page(f"let {symbol.name} = {analysis.text_of(value.span)}", describe(value.type))
+    return f"`{symbol.name}`: the {symbol.origin}" + (f", {kinds[0]}" if kinds else "")
+
+
+def _label(analysis: Analysis, symbol: LabelSymbol) -> str:
+    found = next((r for r in _requirements(analysis, symbol.owner) if r.label and r.label.text == symbol.name), None)
+    return page(analysis.text_of(found.span), f"condition of `{symbol.owner}`") if found else ""
+
+
+def _requirements(analysis: Analysis, owner: str) -> tuple[Requirement, ...]:
+    skill = analysis.program.skills.get(owner)
+    if skill is not None:
+        return skill.requirements
+    return next((way.requirements for way in analysis.program.implementations if way.key == owner), ())
+
+
+def _individual(analysis: Analysis, iri: str) -> str:
+    classes = {cls for scene in analysis.library.scenes.values() for cls in scene.get(iri, ())}
+    above = {one for one in classes for other in classes - {one} if analysis.program.vocabulary.is_a(other, one)}
+    kinds = f", {term_pages.listed(sorted(classes - above))}" if classes else ""
+    return f"the individual `{local_name(iri)}`{kinds}\n\n`{iri}`"

@@ -1,0 +1,85 @@
+"""Which value is expected at the cursor."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from lark import Token
+
+from skillc_compiler.ide.calls import OpenCall, open_call
+from skillc_compiler.ide.surroundings import Surroundings
+from skillc_compiler.program.typed import Skill
+from skillc_compiler.program.types import Measure, Thing, Type, Vector, fits, of_library
+from skillc_compiler.resolve.typenames import BUILT_IN
+from skillc_compiler.resolve.values import ANYTHING, ExpectedType
+from skillc_dsl.units import DIMENSIONS, TIME, UNITS
+
+_COMPARISONS = ("EQUALS", "UNEQUAL", "LESS", "LESS_EQUAL", "MORE", "MORE_EQUAL")
+_TIMES = ("DURATION", "WAIT", "TIMEOUT")
+_SAME_AS_LEFT = ("PLUS", "MINUS")
+
+
+def expected(around: Surroundings, skills: Mapping[str, Skill], tokens: Sequence[Token]) -> ExpectedType:
+    """Return what value is expected after `tokens`, as far as they tell."""
+    last = tokens[-1].type if tokens else ""
+    if last in _COMPARISONS:
+        return _compared(around, tokens[:-1])
+    if last in _TIMES:
+        return ExpectedType(Measure(TIME))
+    if last in ("EQUAL", "RANGE", "DOTS"):
+        return _declared(around, tokens)
+    if last in _SAME_AS_LEFT:
+        return _beside(around, skills, tokens)
+    call = open_call(tokens) if last in ("LABEL", "LPAR", "COMMA") else None
+    return _argument(around, skills, call) if call else ANYTHING
+
+
+def _compared(around: Surroundings, tokens: Sequence[Token]) -> ExpectedType:
+    iri = around.visible.term("property", tokens[-1].value) if len(tokens) > 1 and tokens[-2].type == "DOT" else None
+    term = around.visible.vocabulary.properties.get(iri) if iri else None
+    return ExpectedType(around.type_of(tokens), term.values if term else ())
+
+
+def _declared(around: Surroundings, tokens: Sequence[Token]) -> ExpectedType:
+    """Return the type written after the last label, for a default or the bounds of a range."""
+    labels = [index for index, token in enumerate(tokens) if token.type == "LABEL"]
+    if not labels or labels[-1] + 1 >= len(tokens) or tokens[-2].type == "LET":
+        return ANYTHING
+    name, *rest = tokens[labels[-1] + 1 :]
+    if name.value == "Vector" and len(rest) > 1 and rest[0].type == "OF" and rest[1].value in DIMENSIONS:
+        return ExpectedType(Vector(DIMENSIONS[rest[1].value]))
+    if name.value in BUILT_IN:
+        return ExpectedType(of_library(BUILT_IN[name.value]))
+    iri = around.visible.term("class", name.value)
+    return ExpectedType(Thing(iri)) if iri else ANYTHING
+
+
+def _beside(around: Surroundings, skills: Mapping[str, Skill], tokens: Sequence[Token]) -> ExpectedType:
+    """Return the type of what is left of `+` or `-`; a sign of a number is passed over."""
+    before = tokens[-2] if len(tokens) > 1 else None
+    if before is None or before.type in (*_COMPARISONS, *_TIMES, "EQUAL", "RANGE", "DOTS", "LABEL", "LPAR", "COMMA"):
+        return expected(around, skills, tokens[:-1])
+    if before.type == "QUANTITY":
+        unit = UNITS.get(before.value.lstrip("0123456789.eE+-").strip())
+        return ExpectedType(Measure(unit.dimension)) if unit else ANYTHING
+    return ExpectedType(around.type_of(tokens[:-1]))
+
+
+def _argument(around: Surroundings, skills: Mapping[str, Skill], call: OpenCall) -> ExpectedType:
+    skill = skills.get(call.name)
+    if skill is not None:
+        parameter = skill.parameter(call.label) if call.label else None
+        return ExpectedType(parameter.type) if parameter else ANYTHING
+    function = around.visible.vocabulary.functions.get(call.name)
+    if function is None or call.position >= len(function.parameters):
+        return ANYTHING
+    return ExpectedType(of_library(function.parameters[call.position][1]))
+
+
+def ranges(around: Surroundings, relation: str, subject: Type) -> tuple[str, ...]:
+    """Return the classes that a relation leads to from a subject of this type."""
+    iri = around.visible.term("relation", relation)
+    term = around.visible.vocabulary.relations.get(iri) if iri else None
+    signatures = term.signatures if term else ()
+    fitting = [x.range for x in signatures if fits(around.visible.vocabulary, subject, Thing(x.domain))]
+    return tuple(fitting or (x.range for x in signatures))

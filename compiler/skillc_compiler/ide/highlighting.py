@@ -1,0 +1,127 @@
+"""What each word of a file is, for colouring: names by what they stand for, the rest by its kind of token."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal, TypeAlias, assert_never
+
+from skillc_compiler.ide.analysis import Analysis
+from skillc_compiler.ide.symbols import (
+    ChoiceSymbol,
+    FileSymbol,
+    FunctionSymbol,
+    ImplementationSymbol,
+    IndividualSymbol,
+    LabelSymbol,
+    LocalSymbol,
+    Occurrence,
+    ParameterSymbol,
+    PrefixSymbol,
+    QuantitySymbol,
+    SceneSymbol,
+    SkillSymbol,
+    Symbol,
+    TaskSymbol,
+    TermSymbol,
+    TypeSymbol,
+)
+from skillc_dsl.source import Span
+from skillc_dsl.tokens import PATTERNS, keyword_group
+
+WordKind: TypeAlias = Literal[
+    "namespace", "class", "type", "method", "property", "function", "interface", "parameter", "variable",
+    "enumMember", "decorator", "keyword", "comment", "string", "number", "operator",
+]  # fmt: skip
+
+_TOKEN = re.compile("|".join(f"(?P<{kind.replace(' ', '_')}>{pattern})" for kind, pattern in PATTERNS.items()))
+_PLAIN: dict[str, WordKind] = {
+    "documentation": "comment",
+    "comment": "comment",
+    "text": "string",
+    "address": "string",
+    "quantity": "number",
+    "number": "number",
+    "operator": "operator",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """A coloured word; it never spans lines."""
+
+    span: Span
+    kind: WordKind
+    declares: bool = False
+
+
+def highlighted(analysis: Analysis, path: str) -> tuple[Word, ...]:
+    """Return the words of a file in order of place, none over another."""
+    names = {(o.span.line, o.span.column): o for o in analysis.index.by_path.get(path, ())}
+    return tuple(
+        word
+        for number, line in enumerate(analysis.texts.get(path, "").split("\n"), 1)
+        for word in _words(names, path, number, line)
+    )
+
+
+def _words(names: dict[tuple[int, int], Occurrence], path: str, number: int, line: str) -> Iterator[Word]:
+    for match in _TOKEN.finditer(line):
+        start, end = match.start() + 1, match.end() + 1
+        occurrence = names.get((number, start))
+        group = match.lastgroup or ""
+        if occurrence is not None:
+            width = min(end, occurrence.span.end_column)
+            yield Word(Span(path, number, start, number, width), _kind(occurrence.symbol), occurrence.declares)
+        elif group in _PLAIN:
+            yield Word(Span(path, number, start, number, end), _PLAIN[group])
+        elif group == "name" and keyword_group(match.group()):
+            yield Word(Span(path, number, start, number, end), "keyword")
+
+
+def _kind(symbol: Symbol) -> WordKind:
+    match symbol:
+        case TermSymbol(kind="class"):
+            return "class"
+        case TermSymbol(kind="relation"):
+            return "method"
+        case TermSymbol():
+            return "property"
+        case TypeSymbol():
+            return "type"
+        case FunctionSymbol() | SkillSymbol() | TaskSymbol():
+            return "function"
+        case ImplementationSymbol():
+            return "interface"
+        case ParameterSymbol():
+            return "parameter"
+        case _:
+            return _kind_of_value(symbol)
+
+
+def _kind_of_value(
+    symbol: LocalSymbol
+    | LabelSymbol
+    | PrefixSymbol
+    | IndividualSymbol
+    | ChoiceSymbol
+    | QuantitySymbol
+    | FileSymbol
+    | SceneSymbol,
+) -> WordKind:
+    match symbol:
+        case LocalSymbol() | IndividualSymbol():
+            return "variable"
+        case LabelSymbol():
+            return "decorator"
+        case PrefixSymbol():
+            return "namespace"
+        case ChoiceSymbol():
+            return "enumMember"
+        case QuantitySymbol():
+            return "number"
+        case FileSymbol() | SceneSymbol():
+            return "string"
+        case _:
+            assert_never(symbol)

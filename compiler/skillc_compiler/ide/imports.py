@@ -1,0 +1,43 @@
+"""Skills that a file could call if it imported the file that declares them, and the line that does."""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Iterator, Mapping
+
+from skillc_compiler.ide.analysis import Analysis
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Fix
+from skillc_dsl.source import Span
+
+STANDARD_LIBRARY = "std/"
+
+
+def importable(analysis: Analysis, path: str) -> Iterator[tuple[s.SkillDeclaration, str]]:
+    """Yield the skills that a file does not see, of its own library and of `std`, with the file to import."""
+    seen = set(analysis.visible[path].skills) if path in analysis.visible else set()
+    for file, imported in _files(analysis, path).items():
+        for declaration in imported.declarations:
+            if isinstance(declaration, s.SkillDeclaration) and declaration.name.text not in seen:
+                seen.add(declaration.name.text)
+                yield declaration, file
+
+
+def import_of(analysis: Analysis, path: str, file: str) -> Fix:
+    """Return the edit that imports a file: a line after those above the declarations."""
+    header = next((unit.file.header for unit in analysis.program.files if unit.file.path == path), ())
+    line = header[-1].span.end_line + 1 if header else 1
+    return Fix(Span(path, line, 1, line, 1), f'import "{file}"\n', f"import {file}")
+
+
+def _files(analysis: Analysis, path: str) -> Mapping[str, s.File]:
+    """Return the files that can be imported, by the text that does it, own ones first."""
+    folder = posixpath.dirname(path) or "."
+    own = {
+        posixpath.relpath(unit.file.path, folder): unit.file
+        for unit in analysis.program.files
+        if unit.file.path in analysis.library.sources and unit.file.path != path
+    }
+    shipped = (item for item in analysis.library.importable.items() if item[1].path.startswith(STANDARD_LIBRARY))
+    standard = {name: analysis.parsed_by(source).value for name, source in shipped if name not in own}
+    return {**own, **standard}

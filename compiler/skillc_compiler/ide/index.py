@@ -1,0 +1,60 @@
+"""Where each name of a program stands and what it stands for; most other features only look things up here."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from skillc_compiler.ide.declarations import Walk
+from skillc_compiler.ide.symbols import Occurrence, Symbol
+from skillc_compiler.ide.visible import Visible
+from skillc_compiler.program.typed import Program
+
+
+@dataclass(frozen=True, slots=True)
+class Index:
+    """Occurrences by file in order of place, and by symbol."""
+
+    by_path: Mapping[str, tuple[Occurrence, ...]]
+    by_symbol: Mapping[Symbol, tuple[Occurrence, ...]]
+
+    def at(self, path: str, line: int, column: int) -> tuple[Occurrence, ...]:
+        """Return what stands at a place, a cursor right after a name included; the narrowest first."""
+        there = [o for o in self.by_path.get(path, ()) if _covers(o, line, column)]
+        return tuple(sorted(there, key=lambda o: (o.span.end_column - o.span.column, o.span.column != column)))
+
+    def of(self, symbol: Symbol) -> tuple[Occurrence, ...]:
+        """Return every place of a symbol."""
+        return self.by_symbol.get(symbol, ())
+
+    def declarations(self, symbol: Symbol) -> Iterator[Occurrence]:
+        """Yield the places where a symbol is declared."""
+        return (occurrence for occurrence in self.of(symbol) if occurrence.declares)
+
+
+def index_of(program: Program, visible: Mapping[str, Visible]) -> Index:
+    """Return the index of a program; `visible` tells what each of its files can name."""
+    labels = {
+        (name, label.text)
+        for name, skill in program.skills.items()
+        for label in (r.label for r in skill.requirements)
+        if label
+    }
+    by_path: dict[str, tuple[Occurrence, ...]] = {}
+    for unit in program.files:
+        walk = Walk(visible[unit.file.path], program.skills, frozenset(labels))
+        by_path[unit.file.path] = tuple(sorted(walk.file(unit), key=lambda o: o.span))
+    return Index(by_path, _by_symbol(occurrence for found in by_path.values() for occurrence in found))
+
+
+def _covers(occurrence: Occurrence, line: int, column: int) -> bool:
+    span = occurrence.span
+    return span.line == line == span.end_line and span.column <= column <= span.end_column
+
+
+def _by_symbol(occurrences: Iterable[Occurrence]) -> dict[Symbol, tuple[Occurrence, ...]]:
+    found: dict[Symbol, list[Occurrence]] = defaultdict(list)
+    for occurrence in occurrences:
+        found[occurrence.symbol].append(occurrence)
+    return {symbol: tuple(places) for symbol, places in found.items()}

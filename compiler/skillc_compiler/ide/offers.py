@@ -1,0 +1,191 @@
+"""What can be offered to complete a word: each function lists what fits one kind of place, the likeliest first."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from skillc_compiler.ide.analysis import Analysis
+from skillc_compiler.ide.describing import parameter_line
+from skillc_compiler.ide.imports import importable
+from skillc_compiler.ide.surroundings import Surroundings
+from skillc_compiler.ide.term_pages import function_head, type_text
+from skillc_compiler.library.vocabulary import THING, PropertyTerm, RelationTerm, local_name
+from skillc_compiler.program.typed import Parameter
+from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, Type, describe, fits, of_library
+from skillc_compiler.resolve.names import Kind
+from skillc_compiler.resolve.typenames import BUILT_IN
+from skillc_compiler.resolve.values import ExpectedType
+from skillc_dsl import syntax as s
+from skillc_dsl.units import DIMENSIONS
+
+OfferKind: TypeAlias = Literal[
+    "keyword", "class", "type", "relation", "property", "function", "skill", "implementation", "parameter", "variable",
+    "label", "individual", "value", "unit", "vocabulary", "file", "diagnostic",
+]  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Offer:
+    """A word that fits: what to show and, where that differs, what to write. Lower ranks come first.
+
+    `imports` is the file that has to be imported for it, empty where none has.
+    """
+
+    text: str
+    kind: OfferKind
+    detail: str = ""
+    documentation: str = ""
+    written: str = ""
+    rank: int = 0
+    imports: str = ""
+
+    @property
+    def inserted(self) -> str:
+        """The text to write."""
+        return self.written or self.text
+
+
+def classes(around: Surroundings, below: Type = UNKNOWN) -> Iterator[Offer]:
+    """Offer the classes that fit a type, bare ones before qualified ones."""
+    vocabulary = around.visible.vocabulary
+    for text, iri in _terms(around, "class"):
+        if iri in vocabulary.classes and fits(vocabulary, Thing(iri), below):
+            parents = ", ".join(local_name(parent) for parent in vocabulary.classes[iri].parents)
+            detail = f"< {parents}" if parents else ""
+            yield Offer(text, "class", detail, vocabulary.classes[iri].comment)
+
+
+def built_in_types() -> Iterator[Offer]:
+    """Offer the dimensions and the other types that are no classes."""
+    return (Offer(name, "type", "built in", rank=1) for name in sorted(BUILT_IN))
+
+
+def dimensions() -> Iterator[Offer]:
+    """Offer what a vector may be of."""
+    return (Offer(name, "type", "dimension") for name in sorted(DIMENSIONS))
+
+
+def relations(around: Surroundings, subject: Type) -> Iterator[Offer]:
+    """Offer the relations that a subject of this type can have."""
+    vocabulary = around.visible.vocabulary
+    for text, iri in _terms(around, "relation"):
+        term = vocabulary.relations.get(iri)
+        if term and any(fits(vocabulary, subject, Thing(signature.domain)) for signature in term.signatures):
+            yield Offer(text, "relation", _signatures(term), term.comment)
+
+
+def any_relation(around: Surroundings) -> Iterator[Offer]:
+    """Offer every relation."""
+    return relations(around, UNKNOWN)
+
+
+def properties(around: Surroundings, of: Type) -> Iterator[Offer]:
+    """Offer the properties that something of this type can have, with their dimensions."""
+    for text, term in _properties_of(around, of):
+        yield Offer(text, "property", type_text(term.type), term.comment, rank=_generality(term))
+
+
+def values(around: Surroundings, wanted: ExpectedType) -> Iterator[Offer]:
+    """Offer what has a value of the wanted type: choices, local names, their properties, functions, individuals."""
+    vocabulary = around.visible.vocabulary
+    yield from (Offer(text, "value", "a value of the property") for text in wanted.values)
+    if wanted.type in (BOOL, UNKNOWN):
+        yield from (Offer(text, "keyword", rank=0 if wanted.type == BOOL else 5) for text in ("true", "false"))
+    for name, kind in around.locals.items():
+        if fits(vocabulary, kind, wanted.type) and not wanted.values:
+            yield Offer(name, "variable", describe(kind), rank=1)
+    for name in sorted(around.visible.functions):
+        function = vocabulary.functions[name]
+        if fits(vocabulary, of_library(function.result), wanted.type) and not wanted.values:
+            yield Offer(name, "function", function_head(function).removeprefix("function "), function.comment, rank=3)
+    yield from individuals(around, wanted.type)
+    if wanted.type != UNKNOWN and not wanted.values and not isinstance(wanted.type, Thing):
+        yield from _read_properties(around, wanted.type)
+
+
+def individuals(around: Surroundings, wanted: Type) -> Iterator[Offer]:
+    """Offer the individuals of the task's scene that are of the wanted type."""
+    for iri, cls in sorted(around.individuals.items()):
+        text = around.visible.written(iri)
+        if text and fits(around.visible.vocabulary, Thing(cls), wanted):
+            yield Offer(text, "individual", describe(Thing(cls)), rank=2)
+
+
+def arguments(analysis: Analysis, around: Surroundings, callee: str, passed: Iterable[str]) -> Iterator[Offer]:
+    """Offer the parameters of a skill that are not passed yet, bare where a local name of the right type does."""
+    skill = analysis.program.skills.get(callee)
+    taken = set(passed)
+    for parameter in skill.parameters if skill else ():
+        if parameter.direction == "out" or parameter.name in taken:
+            continue
+        line, rank = parameter_line(analysis, parameter), _need(parameter)
+        known = around.locals.get(parameter.name)
+        if known is not None and fits(around.visible.vocabulary, known, parameter.type):
+            yield Offer(parameter.name, "parameter", line, parameter.doc, rank=rank)
+        yield Offer(f"{parameter.name}:", "parameter", line, parameter.doc, f"{parameter.name}: ", rank + 1)
+
+
+def skills(analysis: Analysis, around: Surroundings, scoped: bool = False) -> Iterator[Offer]:
+    """Offer the skills that can be called here, or those that can be used in `with`."""
+    for name in sorted(around.visible.skills):
+        skill = analysis.program.skills.get(name)
+        if skill and (not scoped or "scoped" in skill.flags):
+            takes = ", ".join(p.name for p in skill.parameters if p.direction == "in")
+            yield Offer(name, "skill", f"({takes})", skill.doc, rank=1)
+
+
+def skills_elsewhere(analysis: Analysis, path: str, scoped: bool = False) -> Iterator[Offer]:
+    """Offer the skills that could be called here if their file were imported."""
+    for skill, file in importable(analysis, path):
+        flags = [member.flag for member in skill.members if isinstance(member, s.Flag)]
+        if not scoped or "scoped" in flags:
+            yield Offer(skill.name.text, "skill", f"import {file}", skill.doc, rank=7, imports=file)
+
+
+def parameters(analysis: Analysis, of: Iterable[Parameter]) -> Iterator[Offer]:
+    """Offer parameters."""
+    return (Offer(p.name, "parameter", parameter_line(analysis, p), p.doc) for p in of)
+
+
+def _need(parameter: Parameter) -> int:
+    return {"in": 0, "opt": 2, "infer": 4, "out": 6}[parameter.direction]
+
+
+def _terms(around: Surroundings, kind: Kind) -> Iterator[tuple[str, str]]:
+    """Yield what is visible by its bare name, qualified where that is ambiguous."""
+    for text, iris in sorted(around.visible.bare[kind].items()):
+        if len(iris) == 1:
+            yield text, iris[0]
+        else:
+            yield from ((around.visible.written(iri) or text, iri) for iri in iris)
+
+
+def _properties_of(around: Surroundings, of: Type) -> Iterator[tuple[str, PropertyTerm]]:
+    vocabulary = around.visible.vocabulary
+    for text, iri in _terms(around, "property"):
+        term = vocabulary.properties.get(iri)
+        if term and any(fits(vocabulary, of, Thing(domain)) for domain in term.domains):
+            yield text, term
+
+
+def _read_properties(around: Surroundings, wanted: Type) -> Iterator[Offer]:
+    """Offer the properties of the individuals at hand whose values are of the wanted type."""
+    for name, kind in around.locals.items():
+        if not isinstance(kind, Thing):
+            continue
+        for text, term in _properties_of(around, kind):
+            if fits(around.visible.vocabulary, of_library(term.type), wanted):
+                yield Offer(
+                    f"{name}.{text}", "property", type_text(term.type), term.comment, rank=4 + _generality(term)
+                )
+
+
+def _generality(term: PropertyTerm) -> int:
+    """Return 0 for a property of some things, 3 for one that everything may have."""
+    return 3 if THING in term.domains else 0
+
+
+def _signatures(term: RelationTerm) -> str:
+    return ", ".join(f"({local_name(x.domain)}, {local_name(x.range)})" for x in term.signatures)

@@ -1,0 +1,61 @@
+"""Where a symbol is declared and where it is used."""
+
+from __future__ import annotations
+
+from skillc_compiler.ide.analysis import Analysis
+from skillc_compiler.ide.symbols import (
+    FileSymbol,
+    ImplementationSymbol,
+    Occurrence,
+    Symbol,
+    TermSymbol,
+)
+from skillc_dsl.source import Span
+
+
+def symbols_at(analysis: Analysis, path: str, line: int, column: int) -> tuple[Occurrence, ...]:
+    """Return the occurrences of the name under the cursor: two where an argument is short for `name: name`."""
+    there = analysis.index.at(path, line, column)
+    return tuple(occurrence for occurrence in there if occurrence.span == there[0].span)
+
+
+def definition(analysis: Analysis, path: str, line: int, column: int) -> tuple[Span, ...]:
+    """Return where the name under the cursor is declared, in a `.skill` file or in one of the ontology."""
+    found = (declared(analysis, o.symbol) for o in symbols_at(analysis, path, line, column))
+    return tuple(dict.fromkeys(span for spans in found for span in spans))
+
+
+def declared(analysis: Analysis, symbol: Symbol) -> tuple[Span, ...]:
+    """Return the places where a symbol is declared; several for a relation with several signatures."""
+    match symbol:
+        case FileSymbol(path=path):
+            return (Span(path, 1, 1, 1, 1),)
+        case _:
+            written = tuple(occurrence.span for occurrence in analysis.index.declarations(symbol))
+            outside = _outside(analysis, symbol)
+            return (*outside, *written) if outside else written
+
+
+def _outside(analysis: Analysis, symbol: Symbol) -> tuple[Span, ...]:
+    """Return where the ontology declares a term; files of the library are found by their names' places."""
+    match symbol:
+        case TermSymbol(iri=iri):
+            base = analysis.library.vocabulary
+            term = base.classes.get(iri) or base.relations.get(iri) or base.properties.get(iri)
+            place = term.source if term else None
+            return (Span(place.path, place.line, place.column, place.line, place.column),) if place else ()
+        case _:
+            return ()
+
+
+def references(analysis: Analysis, path: str, line: int, column: int, declarations: bool) -> tuple[Span, ...]:
+    """Return every place of the name under the cursor; those of its declarations only if wanted."""
+    symbols = {occurrence.symbol for occurrence in symbols_at(analysis, path, line, column)}
+    places = (o for symbol in symbols for o in analysis.index.of(symbol) if declarations or not o.declares)
+    return tuple(sorted({occurrence.span for occurrence in places}))
+
+
+def implementations(analysis: Analysis, skill: str) -> tuple[Span, ...]:
+    """Return where the implementations of a skill are declared."""
+    ways = analysis.program.implementations_of.get(skill, ())
+    return tuple(span for way in ways for span in declared(analysis, ImplementationSymbol(skill, way.name)))

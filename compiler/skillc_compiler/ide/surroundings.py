@@ -1,0 +1,106 @@
+"""What can be read at the cursor: the declaration around it, and its local names with their types."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from lark import Token
+
+from skillc_compiler.ide.analysis import Analysis
+from skillc_compiler.ide.cursor import InCode
+from skillc_compiler.ide.visible import Visible
+from skillc_compiler.program.typed import Implementation, Skill, Task, TypedNode
+from skillc_compiler.program.types import UNKNOWN, ListOf, Thing, Type, of_library
+from skillc_compiler.program.walk import within
+from skillc_compiler.resolve.individuals import narrowest
+from skillc_dsl import syntax as s
+from skillc_dsl.source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Surroundings:
+    """The declaration around the cursor as far as it was understood, and what its file and itself can name."""
+
+    visible: Visible
+    skill: Skill | None
+    implementation: Implementation | None
+    task: Task | None
+    individuals: Mapping[str, str | None]
+    locals: Mapping[str, Type]
+
+    def type_of(self, tokens: Sequence[Token]) -> Type:
+        """Return the type of the value that `tokens` end with: `a`, `a.b`, `f(..)`, `lab:Board-1`."""
+        if not tokens:
+            return UNKNOWN
+        last = tokens[-1]
+        if last.type == "RPAR":
+            return self._result(tokens)
+        if len(tokens) > 2 and tokens[-2].type == "DOT":
+            iri = self.visible.term("property", last.value)
+            known = self.visible.vocabulary.properties
+            return of_library(known[iri].type) if iri in known else UNKNOWN
+        if ":" in last.value:
+            iri = self.visible.iri(last.value)
+            return Thing(self.individuals.get(iri)) if iri else UNKNOWN
+        return self.locals.get(last.value, UNKNOWN)
+
+    def _result(self, tokens: Sequence[Token]) -> Type:
+        depth = 0
+        for index in range(len(tokens) - 1, 0, -1):
+            depth += (tokens[index].type == "RPAR") - (tokens[index].type == "LPAR")
+            if depth == 0:
+                function = self.visible.vocabulary.functions.get(tokens[index - 1].value)
+                return of_library(function.result) if function else UNKNOWN
+        return UNKNOWN
+
+
+def surroundings(analysis: Analysis, path: str, cursor: InCode) -> Surroundings | None:
+    """Return what surrounds the cursor; None in a file that was not read."""
+    visible = analysis.visible.get(path)
+    if visible is None:
+        return None
+    words = [token.value for token in cursor.before[:4]]
+    kind = words[0] if words else ""
+    program = analysis.program
+    name = words[1] if len(words) > 1 else ""
+    of = words[3] if kind == "impl" and len(words) > 3 else name
+    skill = program.skills.get(of) if kind in ("skill", "impl") else None
+    ways = program.implementations_of.get(of, ()) if kind == "impl" else ()
+    implementation = next((way for way in ways if way.name == name), None)
+    task = next((task for task in program.tasks if kind == "task" and task.name == name), None)
+    scene = analysis.library.scenes.get(name, {}) if kind == "task" else {}
+    found = dict(_locals(skill, implementation, analysis.types))
+    found |= dict(_quantified(cursor.before, visible))
+    return Surroundings(visible, skill, implementation, task, narrowest(program.vocabulary, scene), found)
+
+
+def _locals(
+    skill: Skill | None, implementation: Implementation | None, types: Mapping[Span, Type]
+) -> Iterator[tuple[str, Type]]:
+    owner = implementation or skill
+    for parameter in owner.parameters if owner else ():
+        yield parameter.name, parameter.type
+    if implementation is None:
+        return
+    for let in implementation.lets:
+        yield let.name.text, let.value.type
+    if isinstance(implementation.body, TypedNode):
+        for step in within(implementation.body):
+            yield from _bound(step)
+
+
+def _bound(step: TypedNode) -> Iterator[tuple[str, Type]]:
+    if isinstance(step.written, s.For):
+        items = step.values[0].type
+        yield step.written.variable.text, items.element if isinstance(items, ListOf) else UNKNOWN
+    if step.call and step.call.out:
+        outputs = [p.type for p in step.call.skill.parameters if p.direction == "out"] if step.call.skill else []
+        yield step.call.out.text, outputs[0] if outputs else UNKNOWN
+
+
+def _quantified(tokens: Sequence[Token], visible: Visible) -> Iterator[tuple[str, Type]]:
+    for first, label, cls in zip(tokens, tokens[1:], tokens[2:], strict=False):
+        if first.type in ("EXISTS", "FORALL") and label.type == "LABEL":
+            iri = visible.term("class", cls.value)
+            yield label.value.rstrip(":"), Thing(iri) if iri else UNKNOWN

@@ -1,0 +1,140 @@
+"""The names in values and conditions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import TypeAlias, assert_never
+
+from skillc_compiler.ide.symbols import (
+    ChoiceSymbol,
+    FunctionSymbol,
+    IndividualSymbol,
+    LocalSymbol,
+    Occurrence,
+    QuantitySymbol,
+    Symbol,
+    TermSymbol,
+    TypeSymbol,
+)
+from skillc_compiler.ide.visible import Visible
+from skillc_compiler.program.typed import Skill
+from skillc_compiler.resolve.names import Kind
+from skillc_compiler.resolve.typenames import BUILT_IN
+from skillc_dsl import syntax as s
+from skillc_dsl.source import Span
+
+Locals: TypeAlias = Mapping[str, Symbol]
+
+
+@dataclass(frozen=True, slots=True)
+class Values:
+    """Finds the occurrences in values and conditions of one file."""
+
+    visible: Visible
+    skills: Mapping[str, Skill]
+    labels: frozenset[tuple[str, str]]
+
+    def term(self, kind: Kind, name: s.Name, declares: bool = False) -> Iterator[Occurrence]:
+        """Yield the occurrence of a term, nothing for an unknown one."""
+        iri = self.visible.term(kind, name.text)
+        if iri is not None:
+            yield Occurrence(name.span, TermSymbol(kind, iri), declares)
+
+    def type(self, written: s.TypeName) -> Iterator[Occurrence]:
+        """Yield the occurrences in a type."""
+        match written:
+            case s.ListOf(element=element):
+                yield from self.type(element)
+            case s.OfDimension(of=of, dimension=dimension):
+                yield from self.type(of)
+                yield from self.type(dimension)
+            case s.Name(text=text, span=span) if text in BUILT_IN:
+                yield Occurrence(span, TypeSymbol(text))
+            case s.Name():
+                yield from self.term("class", written)
+            case _:
+                assert_never(written)
+
+    def value(self, known: Locals, written: s.Value) -> Iterator[Occurrence]:
+        """Yield the occurrences in a value; `known` are the local names."""
+        match written:
+            case s.Number() | s.Text() | s.Boolean():
+                return
+            case s.Quantity(value=value, unit=unit, span=span):
+                yield Occurrence(span, QuantitySymbol(value, unit))
+            case s.Reference(name=name):
+                yield from self.reference(known, name)
+            case s.Member(of=of, property=name):
+                yield from self.value(known, of)
+                yield from self.term("property", name)
+            case s.Apply(function=name, arguments=arguments):
+                if name.text in self.visible.functions:
+                    yield Occurrence(name.span, FunctionSymbol(name.text))
+                for argument in arguments:
+                    yield from self.value(known, argument)
+            case s.Arithmetic(left=left, right=right):
+                yield from self.value(known, left)
+                yield from self.value(known, right)
+            case _:
+                assert_never(written)
+
+    def reference(self, known: Locals, name: s.Name) -> Iterator[Occurrence]:
+        """Yield the occurrence of a name that stands for a value."""
+        iri = self.visible.iri(name.text) if ":" in name.text else None
+        if name.text in known:
+            yield Occurrence(name.span, known[name.text])
+        elif iri is not None:
+            yield Occurrence(name.span, IndividualSymbol(iri))
+
+    def condition(self, known: Locals, written: s.Condition) -> Iterator[Occurrence]:
+        """Yield the occurrences in a condition."""
+        match written:
+            case s.Relation(subject=subject, relation=name, object=object_):
+                yield from self._side(known, subject)
+                yield from self.term("relation", name)
+                yield from self._side(known, object_)
+            case s.Compare(left=left, right=right):
+                yield from self._compared(known, left)
+                yield from self._compared(known, right)
+            case s.Has(subject=subject, property=name):
+                yield from self.value(known, subject)
+                yield from self.term("property", name)
+            case s.Is(subject=subject, cls=name):
+                yield from self.value(known, subject)
+                yield from self.term("class", name)
+            case s.Given(parameter=name):
+                yield from self.reference(known, name)
+            case s.Not(body=body):
+                yield from self.condition(known, body)
+            case s.And(parts=parts) | s.Or(parts=parts):
+                for part in parts:
+                    yield from self.condition(known, part)
+            case s.Implies(if_=premise, then=then):
+                yield from self.condition(known, premise)
+                yield from self.condition(known, then)
+            case s.Quantified(variable=variable, cls=cls, body=body, span=span):
+                yield from self.term("class", cls)
+                yield from self.bound(known, variable, LocalSymbol("variable", span, variable.text))
+                inner = {**known, variable.text: LocalSymbol("variable", span, variable.text)}
+                yield from self.condition(inner, body)
+            case s.Bare(value=value):
+                yield from self.value(known, value)
+            case _:
+                assert_never(written)
+
+    def bound(self, known: Locals, name: s.Name, symbol: LocalSymbol) -> Iterator[Occurrence]:
+        """Yield the occurrence of a name that is bound here, or of the one that it already is."""
+        yield Occurrence(name.span, known.get(name.text, symbol), declares=name.text not in known)
+
+    def _side(self, known: Locals, written: s.Value | s.Anything) -> Iterator[Occurrence]:
+        if not isinstance(written, s.Anything):
+            yield from self.value(known, written)
+
+    def _compared(self, known: Locals, written: s.Value) -> Iterator[Occurrence]:
+        """Yield what stands on a side of a comparison; a bare name may be a value of the other side's property."""
+        match written:
+            case s.Reference(name=s.Name(text=text, span=Span() as span)) if text not in known and ":" not in text:
+                yield Occurrence(span, ChoiceSymbol(text))
+            case _:
+                yield from self.value(known, written)

@@ -1,0 +1,64 @@
+"""The names that can be written in one file, and what they mean there."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.program.typed import Program, ReadFile
+from skillc_compiler.resolve.declared import Bare, Declared, declare, prefixes_in, used, visible
+from skillc_compiler.resolve.names import Kind, bare_terms
+
+
+@dataclass(frozen=True, slots=True)
+class Visible:
+    """Bare names of terms with their IRIs, prefixes with their namespaces, functions and skills."""
+
+    bare: Bare
+    prefixes: Mapping[str, str]
+    functions: frozenset[str]
+    skills: frozenset[str]
+    vocabulary: Vocabulary
+
+    def term(self, kind: Kind, text: str) -> str | None:
+        """Return the IRI of the term of this kind that a bare or qualified name means, the first where several."""
+        if ":" not in text:
+            return next(iter(self.bare[kind].get(text, ())), None)
+        iri = self.iri(text)
+        tables: Mapping[Kind, Collection[str]] = {
+            "class": self.vocabulary.classes,
+            "relation": self.vocabulary.relations,
+            "property": self.vocabulary.properties,
+        }
+        return iri if iri in tables[kind] else None
+
+    def iri(self, qualified: str) -> str | None:
+        """Return the IRI of `prefix:name`, None for an unknown prefix."""
+        prefix, _, local = qualified.partition(":")
+        if prefix not in self.prefixes:
+            return None
+        iri = self.prefixes[prefix] + local
+        return self.vocabulary.aliases.get(iri, iri)
+
+    def written(self, iri: str) -> str | None:
+        """Return `prefix:name` for an IRI, None where no prefix fits."""
+        fitting = [(len(base), prefix) for prefix, base in self.prefixes.items() if iri.startswith(base)]
+        return f"{max(fitting)[1]}:{iri[max(fitting)[0] :]}" if fitting else None
+
+
+def visible_in(program: Program, base: Vocabulary) -> dict[str, Visible]:
+    """Return by path what each file of a program can name; `base` is the vocabulary without the program's own terms."""
+    declared = declare(program.files, base)
+    return {unit.file.path: _visible(unit, declared, program.vocabulary, base) for unit in program.files}
+
+
+def _visible(unit: ReadFile, declared: Mapping[str, Declared], whole: Vocabulary, base: Vocabulary) -> Visible:
+    here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports if path in declared)]
+    return Visible(
+        bare=visible(bare_terms(base, used(unit.file, base)), here),
+        prefixes=prefixes_in(unit.file, base),
+        functions=frozenset(name for there in here for name in there.functions),
+        skills=frozenset(name for there in here for name in there.skills),
+        vocabulary=whole,
+    )

@@ -1,0 +1,110 @@
+"""Whether two facts can both be: by what they say, by the axioms of relations, by the values a property can have."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from skillc_compiler.library.conditions import Anything, HasProperty, Holds, Individual, IsA, PropertyOf, Term
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.logic.bounds import Bound, are_disjoint, bound
+from skillc_compiler.logic.conjunctions import Fact
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """A relation read from its subject to its object."""
+
+    subject: Term
+    relation: str
+    object: Term
+
+
+@dataclass(frozen=True)
+class Conflicts:
+    """What excludes what under the axioms of a vocabulary."""
+
+    vocabulary: Vocabulary
+
+    def implied(self, fact: Holds) -> Iterator[Link]:
+        """Yield every link that is there when the relation holds: its own, those above it, inverses."""
+        for each in self.vocabulary.closure.implied.get(fact.relation, ()):
+            subject, object_ = each.ends(fact.subject, fact.object)
+            yield Link(subject, each.relation, object_)
+
+    def between(self, one: Fact, other: Fact) -> bool:
+        """Whether the two facts cannot both be."""
+        if one.meaning == other.meaning:
+            return one.holds != other.holds
+        if not one.holds:
+            one, other = other, one
+        return one.holds and (self._related(one, other) or self._valued(one, other) or self._classed(one, other))
+
+    def impossible(self, fact: Holds) -> bool:
+        """Whether an axiom forbids a relation between the very two terms."""
+        return any(
+            link.subject == link.object and not isinstance(link.object, Anything) and self._never_to_itself(link)
+            for link in self.implied(fact)
+        )
+
+    def two_values(self, one: Holds, other: Holds) -> str | None:
+        """Return a relation that can have one value only and is given two, named unlike; None where there is none."""
+        for mine in self.implied(one):
+            for theirs in (link for link in self.implied(other) if link.relation == mine.relation):
+                term = self.vocabulary.relations[mine.relation]
+                same_subject, same_object = mine.subject == theirs.subject, mine.object == theirs.object
+                if (term.functional and same_subject and not same_object) or (
+                    term.inverse_functional and same_object and not same_subject
+                ):
+                    return mine.relation
+        return None
+
+    def opposite(self, one: Holds, other: Holds) -> bool:
+        """Whether one goes from a to b and the other from b to a in a relation that never goes both ways."""
+        back = {(link.relation, link.object, link.subject) for link in self.implied(other)}
+        return any(
+            self.vocabulary.relations[link.relation].asymmetric and (link.relation, link.subject, link.object) in back
+            for link in self.implied(one)
+        )
+
+    def _never_to_itself(self, link: Link) -> bool:
+        term = self.vocabulary.relations[link.relation]
+        return term.irreflexive or term.asymmetric
+
+    def _related(self, one: Fact, other: Fact) -> bool:
+        match one.meaning, other.meaning:
+            case Holds() as mine, Holds() as theirs if other.holds:
+                named = self.two_values(mine, theirs)
+                return self.opposite(mine, theirs) or (named is not None and self._distinct(named, mine, theirs))
+            case Holds() as mine, Holds() as absent:
+                return any(covers(absent, link) for link in self.implied(mine))
+        return False
+
+    def _distinct(self, relation: str, one: Holds, other: Holds) -> bool:
+        """Whether the ends in which two facts of a relation differ are certainly two individuals."""
+        links = [next(link for link in self.implied(fact) if link.relation == relation) for fact in (one, other)]
+        ends = [(getattr(links[0], end), getattr(links[1], end)) for end in ("subject", "object")]
+        return any(isinstance(a, Individual) and isinstance(b, Individual) and a != b for a, b in ends)
+
+    def _valued(self, one: Fact, other: Fact) -> bool:
+        mine, theirs = bound(one.meaning), bound(other.meaning)
+        if mine is not None and theirs is not None and mine.of == theirs.of:
+            return are_disjoint(mine, theirs if other.holds else theirs.opposite())
+        match mine, other.meaning:
+            case Bound(of=PropertyOf(of=of, property=name)), HasProperty(subject=subject, property=absent):
+                return not other.holds and (of, name) == (subject, absent)
+        return False
+
+    def _classed(self, one: Fact, other: Fact) -> bool:
+        match one.meaning, other.meaning:
+            case IsA(subject=mine, cls=cls), IsA(subject=theirs, cls=other_cls) if mine == theirs:
+                clash = self.vocabulary.disjoint if other.holds else self.vocabulary.is_a
+                return clash(cls, other_cls)
+        return False
+
+
+def covers(absent: Holds, link: Link) -> bool:
+    """Whether a link is one of those that are said not to be."""
+    subject = isinstance(absent.subject, Anything) or absent.subject == link.subject
+    object_ = isinstance(absent.object, Anything) or absent.object == link.object
+    return absent.relation == link.relation and subject and object_

@@ -1,0 +1,78 @@
+"""Which facts a postcondition makes true."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from skillc_compiler.library.conditions import (
+    And,
+    Anything,
+    Assert,
+    Assign,
+    Compare,
+    Effect,
+    Expression,
+    Holds,
+    Individual,
+    Literal,
+    Not,
+    PropertyOf,
+    Retract,
+    Variable,
+)
+from skillc_compiler.program.typed import TypedCondition
+from skillc_dsl.source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class NoEffect:
+    """A part of a post that says nothing definite about the world afterwards, and why."""
+
+    span: Span
+    reason: str
+
+
+def effects(post: TypedCondition) -> tuple[Effect | NoEffect, ...]:
+    """Return what a post, a conjunction of literals, changes; a part that is no literal gives a NoEffect."""
+    match post.meaning:
+        case And():
+            return tuple(effect for part in post.parts for effect in effects(part))
+        case Not():
+            return (_negative(post, post.parts[0]),)
+        case _:
+            return (_positive(post),)
+
+
+def _positive(post: TypedCondition) -> Effect | NoEffect:
+    match post.meaning:
+        case Holds(subject=Anything()) | Holds(object=Anything()):
+            return NoEffect(post.span, "it does not say which individual is related")
+        case Holds(subject=subject, relation=relation, object=object_):
+            assert not isinstance(subject, Anything) and not isinstance(object_, Anything)
+            return Assert(subject, relation, object_)
+        case Compare(left=PropertyOf(of=of, property=name), operator="==", right=right):
+            return _assign(post, of, name, right)
+        case Compare(left=left, operator="==", right=PropertyOf(of=of, property=name)):
+            return _assign(post, of, name, left)
+        case Compare(left=PropertyOf(of=of, property=name), operator="!=", right=Literal(value=bool(value))):
+            return _assign(post, of, name, Literal(not value))
+        case Compare():
+            return NoEffect(post.span, "it leaves open which value the property has")
+    return NoEffect(post.span, "only relations and `property == value` can be made true")
+
+
+def _negative(whole: TypedCondition, body: TypedCondition) -> Effect | NoEffect:
+    match body.meaning:
+        case Holds(subject=subject, relation=relation, object=object_):
+            return Retract(subject, relation, object_)
+        case Compare(left=PropertyOf(of=of, property=name), operator="==", right=Literal(value=bool(value))):
+            return _assign(whole, of, name, Literal(not value))
+        case Compare(left=Literal(value=bool(value)), operator="==", right=PropertyOf(of=of, property=name)):
+            return _assign(whole, of, name, Literal(not value))
+    return NoEffect(whole.span, "only relations and truth values can be made false")
+
+
+def _assign(post: TypedCondition, of: Expression, name: str, value: Expression) -> Effect | NoEffect:
+    if isinstance(of, Variable | Individual):
+        return Assign(of, name, value)
+    return NoEffect(post.span, "only a parameter's or an individual's property can be set")

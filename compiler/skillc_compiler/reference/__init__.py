@@ -1,1 +1,0 @@
-"""The reference of a library as pages to browse: start at `site`."""
