@@ -14,8 +14,8 @@ from time import perf_counter
 from skillc_compiler.library import codec
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
-from skillc_runtime.trials.experiment import Experiment, Laboratory
-from skillc_runtime.trials.workers import run_all
+from skillc_runtime.evaluation.trials.experiment import Experiment, Laboratory
+from skillc_runtime.evaluation.trials.workers import run_all
 
 TASK, COUNT = "press_button", 4
 

@@ -11,11 +11,11 @@ from skillc_runtime.planning.plan import describe_quality
 from skillc_runtime.plans.failures import Failures
 from skillc_runtime.plans.progress import doubt, progress
 from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.recording.events import Listener, Note, PlanMade, PlanStep
+from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.listeners import Listeners
+from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.trace.events import Listener, Note, PlanMade, PlanStep
-from skillc_runtime.trace.failure import Failure
-from skillc_runtime.trace.listeners import Listeners
-from skillc_runtime.trace.outcome import Outcome
 from skillc_runtime.tree.run import Run
 from skillc_runtime.verifying import Claim
 from skillc_runtime.world.state import WorldState

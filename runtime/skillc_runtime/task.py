@@ -13,11 +13,11 @@ from skillc_runtime.planning.plan import Step
 from skillc_runtime.plans.failures import Failures
 from skillc_runtime.plans.progress import progress
 from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.recording.events import FORMAT, Listener, Replanned, TaskEnded, TaskStarted
+from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.known import KnownFact, assumed
+from skillc_runtime.recording.listeners import Listeners
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.trace.events import FORMAT, Listener, Replanned, TaskEnded, TaskStarted
-from skillc_runtime.trace.failure import Failure
-from skillc_runtime.trace.known import KnownFact, assumed
-from skillc_runtime.trace.listeners import Listeners
 from skillc_runtime.verifying import known_facts
 from skillc_runtime.world.conditions import evaluate
 

@@ -7,7 +7,7 @@ from typing import TypeAlias, assert_never
 
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.vocabulary import local_name
-from skillc_runtime.trace.known import KnownFact
+from skillc_runtime.recording.known import KnownFact
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.facts import Fact, Related, Typed, Valued, fact_text
 from skillc_runtime.world.grounds import Ground, grounds

@@ -15,9 +15,9 @@ from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, prep
 from skillc_runtime.commands import _library
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Primitive, Status
+from skillc_runtime.recording.events import Event
 from skillc_runtime.robots.watchdog import Watchdog
 from skillc_runtime.task import Execution, execute
-from skillc_runtime.trace.events import Event
 from skillc_runtime.world.changes import AddIndividual, AddRelation, SetProperty
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.state import WorldState

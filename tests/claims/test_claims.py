@@ -5,8 +5,8 @@ import pytest
 from claims.bench import Bench, Hand, iri, run, world
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.trace.events import Event, TaskEnded, WorldChanged
-from skillc_runtime.trace.known import KnownFact
+from skillc_runtime.recording.events import Event, TaskEnded, WorldChanged
+from skillc_runtime.recording.known import KnownFact
 from skillc_runtime.world.changes import AddRelation
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.terms import CONTAIN, IS_CLEAN

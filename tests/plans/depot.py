@@ -13,9 +13,9 @@ from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare
 from skillc_runtime.commands import _library
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.recording.events import Event
 from skillc_runtime.robots.watchdog import Watchdog
 from skillc_runtime.task import Execution, execute
-from skillc_runtime.trace.events import Event
 from skillc_runtime.world.changes import AddIndividual, AddRelation
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.state import WorldState

@@ -33,8 +33,8 @@ from skillc_compiler.resolve.program import resolve
 from skillc_compiler.walk import within
 from skillc_dsl.source import Source
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.trace.events import Event, ImplementationChosen, NodeEnded, NodeStarted
-from skillc_runtime.trace.failure import Failure
+from skillc_runtime.recording.events import Event, ImplementationChosen, NodeEnded, NodeStarted
+from skillc_runtime.recording.failure import Failure
 from skillc_runtime.tree.run import Run
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.state import WorldState

@@ -8,8 +8,8 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from skillc_runtime.report.drawing import Drawing
-from skillc_runtime.report.figures import figure_of, wiping_figure
+from skillc_runtime.evaluation.report.drawing import Drawing
+from skillc_runtime.evaluation.report.figures import figure_of, wiping_figure
 
 TIME = np.linspace(0.0, 10.0, 200)
 WAY = np.column_stack([np.linspace(-150.0, 150.0, 200), np.zeros(200)])

@@ -6,10 +6,10 @@ from types import SimpleNamespace
 from typing import Any
 
 from skillc_compiler.library.vocabulary import Position
-from skillc_runtime.report.moments import moments
+from skillc_runtime.evaluation.report.moments import moments
+from skillc_runtime.recording.events import ImplementationChosen
+from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.simulation.film import Moment
-from skillc_runtime.trace.events import ImplementationChosen
-from skillc_runtime.trace.outcome import Outcome
 
 HERE = Position(path="press.skill", line=1, column=1)
 CELL: Any = SimpleNamespace(

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from skillc_compiler.library.vocabulary import Position
-from skillc_runtime.report.result import ChoiceResult, StepResult
-from skillc_runtime.report.table import reason_of
-from skillc_runtime.trace.failure import Rejected
+from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult
+from skillc_runtime.evaluation.report.table import reason_of
+from skillc_runtime.recording.failure import Rejected
 
 TOO_WIDE = Rejected(implementation="wsg", stage="type", reason="too wide", source=Position("grip.skill", 1, 1))
 

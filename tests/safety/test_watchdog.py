@@ -11,9 +11,9 @@ from simulation.cells import ARM, SCENES, cell
 from skillc_runtime import task
 from skillc_runtime.assignment import Refused
 from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.recording.events import Event
 from skillc_runtime.robots.watchdog import PATIENCE_S, Watchdog
 from skillc_runtime.task import execute
-from skillc_runtime.trace.events import Event
 from skillc_runtime.tree.run import Run
 from tree.stage import call
 

@@ -13,12 +13,12 @@ from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, prepare
 from skillc_runtime.commands import _library
+from skillc_runtime.evaluation.trials.disturbance import reality
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.facts import SceneFacts
 from skillc_runtime.simulation.variation import Variation, draw, with_obstacles
 from skillc_runtime.task import Execution, execute
-from skillc_runtime.trials.disturbance import reality
 from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene

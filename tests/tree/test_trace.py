@@ -9,11 +9,11 @@ import pytest
 
 from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.trace import events
-from skillc_runtime.trace.events import Event, ImplementationChosen, NodeEnded, NodeStarted, Note, WorldChanged
-from skillc_runtime.trace.outcome import Outcome
-from skillc_runtime.trace.reader import TraceReader
-from skillc_runtime.trace.writer import TraceWriter
+from skillc_runtime.recording import events
+from skillc_runtime.recording.events import Event, ImplementationChosen, NodeEnded, NodeStarted, Note, WorldChanged
+from skillc_runtime.recording.outcome import Outcome
+from skillc_runtime.recording.reader import TraceReader
+from skillc_runtime.recording.writer import TraceWriter
 from skillc_runtime.tree.run import Run
 from skillc_runtime.world.changes import SetProperty
 from tree.stage import FLAGS, ON, Library, Script, Stage, act, call, sel, seq, world

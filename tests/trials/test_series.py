@@ -8,11 +8,11 @@ import pytest
 from msgspec.structs import replace
 from rich.console import Console
 
-from skillc_runtime.trials import page, table
-from skillc_runtime.trials.series import series
-from skillc_runtime.trials.targets import METRICS
-from skillc_runtime.trials.trial import Disturbance, Trial
-from skillc_runtime.trials.verdict import misses
+from skillc_runtime.evaluation.trials import page, table
+from skillc_runtime.evaluation.trials.series import series
+from skillc_runtime.evaluation.trials.targets import METRICS
+from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
+from skillc_runtime.evaluation.trials.verdict import misses
 from trials.runners import GOOD, good, wiped, wiping
 
 FAILURE = replace(good(1), status="failure", reason="nothing to push against", works=(), coverage=0.0)

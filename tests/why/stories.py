@@ -8,10 +8,10 @@ from pathlib import Path
 from skillc_compiler.library import tree
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.trace.events import FORMAT, Event, TaskEnded, TaskStarted
-from skillc_runtime.trace.history import story_of
-from skillc_runtime.trace.story import Call, Story
-from skillc_runtime.trace.writer import TraceWriter
+from skillc_runtime.recording.events import FORMAT, Event, TaskEnded, TaskStarted
+from skillc_runtime.recording.history import story_of
+from skillc_runtime.recording.story import Call, Story
+from skillc_runtime.recording.writer import TraceWriter
 from skillc_runtime.tree.run import Run
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.state import WorldState

@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, event, given, settings
 from skillc_compiler.library import tree
 from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.trace.events import (
+from skillc_runtime.recording.events import (
     Event,
     ImplementationChosen,
     NodeEnded,
@@ -21,11 +21,11 @@ from skillc_runtime.trace.events import (
     Replanned,
     TaskEnded,
 )
-from skillc_runtime.trace.failure import Failure
-from skillc_runtime.trace.history import story_of
-from skillc_runtime.trace.outcome import Outcome
-from skillc_runtime.trace.record import Body, Records
-from skillc_runtime.trace.story import Call, Story
+from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.history import story_of
+from skillc_runtime.recording.outcome import Outcome
+from skillc_runtime.recording.record import Body, Records
+from skillc_runtime.recording.story import Call, Story
 from skillc_runtime.tree.run import Run
 from skillc_runtime.world.changes import SetProperty
 from tree.stage import FLAGS, ON, PERIOD_S, Library, Script, Stage, act, check, here, par, seq, world

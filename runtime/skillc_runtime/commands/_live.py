@@ -10,8 +10,8 @@ from rich.status import Status as Spinner
 from rich.text import Text
 
 from skillc_runtime.commands._console import console
-from skillc_runtime.trace.events import Event, NodeEnded, NodeStarted, PlanMade, Replanned, TaskEnded
-from skillc_runtime.trace.known import status_words
+from skillc_runtime.recording.events import Event, NodeEnded, NodeStarted, PlanMade, Replanned, TaskEnded
+from skillc_runtime.recording.known import status_words
 
 STEP_DEPTH = 2
 """Calls this deep are told of where the output is no terminal: the steps of a plan and what they call."""

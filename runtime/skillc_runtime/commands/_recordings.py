@@ -9,9 +9,9 @@ from typing import NoReturn
 import click
 
 from skillc_runtime.commands._paths import look
-from skillc_runtime.trace.history import story_of
-from skillc_runtime.trace.reader import TraceError, TraceReader
-from skillc_runtime.trace.story import Story
+from skillc_runtime.recording.history import story_of
+from skillc_runtime.recording.reader import TraceError, TraceReader
+from skillc_runtime.recording.story import Story
 
 NAME = "events.jsonl"
 

@@ -18,20 +18,20 @@ from skillc_runtime.commands import _looks
 from skillc_runtime.commands._following import Follower
 from skillc_runtime.commands._live import Live
 from skillc_runtime.commands._mission import Mission
+from skillc_runtime.evaluation.report.drawing import Drawing, drawing
+from skillc_runtime.evaluation.report.moments import moments
+from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.evaluation.report.summary import Choices, summarise
+from skillc_runtime.evaluation.report.wiping import find_wipings
+from skillc_runtime.evaluation.report.write import write_report
 from skillc_runtime.planning.planners import Planners
-from skillc_runtime.report.drawing import Drawing, drawing
-from skillc_runtime.report.moments import moments
-from skillc_runtime.report.result import TaskResult
-from skillc_runtime.report.summary import Choices, summarise
-from skillc_runtime.report.wiping import find_wipings
-from skillc_runtime.report.write import write_report
+from skillc_runtime.recording.events import Listener
+from skillc_runtime.recording.writer import TraceWriter
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.film import Film, Filmed, Moment
 from skillc_runtime.simulation.pictures import FilmError
 from skillc_runtime.simulation.rendering import RenderingError
 from skillc_runtime.task import execute
-from skillc_runtime.trace.events import Listener
-from skillc_runtime.trace.writer import TraceWriter
 from skillc_runtime.world.frames import FrameError
 from skillc_runtime.world.sheet import SheetError
 from skillc_runtime.world.store.store import StoreError

@@ -18,13 +18,13 @@ from skillc_compiler.library import codec
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.commands import _mission
 from skillc_runtime.commands._console import console
-from skillc_runtime.trials import identity, page
-from skillc_runtime.trials.experiment import Experiment, Laboratory
-from skillc_runtime.trials.journal import Heading, Journal, JournalError, missing
-from skillc_runtime.trials.series import Series, series
-from skillc_runtime.trials.trial import Disturbance, Trial
-from skillc_runtime.trials.verdict import misses
-from skillc_runtime.trials.workers import run_all
+from skillc_runtime.evaluation.trials import identity, page
+from skillc_runtime.evaluation.trials.experiment import Experiment, Laboratory
+from skillc_runtime.evaluation.trials.journal import Heading, Journal, JournalError, missing
+from skillc_runtime.evaluation.trials.series import Series, series
+from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
+from skillc_runtime.evaluation.trials.verdict import misses
+from skillc_runtime.evaluation.trials.workers import run_all
 
 PAGE = "trials.html"
 

@@ -7,11 +7,11 @@ from itertools import chain as together
 
 import msgspec
 
-from skillc_runtime.trace.failure import Failure, Rejected
-from skillc_runtime.trace.known import known_words, status_words
-from skillc_runtime.trace.question import Answer
-from skillc_runtime.trace.reasons import Determined, Untried
-from skillc_runtime.trace.story import Attempt, Call, Fact, Link, Story
+from skillc_runtime.recording.failure import Failure, Rejected
+from skillc_runtime.recording.known import known_words, status_words
+from skillc_runtime.recording.question import Answer
+from skillc_runtime.recording.reasons import Determined, Untried
+from skillc_runtime.recording.story import Attempt, Call, Fact, Link, Story
 
 HOW = {"passed": "passed by the caller", "default": "the default", "inferred": "found in the world"}
 PLANNED = "bound by the planner"

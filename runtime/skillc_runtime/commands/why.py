@@ -24,7 +24,7 @@ def command(run: Path, question: str | None, as_json: bool) -> None:
     (`Pick`), or a parameter (`gripper`, `Pick.gripper`, `2.gripper`).
     """
     from skillc_runtime.commands import _recordings, _why
-    from skillc_runtime.trace.question import QuestionError, asked
+    from skillc_runtime.recording.question import QuestionError, asked
 
     story = _recordings.told(run)
     try:

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping, Set
 
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Implementation, Parameter, Requirement
+from skillc_runtime.recording.reasons import Deciding, Determined
 from skillc_runtime.selection.fit import Fitted
-from skillc_runtime.trace.reasons import Deciding, Determined
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.support import facts_of
 from skillc_runtime.world.values import Value

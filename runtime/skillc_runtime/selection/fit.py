@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Implementation, Parameter, Post, Requirement
+from skillc_runtime.recording.failure import Rejected, Stage
 from skillc_runtime.selection.arguments import problem_with
 from skillc_runtime.selection.describe import bindings_text
 from skillc_runtime.selection.inferred import Inferred, infer_parameters
-from skillc_runtime.trace.failure import Rejected, Stage
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.explain import explain
 from skillc_runtime.world.expressions import value_of

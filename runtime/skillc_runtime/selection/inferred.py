@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Implementation, Parameter, Requirement
 from skillc_compiler.library.vocabulary import ClassType, Vocabulary
-from skillc_runtime.trace.failure import Rejected
+from skillc_runtime.recording.failure import Rejected
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.explain import explain
 from skillc_runtime.world.inference import Ambiguous, Binding, Found, NoneFound, infer

@@ -11,6 +11,7 @@ from skillc_compiler.library.conditions import Condition, Expression, Variable
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Compound, Implementation, Primitive, SkillLibrary
 from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.recording.failure import Rejected
 from skillc_runtime.selection.fit import bind_arguments
 from skillc_runtime.selection.inferred import infer_fixed
 from skillc_runtime.selection.known import Known, known_values, unusable
@@ -18,7 +19,6 @@ from skillc_runtime.selection.named import Misnamed, misnamed
 from skillc_runtime.selection.python import PrimitiveError, fitting_class
 from skillc_runtime.selection.reads import changing_terms, is_fixed
 from skillc_runtime.selection.select import candidates, why_none
-from skillc_runtime.trace.failure import Rejected
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from skillc_compiler.library.skills import Implementation, SkillLibrary
+from skillc_runtime.recording.failure import Rejected
 from skillc_runtime.selection.fit import Fitted, fit
-from skillc_runtime.trace.failure import Rejected
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
 

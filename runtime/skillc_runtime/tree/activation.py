@@ -8,10 +8,10 @@ from typing import TypeAlias, assert_never, cast
 
 from skillc_compiler.library import tree
 from skillc_compiler.library.skills import Compound, Implementation, Primitive, Skill
+from skillc_runtime.recording.failure import Failure, FailureKind, Rejected, Stage
 from skillc_runtime.selection.arguments import problem_with
 from skillc_runtime.selection.fit import Fitted, broken_text, first_broken
 from skillc_runtime.selection.python import PrimitiveError, fitting_class
-from skillc_runtime.trace.failure import Failure, FailureKind, Rejected, Stage
 from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.enclosing import Enclosing, Frame
 from skillc_runtime.tree.node import Node

@@ -9,10 +9,10 @@ from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Variable
 from skillc_compiler.library.skills import Implementation
 from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.recording.failure import Failure, Rejected, as_failure
+from skillc_runtime.recording.reasons import Attempted
 from skillc_runtime.selection.fit import fit
 from skillc_runtime.selection.select import candidates, why_none
-from skillc_runtime.trace.failure import Failure, Rejected, as_failure
-from skillc_runtime.trace.reasons import Attempted
 from skillc_runtime.tree.activation import Activation, Build, activate
 from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.enclosing import Enclosing, Frame

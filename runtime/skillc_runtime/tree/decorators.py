@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from skillc_compiler.library import tree
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.trace.failure import Failure
+from skillc_runtime.recording.failure import Failure
 from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.enclosing import Enclosing
 from skillc_runtime.tree.leaves import seconds_of

@@ -6,9 +6,9 @@ from typing import ClassVar
 
 from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.trace.events import NodeEnded, NodeStarted
-from skillc_runtime.trace.failure import Failure
-from skillc_runtime.trace.reasons import Attempted
+from skillc_runtime.recording.events import NodeEnded, NodeStarted
+from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.reasons import Attempted
 from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.errors import told
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from skillc_runtime.trace.outcome import Outcome
+from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.tree.call import CallNode
 from skillc_runtime.tree.node import Node
 

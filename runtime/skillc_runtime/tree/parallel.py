@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import ClassVar
 
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.trace.failure import Failure
+from skillc_runtime.recording.failure import Failure
 from skillc_runtime.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.tree.selector import all_failed
 from skillc_runtime.tree.strand import Strand

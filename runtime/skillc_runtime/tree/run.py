@@ -8,14 +8,14 @@ from skillc_compiler.library import tree
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.plans.failures import Failures
 from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.recording.events import Listener, Paused, Resumed
+from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.listeners import Listeners
+from skillc_runtime.recording.outcome import Outcome
+from skillc_runtime.recording.world import world_changed
 from skillc_runtime.robots.cell import Cell
 from skillc_runtime.robots.contradictions import DeviceWatch
 from skillc_runtime.robots.watchdog import Silence
-from skillc_runtime.trace.events import Listener, Paused, Resumed
-from skillc_runtime.trace.failure import Failure
-from skillc_runtime.trace.listeners import Listeners
-from skillc_runtime.trace.outcome import Outcome
-from skillc_runtime.trace.world import world_changed
 from skillc_runtime.tree.build import build
 from skillc_runtime.tree.call import CallNode
 from skillc_runtime.tree.context import Context

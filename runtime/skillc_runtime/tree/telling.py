@@ -6,13 +6,13 @@ from collections.abc import Mapping, Sequence
 
 from skillc_compiler.library.skills import Implementation, Skill
 from skillc_compiler.library.tree import Call
+from skillc_runtime.recording.events import ImplementationChosen
+from skillc_runtime.recording.failure import Rejected
+from skillc_runtime.recording.reasons import Attempted, Untried
 from skillc_runtime.selection.describe import bindings_text
 from skillc_runtime.selection.determined import determined
 from skillc_runtime.selection.fit import fit
 from skillc_runtime.selection.select import candidates
-from skillc_runtime.trace.events import ImplementationChosen
-from skillc_runtime.trace.failure import Rejected
-from skillc_runtime.trace.reasons import Attempted, Untried
 from skillc_runtime.tree.activation import Activation
 from skillc_runtime.tree.context import Context
 from skillc_runtime.world.expressions import EvaluationError
