@@ -18,6 +18,7 @@ from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.tree.run import Run
 from skillc_runtime.verifying import Claim
+from skillc_runtime.world.labelled import label
 from skillc_runtime.world.state import WorldState
 
 TICK_S = 0.01
@@ -112,20 +113,21 @@ def _tell_plan(prepared: Prepared, setting: Setting) -> None:
         return
     solved, skills = prepared.planned.solved, setting.library.skills
     steps = tuple(
-        PlanStep(skill=step.skill, arguments=step.arguments, source=skills[step.skill].source)
+        PlanStep(
+            skill=step.skill,
+            arguments={name: label(iri, setting.library.vocabulary) for name, iri in step.arguments.items()},
+            source=skills[step.skill].source,
+        )
         for step in solved.plan.steps
     )
     now, cost = setting.cell.now, solved.plan.duration_s
-    short = setting.library.vocabulary.short
-    names = {iri: short(iri) for step in steps for iri in step.arguments.values()}
     made = PlanMade(
         time=now,
         planner=solved.planner,
         optimal=solved.optimal,
         cost=cost,
         steps=steps,
-        names=names,
-        quality=describe_quality(solved.optimal, solved.left_out, solved.at_least_s),
+        quality=quality(solved.optimal, solved.left_out, solved.at_least_s),
     )
     Listeners(setting.listeners)(made)
 

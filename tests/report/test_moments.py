@@ -7,9 +7,10 @@ from typing import Any
 
 from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.evaluation.report.moments import moments
-from skillc_runtime.recording.events import ImplementationChosen
+from skillc_runtime.recording.events import Highlight, ImplementationChosen
 from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.simulation.film import Moment
+from skillc_runtime.world.labelled import Iri
 
 HERE = Position(path="press.skill", line=1, column=1)
 CELL: Any = SimpleNamespace(
@@ -23,21 +24,22 @@ def call(number: int, status: str, started: float | None, ended: float | None, *
     )
 
 
-def chosen(node: int, skill: str, **bindings: str) -> ImplementationChosen:
+def chosen(node: int, what: Iri, *seen: tuple[str, str]) -> ImplementationChosen:
     return ImplementationChosen(
         time=0.0,
         node=node,
-        skill=skill,
+        skill="Work",
         implementation="x",
-        bindings={"arm": "lab:Arm", **bindings},
+        bindings={"arm": Iri("http://lab#Arm", "lab:Arm"), "what": what},
+        highlights=tuple(Highlight(when, what, word) for when, word in seen),
         rejected=(),
         source=HERE,
     )
 
 
 CHOICES = {
-    2: chosen(2, "AwaitSwitch", button="lab:Button"),
-    3: chosen(3, "Seat", object="lab:Peg", socket="lab:Hole"),
+    2: chosen(2, Iri("http://lab#Button", "lab:Button"), ("ends", "pressed")),
+    3: chosen(3, Iri("http://lab#Hole", "lab:Hole"), ("begins", "found"), ("ends", "filled")),
 }
 
 

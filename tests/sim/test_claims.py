@@ -20,6 +20,7 @@ from skillc_runtime.simulation.facts import SceneFacts
 from skillc_runtime.simulation.variation import Variation, draw, with_obstacles
 from skillc_runtime.task import Execution, execute
 from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.labelled import format_fact
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
 from skillc_runtime.world.state import WorldState
@@ -130,7 +131,7 @@ def test_a_part_that_is_let_go_in_the_air_is_not_said_to_be_placed() -> None:
     assert picked.status is Status.SUCCESS and picked.verified, picked.failure
     assert placed.status is Status.SUCCESS, placed.failure
     assert placed.verified is False
-    known = {fact.fact: fact.known for fact in placed.facts}
+    known = {format_fact(fact.fact): fact.known for fact in placed.facts}
     assert known["lab:Cell contain lab:Eraser-1"] == "assumed"
     assert known["not lab:Robotiq-1 contain lab:Eraser-1"] == "sensed", "the fingers opened"
 

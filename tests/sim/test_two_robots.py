@@ -16,6 +16,7 @@ from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import execute
+from skillc_runtime.world.labelled import Iri
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
 
@@ -41,7 +42,9 @@ def run(name: str) -> tuple[TaskResult, dict[str, list[Outcome]]]:
     result = summarise(execution, choices, library(), find_wipings([execution.last.tree], choices, cell))
     steps: dict[str, list[Outcome]] = {}
     for call in sorted(calls_in(execution.last.tree), key=lambda each: each.started or 0.0):
-        steps.setdefault(choices[call.id].bindings["arm"], []).append(call)
+        arm = choices[call.id].bindings["arm"]
+        assert isinstance(arm, Iri)
+        steps.setdefault(arm.label, []).append(call)
     return result, steps
 
 

@@ -28,6 +28,7 @@ from skillc_runtime.recording.record import Body, Records
 from skillc_runtime.recording.story import Call, Story
 from skillc_runtime.tree.run import Run
 from skillc_runtime.world.changes import SetProperty
+from skillc_runtime.world.labelled import Iri
 from tree.stage import FLAGS, ON, PERIOD_S, Library, Script, Stage, act, check, here, par, seq, world
 from tree.strategies import Play, plays
 from why.stories import BEGIN, events_of, known, steps_of
@@ -120,15 +121,14 @@ def test_steps_side_by_side_know_of_each_other() -> None:
 
 
 LINE = Position("depot.skill", 5, 1)
-GO = PlanStep(skill="Go", arguments={"to": "http://example.org/lab#b"}, source=LINE)
-STAY = PlanStep(skill="Go", arguments={"to": "http://example.org/lab#a"}, source=LINE)
-
-NAMES = {"http://example.org/lab#a": "lab:a", "http://example.org/lab#b": "lab:b"}
+A, B = Iri("http://example.org/lab#a", "lab:a"), Iri("http://example.org/lab#b", "lab:b")
+GO = PlanStep(skill="Go", arguments={"to": B}, source=LINE)
+STAY = PlanStep(skill="Go", arguments={"to": A}, source=LINE)
 
 
 def planned(*events: Event) -> Story:
     """Return the story of a plan to go to b and to a."""
-    plan = PlanMade(time=0.0, planner="test", optimal="", cost=1.0, steps=(GO, STAY), names=NAMES)
+    plan = PlanMade(time=0.0, planner="test", optimal="", cost=1.0, steps=(GO, STAY))
     return known(story_of([BEGIN, plan, *events]))
 
 
@@ -140,29 +140,29 @@ def ended(number: int, status: str = "success") -> NodeEnded:
     return NodeEnded(time=1.0, node=number, name="Go", status=status, source=LINE)
 
 
-def chose(number: int, to: str) -> ImplementationChosen:
+def chose(number: int, to: Iri) -> ImplementationChosen:
     return ImplementationChosen(
         time=0.0, node=number, skill="Go", implementation="wheels", bindings={"to": to}, source=LINE
     )
 
 
 def test_planned_steps_find_their_calls_by_their_arguments() -> None:
-    story = planned(node(1, 0, "call"), chose(1, "lab:a"), ended(1), node(2, 0, "call"), chose(2, "lab:b"), ended(2))
-    assert [step.bindings for step in steps_of(story)] == [{"to": "lab:b"}, {"to": "lab:a"}]
+    story = planned(node(1, 0, "call"), chose(1, A), ended(1), node(2, 0, "call"), chose(2, B), ended(2))
+    assert [step.bindings for step in steps_of(story)] == [{"to": B}, {"to": A}]
 
 
 def test_a_step_whose_purpose_holds_is_skipped_and_one_that_was_not_reached_never_started() -> None:
     story = planned(node(1, 0, "if"), ended(1))
     assert [(step.status, step.bindings) for step in steps_of(story)] == [
-        ("skipped", {"to": "lab:b"}),
-        ("not started", {"to": "lab:a"}),
+        ("skipped", {"to": B}),
+        ("not started", {"to": A}),
     ]
 
 
 def test_plans_that_number_their_nodes_anew_are_told_apart() -> None:
     plan = PlanMade(time=2.0, planner="test", optimal="", cost=1.0, steps=(GO,))
-    first = (node(1, 0, "call"), chose(1, "lab:b"), ended(1, "failure"))
-    again = (node(1, 0, "call"), chose(1, "lab:b"), ended(1))
+    first = (node(1, 0, "call"), chose(1, B), ended(1, "failure"))
+    again = (node(1, 0, "call"), chose(1, B), ended(1))
     story = planned(*first, Replanned(time=2.0, reason="stuck"), plan, *again)
     assert [(step.number, step.status) for step in steps_of(story)] == [
         ("1", "failure"),
@@ -173,7 +173,7 @@ def test_plans_that_number_their_nodes_anew_are_told_apart() -> None:
 
 
 def test_a_recording_that_stops_has_no_status_and_says_what_ran() -> None:
-    story = planned(node(1, 0, "call"), chose(1, "lab:b"))
+    story = planned(node(1, 0, "call"), chose(1, B))
     assert story.status == "" and steps_of(story)[0].status == "running"
 
 
@@ -188,5 +188,5 @@ def test_without_a_task_there_is_no_story() -> None:
 
 
 def test_a_story_survives_json() -> None:
-    story = planned(node(1, 0, "call"), chose(1, "lab:b"), ended(1))
+    story = planned(node(1, 0, "call"), chose(1, B), ended(1))
     assert msgspec.json.decode(msgspec.json.encode(story), type=Story) == story

@@ -19,7 +19,7 @@ from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.commands import _mission
 from skillc_runtime.commands._console import console
 from skillc_runtime.evaluation.trials import identity, page
-from skillc_runtime.evaluation.trials.experiment import Experiment, Laboratory
+from skillc_runtime.evaluation.trials.experiment import Experiment, TrialRunner
 from skillc_runtime.evaluation.trials.journal import Heading, Journal, JournalError, missing
 from skillc_runtime.evaluation.trials.series import Series, series
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
@@ -71,7 +71,7 @@ def _all(wanted: Wanted, experiment: Experiment, heading: Heading) -> tuple[Tria
         done = {trial.seed: trial for trial in kept if trial.seed in wanted.seeds}
         told = stack.enter_context(Told(experiment.task, wanted, len(done)))
         left = missing(wanted.seeds, kept)
-        for trial in _until_interrupted(run_all(partial(Laboratory, experiment), left, wanted.jobs)):
+        for trial in _until_interrupted(run_all(partial(TrialRunner, experiment), left, wanted.jobs)):
             done[trial.seed] = trial
             if journal is not None:
                 journal.add(trial)

@@ -8,10 +8,11 @@ from itertools import chain as together
 import msgspec
 
 from skillc_runtime.recording.failure import Failure, Rejected
-from skillc_runtime.recording.known import known_words, status_words
+from skillc_runtime.recording.known import assumed, known_words, status_words, what_to_sense
 from skillc_runtime.recording.question import Answer
 from skillc_runtime.recording.reasons import Determined, Untried
 from skillc_runtime.recording.story import Attempt, Call, Fact, Link, Story
+from skillc_runtime.world.labelled import format_fact, format_value
 
 HOW = {"passed": "passed by the caller", "default": "the default", "inferred": "found in the world"}
 PLANNED = "bound by the planner"
@@ -53,8 +54,8 @@ def _rests_on(story: Story) -> list[str]:
     """Return the facts that a success rests on, and what would have to be sensed where they are only assumed."""
     if not story.known:
         return []
-    lines = [f"{each.fact}  ({known_words(each)})" for each in story.known]
-    return ["rests on:", *_indented(lines), *_indented(each.wanted for each in story.known if each.wanted)]
+    lines = [f"{format_fact(each.fact)}  ({known_words(each)})" for each in story.known]
+    return ["rests on:", *_indented(lines), *_indented(what_to_sense(each) for each in assumed(story.known))]
 
 
 def _attempt(attempt: Attempt) -> Iterator[str]:
@@ -73,7 +74,7 @@ def _attempt(attempt: Attempt) -> Iterator[str]:
 def _arguments(call: Call) -> str:
     """Return what is not a default, on one line."""
     defaults = {each.parameter for each in call.determined if each.how == "default"}
-    return ", ".join(f"{name}: {value}" for name, value in call.bindings.items() if name not in defaults)
+    return ", ".join(f"{name}: {format_value(value)}" for name, value in call.bindings.items() if name not in defaults)
 
 
 def _line(call: Call, depth: int = 0) -> str:
@@ -149,16 +150,17 @@ def _refusal(rejected: Rejected) -> Iterator[str]:
 def _bound(call: Call, name: str) -> Iterator[str]:
     reason = next((each for each in call.determined if each.parameter == name), None)
     how = reason.how if reason is not None else "passed"
-    yield f"{name} = {call.bindings[name]}  ({PLANNED if call.planned and how == 'passed' else HOW[how]})"
+    yield f"{name} = {format_value(call.bindings[name])}  ({PLANNED if call.planned and how == 'passed' else HOW[how]})"
     if reason is not None:
         yield from _indented(_because(reason))
 
 
 def _because(reason: Determined) -> Iterator[str]:
     for condition in reason.conditions:
-        yield f"`{condition.text}` ({condition.source}): {'; '.join(condition.facts) or 'no fact decides it'}"
+        facts = "; ".join(map(format_fact, condition.facts))
+        yield f"`{condition.text}` ({condition.source}): {facts or 'no fact decides it'}"
     if reason.others:
-        yield f"`infer any` passed over {', '.join(reason.others)}"
+        yield f"`infer any` passed over {', '.join(other.label for other in reason.others)}"
 
 
 def _failed(call: Call) -> Iterator[str]:
@@ -191,7 +193,8 @@ def _chain(links: Sequence[Link], known: str = "") -> Iterator[str]:
 
 def _fact(fact: Fact) -> str:
     known = f"{fact.known}, " if fact.known else ""
-    return fact.text if fact.since is None else f"{fact.text}  ({known}since {fact.since:.1f} s, by {fact.by})"
+    text = format_fact(fact.fact)
+    return text if fact.since is None else f"{text}  ({known}since {fact.since:.1f} s, by {fact.by})"
 
 
 def _parameter(call: Call, name: str) -> Iterator[str]:

@@ -19,6 +19,8 @@ HOLD_S = 0.2
 class AwaitSwitch(Primitive):
     """Wait up to `patience` s until a button, which the arm presses, has switched; note that, and the force in N."""
 
+    highlights = (("ends", "button", "pressed"),)
+
     def __init__(self, cell: Cell, *, arm: str, button: str, patience: float) -> None:
         super().__init__(cell)
         self.arm, self._switch = cell.arm(arm), cell.button(button)

@@ -66,6 +66,8 @@ class Push(Primitive):
     Fails when nothing is met within `travel` m; stops the arm when, later, contact is lost and it sinks by as much.
     """
 
+    activity = "press"
+
     def __init__(
         self, cell: Cell, *, arm: str, along: Array, force: float, travel: float, approach: float = APPROACH_M_S
     ) -> None:

@@ -25,6 +25,8 @@ STILL_M_S = 0.005
 class AwaitGuidance(Primitive):
     """Wait up to `patience` s until the tool was led somewhere and stood still for `still` s; note where that is."""
 
+    highlights = (("ends", "pose", "shown"),)
+
     def __init__(self, cell: Cell, *, arm: str, pose: str, still: float, patience: float) -> None:
         super().__init__(cell)
         self.arm, self._pose, self._still, self._patience = cell.arm(arm), pose, still, patience

@@ -28,6 +28,8 @@ opening is, is not known better than that."""
 class SinkBelow(Primitive):
     """Wait up to `patience` s until the tool is `depth` m below a target, against the unit direction `along` (3,)."""
 
+    activity = "search"
+
     def __init__(self, cell: Cell, *, arm: str, target: Pose, along: Array, depth: float, patience: float) -> None:
         super().__init__(cell)
         self.arm, self._target, self._along = cell.arm(arm), target.position, along
@@ -55,6 +57,8 @@ class SinkBelow(Primitive):
 
 class Seat(Primitive):
     """Wait up to `patience` s until a pushed peg rests in a socket; note its depth, and whether it is at the bottom."""
+
+    highlights = (("begins", "socket", "found"), ("ends", "socket", "filled"))
 
     def __init__(self, cell: Cell, *, arm: str, object: str, socket: str, patience: float) -> None:
         super().__init__(cell)

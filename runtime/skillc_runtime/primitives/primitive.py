@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from enum import Enum
 from types import MappingProxyType
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
 
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
@@ -21,6 +21,14 @@ class Status(Enum):
     HALTED = "halted"
 
 
+Activity: TypeAlias = Literal["", "press", "follow-path", "search"]
+"""`press`: a tool is pressed on something, with `force` N; `follow-path`: it is led along a path; `search`: it is moved
+about until something gives way. Empty for anything else."""
+
+Phase: TypeAlias = Literal["begins", "ends"]
+"""When a primitive begins, or when it ends well."""
+
+
 class SkillFailure(Exception):
     """A primitive cannot do what was asked; the message tells the user why, with numbers."""
 
@@ -32,10 +40,15 @@ class Primitive:
     Individuals come as IRIs, quantities in SI units, unset optional parameters as None. Any method may raise
     SkillFailure; from `start` it means that another implementation may be tried.
 
+    `activity` says what it does, for those who judge or disturb it. `highlights` are the moments worth a picture: of
+    which parameter, and the word for what is seen then.
+
     `text_names` says which texts name something, so that a misspelt one is reported before anything runs: a parameter
     with the parameter to start from, the relations to follow and the property whose values are the names, as IRIs.
     """
 
+    activity: ClassVar[Activity] = ""
+    highlights: ClassVar[tuple[tuple[Phase, str, str], ...]] = ()
     text_names: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType({})
 
     def __init__(self, cell: Cell) -> None:

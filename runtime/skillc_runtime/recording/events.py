@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 import msgspec
 
@@ -12,10 +12,10 @@ from skillc_runtime.recording.failure import Failure, Rejected
 from skillc_runtime.recording.known import KnownFact
 from skillc_runtime.recording.reasons import Attempted, Determined, Untried
 from skillc_runtime.world.evidence import Evidence
+from skillc_runtime.world.labelled import Iri, LabelledChange, LabelledValue
 
-FORMAT = 3
-"""Raised with every change of what the events mean; 2 says why parameters are what they are and what failures met, 3
-how facts are known."""
+FORMAT = 4
+"""Raised with every change of what the events mean. A reader takes no other format."""
 
 
 class _Event(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -27,7 +27,7 @@ class _Event(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 class TaskStarted(_Event, tag="task-started", frozen=True, kw_only=True):
     """A task begins; `library` and `hash` name what it runs, `format` is that of the events that follow."""
 
-    format: int = 1
+    format: int
     task: str
     library: str = ""
     hash: str = ""
@@ -38,22 +38,20 @@ class PlanStep(msgspec.Struct, frozen=True, kw_only=True):
     """A step of a plan: the skill and its arguments by parameter name."""
 
     skill: str
-    arguments: dict[str, str]
+    arguments: dict[str, LabelledValue]
     source: Position | None = None
 
 
 class PlanMade(_Event, tag="plan-made", frozen=True, kw_only=True):
     """A planner found a plan; `cost` is in the unit of durations, seconds.
 
-    `optimal` is what the planner says about it, `quality` the same in words, which also say of what problem. `names`
-    are the short names of the individuals in its steps, by IRI.
+    `optimal` is what the planner says about it, `quality` the same in words, which also say of what problem.
     """
 
     planner: str
     optimal: str
     cost: float
     steps: tuple[PlanStep, ...]
-    names: dict[str, str] = {}
     quality: str = ""
 
 
@@ -84,41 +82,46 @@ class NodeEnded(_Event, tag="node-ended", frozen=True, kw_only=True):
     source: Position
 
 
+class Highlight(msgspec.Struct, frozen=True):
+    """What is worth seeing of `what` when a call begins, or ends well: that it is, say, `pressed`."""
+
+    when: Literal["begins", "ends"]
+    what: Iri
+    word: str
+
+
 class ImplementationChosen(_Event, tag="implementation-chosen", frozen=True, kw_only=True):
-    """A call starts with this implementation; `bindings` are its parameters as text.
+    """A call starts with this implementation; `bindings` are its parameters.
 
     `determined` says of those that were not simply passed why they are what they are; `untried` are the implementations
-    that rank after this one. `fixed` tells that the call itself names the implementation.
+    that rank after this one. `fixed` tells that the call itself names the implementation. `activity` is what a
+    primitive declares that it does, as `press`; `highlights` are what there is to see of it.
     """
 
     node: int
     skill: str
     implementation: str
-    bindings: dict[str, str]
+    bindings: dict[str, LabelledValue]
     rejected: tuple[Rejected, ...] = ()
     determined: tuple[Determined, ...] = ()
     untried: tuple[Untried, ...] = ()
     fixed: bool = False
+    activity: str = ""
+    highlights: tuple[Highlight, ...] = ()
     source: Position
+
+    @property
+    def individuals(self) -> tuple[str, ...]:
+        """The IRIs of the individuals that the parameters stand for, in the order of the parameters."""
+        return tuple(value.iri for value in self.bindings.values() if isinstance(value, Iri))
 
 
 class WorldChanged(_Event, tag="world-changed", frozen=True, kw_only=True):
-    """The world model changed; one line of text for each change.
-
-    `known` is how this is known, None for what others wrote and in recordings of older formats.
-    """
+    """The world model changed; `known` is how this is known, None for what others wrote."""
 
     origin: str
-    changes: tuple[str, ...]
+    changes: tuple[LabelledChange, ...]
     known: Evidence | None = None
-
-
-class Measured(_Event, tag="measured", frozen=True, kw_only=True):
-    """A skill measured something; numbers in SI units."""
-
-    name: str
-    values: dict[str, float]
-    node: int = 0
 
 
 class Note(_Event, tag="note", frozen=True, kw_only=True):
@@ -140,7 +143,7 @@ class Resumed(_Event, tag="resumed", frozen=True, kw_only=True):
 class TaskEnded(_Event, tag="task-ended", frozen=True, kw_only=True):
     """A task is over; `facts` are those that a success rests on.
 
-    `verified` tells whether none of them is only assumed; None where there is no success, and in older formats.
+    `verified` tells whether none of them is only assumed; None where there is no success.
     """
 
     task: str
@@ -158,7 +161,6 @@ Event: TypeAlias = (
     | NodeEnded
     | ImplementationChosen
     | WorldChanged
-    | Measured
     | Note
     | Paused
     | Resumed

@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import assert_never
 
+from msgspec import structs
+
 from skillc_runtime.recording import events
 from skillc_runtime.recording.events import Event
 from skillc_runtime.recording.record import Body, Records
 from skillc_runtime.recording.steps import chain, steps
 from skillc_runtime.recording.story import Attempt, Fact, Story
+from skillc_runtime.world.labelled import LabelledFact, PropertyFact, RelationFact
 
 
 def story_of(recording: Iterable[Event]) -> Story | None:
@@ -27,7 +30,7 @@ class _History:
         self._started: events.TaskStarted | None = None
         self._ended: events.TaskEnded | None = None
         self._last = 0.0
-        self._written: dict[str, Fact] = {}
+        self._written: dict[LabelledFact, Fact] = {}
         self._because = ""
         self._bodies = [Body()]
         self._records = Records(self._bodies[0])
@@ -52,7 +55,7 @@ class _History:
                 self._note(event)
             case events.TaskEnded():
                 self._ended = event
-            case events.Measured() | events.Note() | events.Paused() | events.Resumed():
+            case events.Note() | events.Paused() | events.Resumed():
                 pass
             case _:
                 assert_never(event)
@@ -88,20 +91,20 @@ class _History:
 
     def _note(self, event: events.WorldChanged) -> None:
         for change in event.changes:
-            self._written[_about(change)] = Fact(
-                text=change, since=event.time, by=event.origin, known=event.known or ""
-            )
+            if isinstance(change, RelationFact | PropertyFact):
+                written = Fact(fact=change, since=event.time, by=event.origin, known=event.known or "")
+                self._written[_about(change)] = written
 
     def _facts(self, event: events.NodeEnded) -> tuple[Fact, ...]:
         """Return the facts that a failure met, each with who wrote it if that was during the run."""
         found = event.attempted.facts if event.attempted is not None else ()
-        written = ((text, self._written.get(_about(text))) for text in found)
-        return tuple(fact if fact is not None and fact.text == text else Fact(text=text) for text, fact in written)
+        pairs = ((fact, self._written.get(_about(fact))) for fact in found)
+        return tuple(written if written and written.fact == fact else Fact(fact=fact) for fact, written in pairs)
 
 
-def _about(change: str) -> str:
-    """Return what a change is about, so that of a property only the last value is kept."""
-    return change.partition(" == ")[0].removeprefix("not ")
+def _about(fact: LabelledFact) -> LabelledFact:
+    """Return what a fact is about, so that of a relation or a property only what was written last is kept."""
+    return structs.replace(fact, value=None) if isinstance(fact, PropertyFact) else structs.replace(fact, holds=True)
 
 
 def _attempt(body: Body, count: int) -> Attempt:

@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, assert_never
 
 import msgspec
+from msgspec import structs
+
+from skillc_runtime.world.labelled import ClassFact, IdentityFact, LabelledFact, PropertyFact, RelationFact, format_fact
 
 UNVERIFIED = "finished, not verified"
 """How a task ended that did all it was to do, where something that this rests on is only assumed."""
 
 
 class KnownFact(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
-    """A fact in the words of the language, and how it is known: `given` before the run, or by what `by` names.
+    """A fact and how it is known: `given` before the run, or by what `by` names."""
 
-    `wanted` says of one that is only assumed what would have to be sensed.
-    """
-
-    fact: str
+    fact: LabelledFact
     known: Literal["sensed", "reported", "assumed", "given"]
     by: str = ""
-    wanted: str = ""
 
 
 def assumed(facts: tuple[KnownFact, ...]) -> tuple[KnownFact, ...]:
@@ -35,3 +34,24 @@ def known_words(fact: KnownFact) -> str:
 def status_words(status: str, verified: bool | None) -> str:
     """Return how a task ended, in words: a success that rests on an assumption is not called one."""
     return UNVERIFIED if verified is False else status
+
+
+def assumption_words(known: KnownFact) -> str:
+    """Say that a fact is only assumed, and what would have to be sensed."""
+    return f"{format_fact(known.fact)} is only assumed: {what_to_sense(known)}"
+
+
+def what_to_sense(known: KnownFact) -> str:
+    """Say what would have to be sensed for a fact to be more than assumed."""
+    after = f" after {known.by}" if known.by else ""
+    match known.fact:
+        case PropertyFact(individual, property_):
+            return f"a device would have to measure {property_.label} of {individual.label}{after}"
+        case ClassFact(individual, cls, holds):
+            what = "a" if holds else "no"
+            return f"a device would have to recognise{after} that {individual.label} is {what} {cls.label}"
+        case RelationFact() | IdentityFact() as fact:
+            said = format_fact(structs.replace(fact, holds=True))
+            return f"a device would have to sense{after} that `{said}` {'holds' if fact.holds else 'does not hold'}"
+        case _:
+            assert_never(known.fact)

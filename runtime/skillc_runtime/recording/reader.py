@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import BinaryIO
 
@@ -12,7 +13,17 @@ from skillc_runtime.recording.events import FORMAT, Event, TaskStarted
 
 LONGEST_LINE = 1 << 24
 """An event takes no more bytes than this; a file with a longer line is no recording."""
+
+
+class _Start(msgspec.Struct):
+    """What the first event of every format says of itself."""
+
+    type: str
+    format: int = 1
+
+
 _DECODER = msgspec.json.Decoder(Event)
+_START = msgspec.json.Decoder(_Start)
 
 
 class TraceError(ValueError):
@@ -41,14 +52,22 @@ class TraceReader:
                     self.cut_short = True
 
     def _event(self, line: bytes, number: int) -> Event:
+        if number == 1:
+            self._check_format(line)
         try:
             event: Event = _DECODER.decode(line)
         except (msgspec.DecodeError, UnicodeDecodeError) as error:
             raise TraceError(f"{self.path}:{number}: this is no event of skillc: {error}") from error
-        if isinstance(event, TaskStarted) and event.format > FORMAT:
-            reads = f"format {event.format}; this one reads up to {FORMAT}"
-            raise TraceError(f"{self.path}:{number}: a newer skillc wrote this ({reads})")
         return event
+
+    def _check_format(self, line: bytes) -> None:
+        """Raise TraceError where the first line says that the events are of another format."""
+        with suppress(msgspec.DecodeError, UnicodeDecodeError):
+            start = _START.decode(line)
+            if start.type == TaskStarted.__struct_config__.tag and start.format != FORMAT:
+                who = "a newer" if start.format > FORMAT else "an older"
+                reads = f"format {start.format}; this one reads format {FORMAT}"
+                raise TraceError(f"{self.path}:1: {who} skillc wrote this ({reads})")
 
 
 def _lines(file: BinaryIO) -> Iterator[bytes]:

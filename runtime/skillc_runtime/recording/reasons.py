@@ -8,14 +8,15 @@ import msgspec
 
 from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.recording.failure import Rejected
+from skillc_runtime.world.labelled import Iri, LabelledFact, LabelledValue
 
 
 class Deciding(msgspec.Struct, frozen=True, kw_only=True):
-    """A condition as its author wrote it, with the facts that decided it, as `lab:Store contain lab:Eraser-1`."""
+    """A condition as its author wrote it, with the facts that decided it."""
 
     text: str
     source: Position
-    facts: tuple[str, ...]
+    facts: tuple[LabelledFact, ...]
 
 
 class Determined(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -28,7 +29,7 @@ class Determined(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     parameter: str
     how: Literal["passed", "default", "inferred"]
     conditions: tuple[Deciding, ...] = ()
-    others: tuple[str, ...] = ()
+    others: tuple[Iri, ...] = ()
 
 
 class Untried(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -40,13 +41,13 @@ class Untried(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class Attempted(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
-    """What a call that failed had: its arguments as text, the implementations that did not do, the facts.
+    """What a call that failed had: its arguments, the implementations that did not do, the facts.
 
     `unset` are the parameters that were to be found in the world. The facts are those that its conditions read, at
     that moment.
     """
 
-    arguments: dict[str, str] = {}
+    arguments: dict[str, LabelledValue] = {}
     unset: tuple[str, ...] = ()
     rejected: tuple[Rejected, ...] = ()
-    facts: tuple[str, ...] = ()
+    facts: tuple[LabelledFact, ...] = ()

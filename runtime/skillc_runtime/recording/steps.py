@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from math import inf
 
 from msgspec import structs
@@ -11,6 +10,7 @@ from msgspec import structs
 from skillc_runtime.recording.events import PlanStep
 from skillc_runtime.recording.record import Body, Record
 from skillc_runtime.recording.story import Call, Link
+from skillc_runtime.world.labelled import LabelledValue
 
 
 def steps(body: Body, before: int) -> tuple[Call, ...]:
@@ -22,7 +22,6 @@ def steps(body: Body, before: int) -> tuple[Call, ...]:
     calls = [call for root in body.roots for call in ((root,) if root.is_call else root.calls)]
     skipped = [event.source for event in body.skipped]
     found: list[Record | Call] = []
-    names = body.plan.names if body.plan is not None else {}
     for step in body.plan.steps if body.plan is not None else ():
         call = next((each for each in calls if _runs(each, step)), None)
         if call is not None:
@@ -30,7 +29,7 @@ def steps(body: Body, before: int) -> tuple[Call, ...]:
         passed_over = call is None and step.source is not None and step.source in skipped
         if passed_over and step.source is not None:
             skipped.remove(step.source)
-        found.append(call or _planned(step, names, "skipped" if passed_over else "not started"))
+        found.append(call or _planned(step, "skipped" if passed_over else "not started"))
     numbered = enumerate([*found, *calls], start=before + 1)
     as_calls = tuple(_step(each, str(number)) for number, each in numbered)
     return _side_by_side(tuple(structs.replace(each, planned=body.plan is not None) for each in as_calls))
@@ -59,29 +58,22 @@ def _runs(call: Record, step: PlanStep) -> bool:
     if _skill(call) != step.skill:
         return False
     bound = _bindings(call)
-    return not bound or all(_names(bound.get(name, ""), iri) for name, iri in step.arguments.items())
-
-
-def _names(short: str, iri: str) -> bool:
-    """Whether `lab:Arm-1` may be short for an IRI."""
-    local = short.rpartition(":")[2]
-    return short == iri or (bool(local) and iri.endswith(local) and iri[: -len(local)].endswith(("#", "/", ":")))
+    return not bound or all(bound.get(name) == value for name, value in step.arguments.items())
 
 
 def _skill(call: Record) -> str:
     return call.choice.skill if call.choice is not None else call.start.name.partition("[")[0]
 
 
-def _bindings(call: Record) -> dict[str, str]:
+def _bindings(call: Record) -> dict[str, LabelledValue]:
     if call.choice is not None:
         return call.choice.bindings
     attempted = call.end.attempted if call.end is not None else None
     return attempted.arguments if attempted is not None else {}
 
 
-def _planned(step: PlanStep, names: Mapping[str, str], status: str) -> Call:
-    arguments = {name: names.get(iri, re.split("[#/]", iri)[-1]) for name, iri in step.arguments.items()}
-    return Call(number="", skill=step.skill, status=status, source=step.source, bindings=arguments)
+def _planned(step: PlanStep, status: str) -> Call:
+    return Call(number="", skill=step.skill, status=status, source=step.source, bindings=step.arguments)
 
 
 def _step(found: Record | Call, number: str) -> Call:

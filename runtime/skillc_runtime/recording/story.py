@@ -10,6 +10,7 @@ from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.recording.failure import Failure, Rejected
 from skillc_runtime.recording.known import KnownFact
 from skillc_runtime.recording.reasons import Determined, Untried
+from skillc_runtime.world.labelled import LabelledFact, LabelledValue
 
 
 class _Part(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -22,7 +23,7 @@ class Fact(_Part, frozen=True, kw_only=True):
     `known` says how it is known: sensed, reported or assumed; empty where nobody said so.
     """
 
-    text: str
+    fact: LabelledFact
     since: float | None = None
     by: str = ""
     known: str = ""
@@ -64,7 +65,7 @@ class Call(_Part, frozen=True, kw_only=True):
     implementation_source: Position | None = None
     started: float | None = None
     ended: float | None = None
-    bindings: dict[str, str] = {}
+    bindings: dict[str, LabelledValue] = {}
     determined: tuple[Determined, ...] = ()
     unset: tuple[str, ...] = ()
     planned: bool = False

@@ -14,7 +14,7 @@ from skillc_compiler.library.vocabulary import (
     local_name,
 )
 from skillc_compiler.library.words import type_text
-from skillc_runtime.selection.describe import text_of
+from skillc_runtime.world.labelled import format_value, label_value
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.typed import is_of
 from skillc_runtime.world.values import Value
@@ -32,17 +32,19 @@ def problem_with(parameter: Parameter, value: Value, state: WorldState) -> str |
 
 
 def _out_of_range(parameter: Parameter, value: float, vocabulary: Vocabulary) -> str | None:
-    written = text_of(value, parameter.type, vocabulary)
+    def written(number: float) -> str:
+        return format_value(label_value(number, parameter.type, vocabulary))
+
     if parameter.low is not None and value < parameter.low:
-        return f"{written} is below {text_of(parameter.low, parameter.type, vocabulary)}, the least it takes"
+        return f"{written(value)} is below {written(parameter.low)}, the least it takes"
     if parameter.high is not None and value > parameter.high:
-        return f"{written} is above {text_of(parameter.high, parameter.type, vocabulary)}, the most it takes"
+        return f"{written(value)} is above {written(parameter.high)}, the most it takes"
     return None
 
 
 def _description(value: Value, type_: ValueType, state: WorldState) -> str:
     """Say what a value is; of an individual its most specific classes."""
-    written = text_of(value, type_, state.vocabulary)
+    written = format_value(label_value(value, type_, state.vocabulary))
     if isinstance(type_, DirectionType) and is_vector(value):
         return f"not {written}, whose length is {np.linalg.norm(value):g}"
     if not (isinstance(type_, ClassType) and isinstance(value, str)):

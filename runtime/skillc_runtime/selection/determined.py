@@ -8,6 +8,7 @@ from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Implementation, Parameter, Requirement
 from skillc_runtime.recording.reasons import Deciding, Determined
 from skillc_runtime.selection.fit import Fitted
+from skillc_runtime.world.labelled import label
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.support import facts_of
 from skillc_runtime.world.values import Value
@@ -22,7 +23,7 @@ def determined(fitted: Fitted, passed: Set[str], state: WorldState) -> tuple[Det
 
 
 def _each(fitted: Fitted, passed: Set[str], state: WorldState) -> Iterator[Determined]:
-    implementation, bindings, short = fitted.implementation, fitted.bindings, state.vocabulary.short
+    implementation, bindings, words = fitted.implementation, fitted.bindings, state.vocabulary
     for parameter in implementation.parameters:
         name, inferred = parameter.name, parameter.direction == "infer"
         if name not in bindings or (name in passed and not inferred):
@@ -31,7 +32,7 @@ def _each(fitted: Fitted, passed: Set[str], state: WorldState) -> Iterator[Deter
             parameter=name,
             how="passed" if name in passed else "inferred" if inferred else "default",
             conditions=_conditions(implementation, parameter, bindings, state) if inferred else (),
-            others=tuple(short(other) for other in fitted.others.get(name, ())),
+            others=tuple(label(other, words) for other in fitted.others.get(name, ())),
         )
 
 

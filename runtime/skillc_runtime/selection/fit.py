@@ -10,11 +10,11 @@ from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Implementation, Parameter, Post, Requirement
 from skillc_runtime.recording.failure import Rejected, Stage
 from skillc_runtime.selection.arguments import problem_with
-from skillc_runtime.selection.describe import bindings_text
 from skillc_runtime.selection.inferred import Inferred, infer_parameters
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.explain import explain
 from skillc_runtime.world.expressions import value_of
+from skillc_runtime.world.labelled import format_value, label_bindings
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
 
@@ -78,8 +78,8 @@ def broken_text(
     """Say that a condition does not hold, for which values, and what holds instead."""
     name = f"{requirement.label}: {requirement.text}" if requirement.label else requirement.text
     mentioned = [p for p in implementation.parameters if _mentions(requirement.text, p.name)]
-    values = bindings_text(bindings, mentioned, state.vocabulary)
-    where = " for " + ", ".join(f"{key} = {value}" for key, value in values.items()) if values else ""
+    values = label_bindings(bindings, mentioned, state.vocabulary)
+    where = " for " + ", ".join(f"{key} = {format_value(value)}" for key, value in values.items()) if values else ""
     instead = explain(requirement.condition, state, bindings, state.vocabulary)
     return f"{stage} `{name}` does not hold{where}: {instead}"
 

@@ -124,9 +124,9 @@ class SimulatedCell:
         """Return what was recorded of a tool, by IRI, while it was held; KeyError where the cell has no such tool."""
         return self._observers[tool].recorder.recording()
 
-    def strongest_force(self, tool: str) -> float:
+    def peak_force(self, tool: str) -> float:
         """Return the greatest force in N on a tool, by IRI, while it was held; KeyError where there is no such tool."""
-        return self._observers[tool].strongest.newton
+        return self._observers[tool].peak_force.newton
 
     def advance(self, seconds: float) -> None:
         """Let time pass: controllers, devices and physics, step by step. ControlError when a controller gives up."""

@@ -16,12 +16,13 @@ from skillc_runtime.selection.select import candidates, why_none
 from skillc_runtime.tree.activation import Activation, Build, activate
 from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.enclosing import Enclosing, Frame
-from skillc_runtime.tree.errors import told
+from skillc_runtime.tree.errors import describe_exception
+from skillc_runtime.tree.event_factory import attempted, chosen, facts_at_failure
 from skillc_runtime.tree.node import RUNNING, SUCCESS, Node
 from skillc_runtime.tree.primitive_node import PrimitiveNode
 from skillc_runtime.tree.strand import Strand
-from skillc_runtime.tree.telling import attempted, chosen, facts_at_failure
 from skillc_runtime.world.expressions import value_of
+from skillc_runtime.world.labelled import LabelledFact
 
 _STAGES = ("argument", "inference", "pre", "hold", "lock", "start", "run")
 
@@ -54,7 +55,7 @@ class CallNode(Node):
         self.activation: Activation | None = None
         self.rejected: list[Rejected] = []
         self._arguments: Frame = {}
-        self._facts: tuple[str, ...] | None = None
+        self._facts: tuple[LabelledFact, ...] | None = None
         self._enclosing = enclosing
         self._build = build
 
@@ -95,7 +96,9 @@ class CallNode(Node):
             if failure is None:
                 self._hand_out(activation)
         except Exception as error:  # noqa: BLE001  a node is the boundary: it reports and fails
-            failure = Failure(kind="error", message=told(error), source=self.source, skill=self.skill.name)
+            failure = Failure(
+                kind="error", message=describe_exception(error), source=self.source, skill=self.skill.name
+            )
         if failure is not None:
             return self._failed(activation, failure)
         activation.close()
@@ -144,7 +147,9 @@ class CallNode(Node):
                 self.context.note(note, self.id, self.source)
             return activate(self.context, self.skill, fitted, self, self._enclosing, self._build)
         except Exception as error:  # noqa: BLE001  one implementation that cannot start leaves the others their chance
-            return self._refusal(implementation, Failure(kind="error", message=told(error), source=self.source))
+            return self._refusal(
+                implementation, Failure(kind="error", message=describe_exception(error), source=self.source)
+            )
 
     def _start(self, activation: Activation) -> Status | None:
         """Start the body; None when it did not get to start and the next implementation may be tried."""
@@ -195,7 +200,7 @@ class CallNode(Node):
             broken = activation.broken_hold() if self.context.state is not activation.checked else None
             return broken or (activation.violation() if activation.implementation.verify else None)
         except Exception as error:  # noqa: BLE001  a node is the boundary: it reports, halts and fails
-            return Failure(kind="error", message=told(error), source=self.source, skill=self.skill.name)
+            return Failure(kind="error", message=describe_exception(error), source=self.source, skill=self.skill.name)
 
     def _hand_out(self, activation: Activation) -> None:
         if self.node.out is not None:

@@ -12,7 +12,7 @@ from skillc_runtime.world.model import WorldError
 from skillc_runtime.world.store.store import StoreError
 
 
-def told(error: BaseException) -> str:
+def describe_exception(error: BaseException) -> str:
     """Return what an exception says; one that was not meant for people with its type and the line that raised it."""
     if isinstance(error, SkillFailure | Silence | EvaluationError | WorldError | StoreError):
         return str(error)

@@ -10,7 +10,7 @@ from skillc_runtime.recording.events import NodeEnded, NodeStarted
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.reasons import Attempted
 from skillc_runtime.tree.context import Context
-from skillc_runtime.tree.errors import told
+from skillc_runtime.tree.errors import describe_exception
 
 RUNNING, SUCCESS, FAILURE, HALTED = Status.RUNNING, Status.SUCCESS, Status.FAILURE, Status.HALTED
 
@@ -115,7 +115,7 @@ class Node:
 
     def broken(self, error: Exception) -> Status:
         """Fail because of an exception: what runs below is halted first."""
-        message = told(error)
+        message = describe_exception(error)
         self.stop(message)
         return self.fail(Failure(kind="error", message=message, source=self.source))
 

@@ -9,7 +9,7 @@ from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.tree.context import Context
-from skillc_runtime.tree.errors import told
+from skillc_runtime.tree.errors import describe_exception
 from skillc_runtime.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.tree.undo import Undo
 
@@ -71,7 +71,7 @@ class PrimitiveNode(Node):
             try:
                 self._primitive.halt(reason)
             except Exception as error:  # noqa: BLE001  the others must be halted too
-                self.context.note(f"{self.name} could not be halted: {told(error)}", self.id, self.source)
+                self.context.note(f"{self.name} could not be halted: {describe_exception(error)}", self.id, self.source)
         self.undo_now()
 
     def undo_now(self) -> None:

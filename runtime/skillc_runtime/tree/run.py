@@ -12,7 +12,6 @@ from skillc_runtime.recording.events import Listener, Paused, Resumed
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.listeners import Listeners
 from skillc_runtime.recording.outcome import Outcome
-from skillc_runtime.recording.world import world_changed
 from skillc_runtime.robots.cell import Cell
 from skillc_runtime.robots.contradictions import DeviceWatch
 from skillc_runtime.robots.watchdog import Silence
@@ -20,7 +19,8 @@ from skillc_runtime.tree.build import build
 from skillc_runtime.tree.call import CallNode
 from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.enclosing import Enclosing
-from skillc_runtime.tree.errors import told
+from skillc_runtime.tree.errors import describe_exception
+from skillc_runtime.tree.event_factory import world_changed
 from skillc_runtime.tree.locks import Locks
 from skillc_runtime.tree.node import FAILURE, RUNNING, Node
 from skillc_runtime.tree.outcome import outcome
@@ -57,7 +57,7 @@ class Run:
         self._listeners = Listeners(listeners)
         self._context = Context(library, cell, self._listeners if listeners else None, locks or Locks(), nodes_before)
         self._undo = Undo()
-        self._unlisten = cell.world.listen(self._tell_world) if listeners else None
+        self._unlisten = cell.world.listen(self._emit_world_change) if listeners else None
         self._root = build(body, self._context, Enclosing(self._undo, failures=failures))
         self._strand = Strand(self._root)
         self._paused_at: float | None = None
@@ -121,7 +121,7 @@ class Run:
     def abort(self, error: Exception) -> None:
         """Fail because of an error, of the cell say: halt everything that runs, undo what must be undone, and end."""
         if self.status in (Status.IDLE, RUNNING):
-            message = told(error)
+            message = describe_exception(error)
             self._root.halt(message)
             self._ended(Status.FAILURE, Failure(kind="error", message=message, source=self._root.source))
 
@@ -129,7 +129,7 @@ class Run:
         """After the end: look whether a device contradicts the world model; a success is none then."""
         if self.status is not Status.SUCCESS:
             return
-        unlisten = self._context.cell.world.listen(self._tell_world)
+        unlisten = self._context.cell.world.listen(self._emit_world_change)
         try:
             contradiction = self._devices.contradiction()
         finally:
@@ -206,7 +206,7 @@ class Run:
         if self._context.emit is not None:
             self._context.emit(event(time=self._context.time))
 
-    def _tell_world(self, event: ChangeEvent) -> None:
+    def _emit_world_change(self, event: ChangeEvent) -> None:
         self._listeners(world_changed(event, self._context.time))
 
 

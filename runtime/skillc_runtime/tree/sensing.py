@@ -9,8 +9,8 @@ from skillc_compiler.library.skills import Post
 from skillc_runtime.tree.enclosing import Frame
 from skillc_runtime.world.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.evidence import Established, statement
-from skillc_runtime.world.facts import fact_text
 from skillc_runtime.world.grounds import Ground, grounds
+from skillc_runtime.world.labelled import format_fact, label_fact
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.values import equal
 
@@ -63,7 +63,7 @@ def _literals(condition: Condition) -> Iterator[Condition]:
 
 def _said(ground: Ground, world: WorldModel) -> str:
     """Return a fact with how it is known, as `lab:A contain lab:B` was assumed by Place."""
-    fact = fact_text(ground.fact, world.snapshot())
+    fact = format_fact(label_fact(ground.fact, world.snapshot()))
     known = ground.established
     if known is None or known.evidence is None:
         return f"`{fact}` was so before"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from skillc_runtime.tree.errors import told
+from skillc_runtime.tree.errors import describe_exception
 
 
 class Undo:
@@ -43,5 +43,5 @@ def _attempt(undo: Callable[[], None]) -> str | None:
     try:
         undo()
     except Exception as error:  # noqa: BLE001  the rest must be undone too; the caller reports
-        return told(error)
+        return describe_exception(error)
     return None

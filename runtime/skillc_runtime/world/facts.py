@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias, assert_never
+from typing import TypeAlias
 
-from skillc_compiler.library.vocabulary import local_name
 from skillc_runtime.world.expressions import EvaluationError, property_of
 from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value, show
+from skillc_runtime.world.values import Value
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,23 +38,6 @@ class Typed:
 
 
 Fact: TypeAlias = Related | Valued | Typed
-
-
-def fact_text(fact: Fact, state: WorldState) -> str:
-    """Return a fact in the words of the language, as `not lab:Gripper-1 contain lab:Eraser-1`."""
-    short = state.vocabulary.short
-    match fact:
-        case Related(subject, relation, object_, holds):
-            return f"{'' if holds else 'not '}{short(subject)} {local_name(relation)} {short(object_)}"
-        case Valued(individual, property_):
-            value = value_at(state, individual, property_)
-            if value is None or (isinstance(value, tuple) and not value):
-                return f"not {short(individual)} has {local_name(property_)}"
-            return f"{short(individual)}.{local_name(property_)} == {show(value)}"
-        case Typed(individual, cls, holds):
-            return f"{'' if holds else 'not '}{short(individual)} is {short(cls)}"
-        case _:
-            assert_never(fact)
 
 
 def value_at(state: WorldState, individual: str, property_: str) -> Value | None:

@@ -29,18 +29,19 @@ class Evidence:
 
         None where there is none, or its skill says nothing.
         """
-        short = self.cell.facts.names[subject]
-        for call in reversed(tuple(_outermost(self.trees, self.choices, short))):
+        for call in reversed(tuple(_outermost(self.trees, self.choices, subject))):
             literal = self.library.skills[self.choices[call.id].skill].duration
             if isinstance(literal, Literal) and call.started is not None and call.ended is not None:
                 return (call.ended - call.started) / float(literal.value)
         return None
 
 
-def _outermost(nodes: Iterable[Outcome], choices: Mapping[int, ImplementationChosen], short: str) -> Iterator[Outcome]:
+def _outermost(
+    nodes: Iterable[Outcome], choices: Mapping[int, ImplementationChosen], subject: str
+) -> Iterator[Outcome]:
     for node in nodes:
         choice = choices.get(node.id)
-        if choice is not None and short in choice.bindings.values():
+        if choice is not None and subject in choice.individuals:
             yield node
         else:
-            yield from _outermost(node.children, choices, short)
+            yield from _outermost(node.children, choices, subject)

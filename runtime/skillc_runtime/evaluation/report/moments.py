@@ -1,11 +1,9 @@
 """Moments of a run that are worth a still: of wiping, the grasp, the contact, a corner, the end of the lanes; of other
-work in contact, when what it waited for came."""
+work what its primitives declare, as a button that is pressed."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
@@ -18,24 +16,6 @@ from skillc_runtime.simulation.recorder import Recording
 
 GRASPED_S = 0.3
 """How long after the first moment at which a tool is held its grasp is looked at."""
-
-
-@dataclass(frozen=True, slots=True)
-class Sight:
-    """What is to be seen when a call of a skill begins, or ends well, and the parameter that says of what."""
-
-    skill: str
-    when: Literal["begins", "ends"]
-    parameter: str
-    word: str
-
-
-SIGHTS = (
-    Sight("AwaitSwitch", "ends", "button", "pressed"),
-    Sight("Seat", "begins", "socket", "found"),
-    Sight("Seat", "ends", "socket", "filled"),
-    Sight("AwaitGuidance", "ends", "pose", "shown"),
-)
 
 
 def moments(
@@ -51,12 +31,16 @@ def moments(
 
 
 def _seen(node: Outcome, choice: ImplementationChosen, cell: SimulatedCell) -> Iterator[Moment]:
-    arms = {cell.facts.names[arm.individual]: arm.individual for arm in cell.facts.arms}
-    for sight in SIGHTS:
-        time = node.started if sight.when == "begins" else node.ended
-        came = sight.when == "begins" or node.status == "success"
-        if sight.skill == choice.skill and came and time is not None:
-            yield Moment(f"{choice.bindings[sight.parameter]} {sight.word}", time, arms[choice.bindings["arm"]])
+    """Yield what was to be seen in a call, where an arm did it."""
+    arms = {arm.individual for arm in cell.facts.arms}
+    arm = next((each for each in choice.individuals if each in arms), None)
+    if arm is None:
+        return
+    for highlight in choice.highlights:
+        time = node.started if highlight.when == "begins" else node.ended
+        came = highlight.when == "begins" or node.status == "success"
+        if came and time is not None:
+            yield Moment(f"{highlight.what.label} {highlight.word}", time, arm)
 
 
 def _moments(wiping: Wiping, cell: SimulatedCell) -> Iterator[Moment]:

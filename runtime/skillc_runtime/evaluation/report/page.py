@@ -9,9 +9,10 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from skillc_runtime.evaluation.report.figures import Drawn
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.table import reason_of, rows
-from skillc_runtime.recording.known import assumed, status_words
+from skillc_runtime.recording.known import assumed, assumption_words, status_words
 from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.simulation.film import SPEED_UP, Filmed
+from skillc_runtime.world.labelled import format_value
 
 
 def render(result: TaskResult, trees: list[Outcome], figure: Drawn | None = None, filmed: Filmed | None = None) -> str:
@@ -29,6 +30,8 @@ def render(result: TaskResult, trees: list[Outcome], figure: Drawn | None = None
         assumed=assumed(result.facts),
         rows=rows(result) if result.sim_time_s else [],
         reason_of=reason_of,
+        format_value=format_value,
+        assumption_words=assumption_words,
         trees=trees,
         figure=b64encode(figure.svg).decode() if figure else "",
         filmed=filmed,

@@ -8,6 +8,7 @@ import msgspec
 
 from skillc_runtime.recording.failure import Rejected
 from skillc_runtime.recording.known import KnownFact
+from skillc_runtime.world.labelled import LabelledValue
 
 
 class StepResult(msgspec.Struct, frozen=True, kw_only=True):
@@ -19,7 +20,7 @@ class StepResult(msgspec.Struct, frozen=True, kw_only=True):
 
     skill: str
     implementation: str
-    arguments: dict[str, str]
+    arguments: dict[str, LabelledValue]
     source: str
     status: str
     alternatives: int = 0

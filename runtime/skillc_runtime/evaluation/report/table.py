@@ -8,7 +8,8 @@ from rich.table import Table
 from rich.text import Text
 
 from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult, WipingResult
-from skillc_runtime.recording.known import assumed, known_words, status_words
+from skillc_runtime.recording.known import assumed, assumption_words, known_words, status_words
+from skillc_runtime.world.labelled import format_fact, format_value
 
 STYLES = {"success": "bold green", "failure": "bold red", "refused": "bold red", "halted": "bold yellow"}
 
@@ -18,7 +19,7 @@ def render(result: TaskResult) -> RenderableType:
     words = status_words(result.status, result.verified)
     title = Text.assemble((result.task, "bold"), "  ", (words, STYLES.get(words, STYLES["halted"])))
     parts: list[RenderableType] = [title]
-    parts += [Text(f"{fact.fact} is only assumed: {fact.wanted}", style="yellow") for fact in assumed(result.facts)]
+    parts += [Text(assumption_words(fact), style="yellow") for fact in assumed(result.facts)]
     if result.failure:
         parts.append(Text(result.failure, style="red"))
     if result.plan:
@@ -32,7 +33,7 @@ def _plan(result: TaskResult) -> RenderableType:
     """Return each step with what became of it, how it was done and why so, and below it its arguments."""
     lines: list[RenderableType] = []
     for number, step in enumerate(result.plan, 1):
-        arguments = ", ".join(f"{name}: {value}" for name, value in step.arguments.items())
+        arguments = ", ".join(f"{name}: {format_value(value)}" for name, value in step.arguments.items())
         how = f"{step.implementation}: {reason_of(step)}" if step.implementation else _not_run(step)
         lines += [
             Text.assemble(f"{number} {step.skill:<16}", (f"{step.status:<9}", STYLES.get(step.status, "")), how),
@@ -67,7 +68,7 @@ def rows(result: TaskResult) -> list[tuple[str, str]]:
     planned = [] if result.plan_optimal is None else [("plan", _plan_words(result))]
     return [
         *planned,
-        *((fact.fact, known_words(fact)) for fact in result.facts),
+        *((format_fact(fact.fact), known_words(fact)) for fact in result.facts),
         ("robot", f"{result.robot}, controller {result.controller}"),
         ("reality", f"{result.variation} (seed {result.seed})"),
         *(("planned anew", why) for why in result.replanned),

@@ -8,16 +8,17 @@ from math import inf
 
 from skillc_runtime.evaluation.report.choices import Choices
 from skillc_runtime.evaluation.report.result import WipingResult
+from skillc_runtime.primitives.primitive import Activity
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.metrics import Stroke, Wiped, wiping_metrics
 from skillc_runtime.world.frames import size
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.labelled import Quantity
 from skillc_runtime.world.terms import SURFACE, TOOL
 
-PATH_SKILL, PUSH_SKILL = "FollowPath", "Push"
-"""The standard skills between which a surface is wiped: a path is followed while the tool is pushed."""
+FORCE = "force"
+"""The parameter, in N, of what declares that it presses."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,18 +47,19 @@ class Wiping:
 
 
 def find_wipings(trees: Iterable[Outcome], choices: Choices, cell: SimulatedCell) -> tuple[Wiping, ...]:
-    """Return for each surface the last call about it and a tool in which, pushing, paths were followed to the end."""
+    """Return for each surface the last call about it and a tool in which paths were followed while it was pressed."""
     state, found = cell.world.snapshot(), dict[str, Wiping]()
     for node in (node for tree in trees for node in tree.nodes()):
-        individuals = _individuals(choices.get(node.id), state)
+        choice = choices.get(node.id)
+        individuals = [each for each in choice.individuals if each in state.individuals] if choice else []
         surfaces = [each for each in individuals if state.is_a(each, SURFACE)]
         tools = [each for each in individuals if state.is_a(each, TOOL)]
         arm = next((each for each in individuals if each in cell.arms), "")
-        pushes = [choice.bindings["force"] for choice, _ in _done(node, choices, PUSH_SKILL)]
+        forces = [choice.bindings.get(FORCE) for choice, _ in _done(node, choices, "press")]
+        pressed = [force.value for force in forces if isinstance(force, Quantity)]
         strokes = tuple(sorted(_strokes(node, choices)))
-        if surfaces and tools and pushes and strokes:
-            force, began = float(pushes[-1].split()[0]), node.started or 0.0
-            found[surfaces[0]] = Wiping(surfaces[0], arm, tools[0], force, began, strokes)
+        if surfaces and tools and pressed and strokes:
+            found[surfaces[0]] = Wiping(surfaces[0], arm, tools[0], pressed[-1], node.started or 0.0, strokes)
     return tuple(found.values())
 
 
@@ -89,26 +91,18 @@ def judge(wiping: Wiping, cell: SimulatedCell) -> WipingResult:
     )
 
 
-def _individuals(choice: ImplementationChosen | None, state: WorldState) -> list[str]:
-    """Return the individuals that a call was bound to."""
-    if choice is None:
-        return []
-    names = {state.vocabulary.short(iri): iri for iri in state.individuals}
-    return [names[value] for value in choice.bindings.values() if value in names]
-
-
 def _strokes(node: Outcome, choices: Choices) -> Iterator[Stroke]:
     """Yield from when to when each path below a node was followed, in its last run."""
-    for _, path in _done(node, choices, PATH_SKILL):
+    for _, path in _done(node, choices, "follow-path"):
         first, last = node.started or 0.0, inf if node.ended is None else node.ended
         yield from (run for run in choices.runs.get(path.id, []) if run[0] >= first and run[1] <= last)
 
 
 def _done(
-    node: Outcome, choices: Mapping[int, ImplementationChosen], skill: str
+    node: Outcome, choices: Mapping[int, ImplementationChosen], activity: Activity
 ) -> Iterator[tuple[ImplementationChosen, Outcome]]:
-    """Yield the calls of a skill below a node that succeeded."""
+    """Yield the calls below a node that did something and succeeded."""
     for each in node.nodes():
         choice = choices.get(each.id)
-        if choice is not None and choice.skill == skill and each.status == "success":
+        if choice is not None and choice.activity == activity and each.status == "success":
             yield choice, each

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import assert_never
 
-from skillc_runtime.evaluation.report.wiping import PATH_SKILL
 from skillc_runtime.evaluation.trials.trial import Disturbance
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.primitives.primitive import Activity
 from skillc_runtime.recording.events import Event, ImplementationChosen
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.chance import chance_of
 from skillc_runtime.simulation.facts import ArmFacts, SceneFacts
 from skillc_runtime.simulation.names import part
+from skillc_runtime.simulation.rng import rng_for
 from skillc_runtime.simulation.variation import Variation, deserted, draw, with_obstacles
 
 PUSH_N, PUSH_S = 30.0, 0.5
@@ -20,8 +20,8 @@ PUSH_N, PUSH_S = 30.0, 0.5
 PUSH_AFTER_S = (1.0, 8.0)
 """When, after the work has begun."""
 
-WORKING = (PATH_SKILL, "SinkBelow")
-"""The skills in which a person pushes: along a path, and in search of a hole."""
+WORKING: tuple[Activity, ...] = ("follow-path", "search")
+"""What is done while a person pushes."""
 
 
 def reality(disturbance: Disturbance, scene: SceneFacts, seed: int) -> Variation:
@@ -38,7 +38,7 @@ def reality(disturbance: Disturbance, scene: SceneFacts, seed: int) -> Variation
             assert_never(disturbance)
 
 
-class Person:
+class PushDisturbance:
     """Pushes a hand once, in any direction, while its arm works along a path or searches.
 
     A listener that learns when that begins; `watch` is to be called after every tick. `pushed`: it came to that.
@@ -46,13 +46,14 @@ class Person:
 
     def __init__(self, cell: SimulatedCell) -> None:
         self._cell = cell
-        self._arms = {cell.facts.names[arm.individual]: arm for arm in cell.facts.arms}
+        self._arms = {arm.individual: arm for arm in cell.facts.arms}
         self._pushes: dict[str, tuple[float, Array]] = {}
         self.pushed = False
 
     def __call__(self, event: Event) -> None:
-        if isinstance(event, ImplementationChosen) and event.skill in WORKING:
-            arm = self._arms[event.bindings["arm"]]
+        if not (isinstance(event, ImplementationChosen) and event.activity in WORKING):
+            return
+        for arm in (self._arms[each] for each in event.individuals if each in self._arms):
             self._pushes.setdefault(_hand(arm, self._cell), self._decided(arm, event.time))
 
     def watch(self) -> None:
@@ -63,9 +64,9 @@ class Person:
             self.pushed |= pushes
 
     def _decided(self, arm: ArmFacts, now: float) -> tuple[float, Array]:
-        chance = chance_of(arm.individual, self._cell.variation.seed, 3)
-        direction = chance.standard_normal(3)
-        return now + float(chance.uniform(*PUSH_AFTER_S)), PUSH_N * direction / float((direction @ direction) ** 0.5)
+        rng = rng_for(arm.individual, self._cell.variation.seed, 3)
+        direction = rng.standard_normal(3)
+        return now + float(rng.uniform(*PUSH_AFTER_S)), PUSH_N * direction / float((direction @ direction) ** 0.5)
 
 
 def _hand(arm: ArmFacts, cell: SimulatedCell) -> str:

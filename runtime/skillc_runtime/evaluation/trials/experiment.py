@@ -14,7 +14,7 @@ from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, Refu
 from skillc_runtime.evaluation.measures.evidence import Evidence
 from skillc_runtime.evaluation.report.summary import Choices, summarise
 from skillc_runtime.evaluation.report.wiping import find_wipings
-from skillc_runtime.evaluation.trials.disturbance import Person, reality
+from skillc_runtime.evaluation.trials.disturbance import PushDisturbance, reality
 from skillc_runtime.evaluation.trials.measuring import works
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 from skillc_runtime.recording.events import Listener
@@ -22,6 +22,7 @@ from skillc_runtime.recording.known import assumed
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import execute
 from skillc_runtime.world.frames import FrameError
+from skillc_runtime.world.labelled import format_fact
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
 from skillc_runtime.world.sheet import SheetError, number
@@ -39,7 +40,7 @@ class Experiment:
     disturbance: Disturbance
 
 
-class Laboratory:
+class TrialRunner:
     """Runs trials of one experiment; everything that is the same in all of them is done once."""
 
     def __init__(self, experiment: Experiment) -> None:
@@ -60,9 +61,9 @@ class Laboratory:
         return self._run(self._prepared, cell)
 
     def _run(self, prepared: Prepared, cell: SimulatedCell) -> Trial:
-        choices, person = Choices(), Person(cell)
-        pushed: Sequence[Listener] = (person,) if self._disturbance == "push" else ()
-        execution = execute(prepared, self._library, cell, (choices, *pushed), person.watch)
+        choices, push = Choices(), PushDisturbance(cell)
+        disturbing: Sequence[Listener] = (push,) if self._disturbance == "push" else ()
+        execution = execute(prepared, self._library, cell, (choices, *disturbing), push.watch)
         trees = tuple(attempt.tree for attempt in execution.attempts)
         wipings = find_wipings(trees, choices, cell)
         result = summarise(execution, choices, self._library, wipings)
@@ -72,13 +73,13 @@ class Laboratory:
             status=result.status,
             reason=result.failure,
             verified=result.verified,
-            assumed=tuple(fact.fact for fact in assumed(result.facts)),
+            assumed=tuple(format_fact(fact.fact) for fact in assumed(result.facts)),
             variation=result.variation,
             works=works(Evidence(self._library, cell, trees, choices, judged)),
             coverage=min((surface.fraction for surface in cell.coverage.values()), default=1.0),
             greatest_force_n=_greatest_force(cell),
             force_limit_n=_force_limit(cell),
-            pushed=person.pushed,
+            pushed=push.pushed,
             at_rest=cell.at_rest,
             sim_time_s=result.sim_time_s,
             wall_time_s=result.wall_time_s,
@@ -94,7 +95,7 @@ def _assignment(task: str, library: SkillLibrary, state: WorldState) -> Assignme
 
 
 def _greatest_force(cell: SimulatedCell) -> float:
-    return max((cell.strongest_force(tool.individual) for tool in cell.facts.tools), default=0.0)
+    return max((cell.peak_force(tool.individual) for tool in cell.facts.tools), default=0.0)
 
 
 def _force_limit(cell: SimulatedCell) -> float | None:

@@ -5,7 +5,7 @@ import pytest
 from cells import world
 
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.strongest import StrongestForce
+from skillc_runtime.simulation.observer import PeakForce
 from skillc_runtime.world.model import WorldModel
 
 
@@ -15,7 +15,7 @@ def test_a_tool_that_lies_somewhere_feels_its_weight_and_what_pushes_it(scene: s
     tool = there.facts.tools[0]
     name = there.facts.names[tool.individual]
     there.advance(1.0)
-    felt = StrongestForce(name, there.model, there.data)
+    felt = PeakForce(name, there.model, there.data)
     felt.sample()
     weight_n = tool.mass_kg * 9.81
     assert felt.newton == pytest.approx(weight_n, rel=0.01)

@@ -1,21 +1,24 @@
-"""What a call tells those who listen: its choice with the reasons, and what it met when it failed."""
+"""Makes the events of calls and of the world model: choices with their reasons, what failures met, changes."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from skillc_compiler.library.skills import Implementation, Skill
+from skillc_compiler.library.skills import Implementation, Primitive, Skill
 from skillc_compiler.library.tree import Call
-from skillc_runtime.recording.events import ImplementationChosen
+from skillc_runtime.primitives.primitive import Phase
+from skillc_runtime.recording.events import Highlight, ImplementationChosen, WorldChanged
 from skillc_runtime.recording.failure import Rejected
 from skillc_runtime.recording.reasons import Attempted, Untried
-from skillc_runtime.selection.describe import bindings_text
 from skillc_runtime.selection.determined import determined
 from skillc_runtime.selection.fit import fit
+from skillc_runtime.selection.python import primitive_class
 from skillc_runtime.selection.select import candidates
 from skillc_runtime.tree.activation import Activation
 from skillc_runtime.tree.context import Context
 from skillc_runtime.world.expressions import EvaluationError
+from skillc_runtime.world.labelled import Iri, LabelledFact, LabelledValue, label_bindings, label_change
+from skillc_runtime.world.model import ChangeEvent
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.support import facts_of
 from skillc_runtime.world.values import Value
@@ -33,18 +36,31 @@ def chosen(
     implementation = activation.implementation
     ranked = candidates(context.library, call.skill, call.implementation)
     after = ranked[ranked.index(implementation) + 1 :]
+    bindings = label_bindings(activation.frame, implementation.parameters, context.library.vocabulary)
+    body = implementation.body
+    primitive = primitive_class(body.python) if isinstance(body, Primitive) else None
     return ImplementationChosen(
         time=context.time,
         node=node,
         skill=call.skill,
         implementation=implementation.name,
-        bindings=bindings_text(activation.frame, implementation.parameters, context.library.vocabulary),
+        bindings=bindings,
         rejected=tuple(rejected),
         determined=determined(activation.fitted, arguments.keys(), context.state),
         untried=tuple(_untried(each, arguments, context.state) for each in after),
         fixed=call.implementation is not None,
+        activity=primitive.activity if primitive else "",
+        highlights=_highlights(primitive.highlights, bindings) if primitive else (),
         source=implementation.source,
     )
+
+
+def _highlights(
+    declared: Sequence[tuple[Phase, str, str]], bindings: Mapping[str, LabelledValue]
+) -> tuple[Highlight, ...]:
+    """Return what there is to see of the individuals that a primitive is bound to."""
+    found = ((when, bindings.get(parameter), word) for when, parameter, word in declared)
+    return tuple(Highlight(when, what, word) for when, what, word in found if isinstance(what, Iri))
 
 
 def _untried(implementation: Implementation, arguments: Mapping[str, Value], state: WorldState) -> Untried:
@@ -57,19 +73,29 @@ def _untried(implementation: Implementation, arguments: Mapping[str, Value], sta
 
 
 def attempted(
-    skill: Skill, arguments: Mapping[str, Value], rejected: Sequence[Rejected], facts: tuple[str, ...], context: Context
+    skill: Skill,
+    arguments: Mapping[str, Value],
+    rejected: Sequence[Rejected],
+    facts: tuple[LabelledFact, ...],
+    context: Context,
 ) -> Attempted:
     """Return what a call that failed had."""
-    shown = bindings_text(arguments, skill.parameters, context.library.vocabulary)
+    values = label_bindings(arguments, skill.parameters, context.library.vocabulary)
     unset = tuple(each.name for each in skill.parameters if each.direction == "infer" and each.name not in arguments)
-    return Attempted(arguments=shown, unset=unset, rejected=tuple(rejected), facts=facts)
+    return Attempted(arguments=values, unset=unset, rejected=tuple(rejected), facts=facts)
 
 
 def facts_at_failure(
     tried: Sequence[Implementation], running: Activation | None, arguments: Mapping[str, Value], state: WorldState
-) -> tuple[str, ...]:
+) -> tuple[LabelledFact, ...]:
     """Return the facts that the conditions of a call read: of the implementation that runs, else of all tried."""
     implementations = tried if running is None else (running.implementation,)
     conditions = [each.condition for one in implementations for each in (*one.pre, *one.hold)]
     conditions += [post.condition for post in (running.implementation.post if running is not None else ())]
     return facts_of(conditions, state, arguments if running is None else running.frame)
+
+
+def world_changed(event: ChangeEvent, time: float) -> WorldChanged:
+    """Return the event of a change of the world model; `time` in seconds of the cell's clock."""
+    changes = tuple(label_change(change, event.after.vocabulary) for change in event.changes)
+    return WorldChanged(time=time, origin=event.origin, changes=changes, known=event.known)
