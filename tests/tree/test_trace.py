@@ -5,10 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import msgspec
+import numpy as np
 import pytest
 
 from skillc_compiler.library.vocabulary import Position
-from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.primitives.primitive import SkillFailure, Status
 from skillc_runtime.recording import events
 from skillc_runtime.recording.events import (
     Event,
@@ -148,6 +149,18 @@ def test_values_are_read_back_as_they_were_written(tmp_path: Path) -> None:
         for event in samples:
             writer(event)
     assert list(TraceReader(tmp_path / "events.jsonl")) == samples
+
+
+def test_a_failure_has_the_values_that_its_message_names() -> None:
+    hole = Iri("http://lab#Hole", "lab:Hole")
+    values = {"depth": Quantity(0.01234, "m"), "hole": hole, "where": Vector((0.1, 0.0, 0.2), "m"), "count": 3}
+    failure = SkillFailure("sank {depth:.1f mm} of {depth} into {hole} at {where:.2f}, {count} times", **values)
+    assert str(failure) == "sank 12.3 mm of 0.01234 m into lab:Hole at (0.10, 0.00, 0.20) m, 3 times"
+    assert failure.values == values
+    foreign = SkillFailure("{share:.0%} of {most}", share=np.float64(0.5), most=Quantity(np.inf, "N"))
+    assert str(foreign) == "50% of inf N"
+    assert foreign.values == {"share": Quantity(0.5), "most": NotFinite("inf N")}
+    assert str(SkillFailure("{braces} stay")) == "{braces} stay"
 
 
 def sample(cls: type) -> Event:

@@ -13,6 +13,7 @@ from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.localise import localise
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.robots.contact import FALL_SHARE, Approach, Pressed, advance, go_on
+from skillc_runtime.world.labelled import Quantity
 
 if TYPE_CHECKING:
     from skillc_runtime.robots.arm import ArmState
@@ -87,7 +88,11 @@ class Push(Primitive):
                 "the arm must yield along the direction in which it shall push; use it within Compliance"
             )
         if self._force > self.arm.gains.force_limit:
-            raise SkillFailure(f"{self._force:g} N is more than the {self.arm.gains.force_limit:g} N the arm allows")
+            raise SkillFailure(
+                "{force} is more than the {limit} the arm allows",
+                force=Quantity(self._force, "N"),
+                limit=Quantity(self.arm.gains.force_limit, "N"),
+            )
         self._axis = self.arm.in_base(self._along)
         self._approach()
         self.arm.watch(self._observe)

@@ -10,6 +10,7 @@ from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.world.changes import SetProperty
 from skillc_runtime.world.frames import placed
+from skillc_runtime.world.labelled import Quantity, label
 from skillc_runtime.world.terms import IS_TAUGHT
 
 if TYPE_CHECKING:
@@ -50,8 +51,10 @@ class AwaitGuidance(Primitive):
             self.cell.world.commit(taught, "AwaitGuidance", "sensed")
             return Status.SUCCESS
         if now - self._began > self._patience:
-            name = self.cell.world.snapshot().vocabulary.short(self._name)
             raise SkillFailure(
-                f"nobody led the tool of {name} to a place within {self._patience:g} s: it is {away * 1e3:.0f} mm away"
+                "nobody led the tool of {arm} to a place within {patience}: it is {away:.0f mm} away",
+                arm=label(self._name, self.cell.world.snapshot().vocabulary),
+                patience=Quantity(self._patience, "s"),
+                away=Quantity(away, "m"),
             )
         return Status.RUNNING

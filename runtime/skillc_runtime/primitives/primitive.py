@@ -7,6 +7,8 @@ from enum import Enum
 from types import MappingProxyType
 from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
 
+from skillc_runtime.world.labelled import LabelledValue, make_recordable
+
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
 
@@ -30,7 +32,15 @@ Phase: TypeAlias = Literal["begins", "ends"]
 
 
 class SkillFailure(Exception):
-    """A primitive cannot do what was asked; the message tells the user why, with numbers."""
+    """A primitive cannot do what was asked; the message tells the user why, with numbers.
+
+    The values that are named in it, as in `SkillFailure("it sank {depth:.1f mm}", depth=Quantity(0.02, "m"))`, are put
+    into the message and recorded beside it.
+    """
+
+    def __init__(self, message: str, **values: LabelledValue) -> None:
+        super().__init__(message.format(**values) if values else message)
+        self.values = {name: make_recordable(value) for name, value in values.items()}
 
 
 class Primitive:

@@ -7,6 +7,7 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.world.labelled import LabelledValue
 
 FailureKind: TypeAlias = Literal[
     "pre", "hold", "verify", "post", "inference", "lock", "timeout", "body", "plan", "contradiction", "error", "halted"
@@ -27,13 +28,15 @@ _KIND_OF_STAGE: dict[Stage, FailureKind] = {
 class Failure(msgspec.Struct, frozen=True, kw_only=True):
     """Why a node failed, in the author's words; `source` is the line responsible, `skill` the innermost skill.
 
-    `causes` are the failures this one sums up: those of all alternatives that were tried.
+    `values` are those that a primitive put into the message, by name. `causes` are the failures this one sums up: those
+    of all alternatives that were tried.
     """
 
     kind: FailureKind
     message: str
     source: Position | None = None
     skill: str = ""
+    values: dict[str, LabelledValue] = {}
     causes: tuple[Failure, ...] = ()
 
     @property

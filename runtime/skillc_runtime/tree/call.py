@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar
 
+from msgspec import structs
+
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Variable
 from skillc_compiler.library.skills import Implementation
@@ -230,13 +232,7 @@ class CallNode(Node):
             return Failure(kind="body", message=f"{self.name} failed", source=self.source, skill=self.skill.name)
         if failure.skill:
             return failure
-        return Failure(
-            kind=failure.kind,
-            message=failure.message,
-            source=failure.source,
-            skill=self.skill.name,
-            causes=failure.causes,
-        )
+        return structs.replace(failure, skill=self.skill.name)
 
     def attempted(self) -> Attempted:
         self._look()

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
 from typing import ClassVar
 
 from skillc_compiler.library.vocabulary import Position
@@ -12,6 +13,9 @@ from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.errors import describe_exception
 from skillc_runtime.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.tree.undo import Undo
+from skillc_runtime.world.labelled import LabelledValue
+
+NO_VALUES: Mapping[str, LabelledValue] = MappingProxyType({})
 
 
 class PrimitiveNode(Node):
@@ -50,7 +54,7 @@ class PrimitiveNode(Node):
             self._running = False
             if self._undo is not None:
                 self._undo.drop(self.release)
-            return self.fail(Failure(kind="body", message=str(refusal), source=self.source))
+            return self.fail(self._failure(str(refusal), refusal.values))
         self.refused = False
         return self.tick()
 
@@ -61,7 +65,7 @@ class PrimitiveNode(Node):
                 return RUNNING
             return self._finished(status)
         except SkillFailure as failure:
-            return self._failed(str(failure))
+            return self._failed(str(failure), failure.values)
         except Exception as error:  # noqa: BLE001  the boundary to skill code: it reports, halts and fails
             return self.broken(error)
 
@@ -105,6 +109,9 @@ class PrimitiveNode(Node):
             return self._failed(f"{self.name} failed and did not say why")
         raise TypeError(f"{self.name} returned {status!r} from tick; it may return RUNNING or SUCCESS")
 
-    def _failed(self, message: str) -> Status:
+    def _failed(self, message: str, values: Mapping[str, LabelledValue] = NO_VALUES) -> Status:
         self.stop(message)
-        return self.fail(Failure(kind="body", message=message, source=self.source))
+        return self.fail(self._failure(message, values))
+
+    def _failure(self, message: str, values: Mapping[str, LabelledValue]) -> Failure:
+        return Failure(kind="body", message=message, source=self.source, values=dict(values))

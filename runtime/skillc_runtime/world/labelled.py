@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from math import isfinite
-from typing import TypeAlias, assert_never
+from typing import TypeAlias, assert_never, cast
 
 import msgspec
 import numpy as np
@@ -32,6 +32,9 @@ LISTED = 3
 
 ANYBODY = "_"
 
+MILLI = {"mm": 1e3}
+"""How many of a unit for messages make one SI unit."""
+
 
 class Iri(msgspec.Struct, frozen=True, tag="iri"):
     """An individual, class, relation or property; `label` is what people read, `lab:Arm-1` or `contain`."""
@@ -39,12 +42,25 @@ class Iri(msgspec.Struct, frozen=True, tag="iri"):
     iri: str
     label: str
 
+    def __str__(self) -> str:
+        return self.label
+
 
 class Quantity(msgspec.Struct, frozen=True, tag="quantity"):
-    """A number in an SI unit as the language writes it; the unit is empty for a pure number."""
+    """A number in an SI unit as the language writes it; the unit is empty for a pure number.
+
+    In a message `{depth:.1f mm}` shows it with one digit in mm, `{depth}` with its unit.
+    """
 
     value: float
     unit: str = ""
+
+    def __post_init__(self) -> None:
+        msgspec.structs.force_setattr(self, "value", float(self.value))
+
+    def __format__(self, spec: str) -> str:
+        digits, _, unit = spec.partition(" ")
+        return f"{self.value * MILLI.get(unit, 1.0):{digits or 'g'}} {unit or self.unit}".strip()
 
 
 class NotFinite(msgspec.Struct, frozen=True, tag="not-finite"):
@@ -58,6 +74,9 @@ class Vector(msgspec.Struct, frozen=True, tag="vector"):
 
     components: tuple[float, float, float]
     unit: str = ""
+
+    def __format__(self, spec: str) -> str:
+        return f"({', '.join(format(part + 0.0, spec or 'g') for part in self.components)}) {self.unit}".strip()
 
 
 class Pose(msgspec.Struct, frozen=True, tag="pose"):
@@ -169,6 +188,17 @@ def label_bindings(
     return {each.name: label_value(bindings[each.name], each.type, vocabulary) for each in bound}
 
 
+def make_recordable(value: object) -> LabelledValue:
+    """Return a value that somebody else made as one that can be written and read back."""
+    match value:
+        case Quantity(number) if not isfinite(number):
+            return NotFinite(f"{value}")
+        case Iri() | Quantity() | NotFinite() | Vector() | Pose() | ValueList():
+            return value
+        case _:
+            return label_value(cast(Value, value), None, Vocabulary())
+
+
 def label_fact(fact: Fact, state: WorldState) -> LabelledFact:
     """Return a fact as it is in a state."""
     vocabulary = state.vocabulary
@@ -227,14 +257,12 @@ def format_value(value: LabelledValue) -> str:
             return f'"{value}"'
         case Iri(_, name):
             return name
-        case Quantity(number, unit):
-            return f"{number:g} {unit}".strip()
+        case Quantity() | Vector():
+            return f"{value}"
         case NotFinite(text):
             return text
-        case Vector(components, unit):
-            return f"{_triple(components)} {unit}".strip()
         case Pose(position_m):
-            return f"pose at {_triple(position_m)}"
+            return f"pose at {Vector(position_m)}"
         case ValueList(values) if len(values) > LISTED:
             return f"{len(values)} values"
         case ValueList(values):
@@ -275,10 +303,6 @@ def _vector(value: np.ndarray, type_: ValueType | None) -> LabelledValue:
             return Vector((x, y, z), unit)
         case parts:
             return ValueList(tuple(Quantity(part, unit) for part in parts))
-
-
-def _triple(numbers: tuple[float, float, float]) -> str:
-    return "(" + ", ".join(f"{number + 0.0:g}" for number in numbers) + ")"
 
 
 def _name(individual: Iri | None) -> str:
