@@ -16,7 +16,8 @@ from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare
 from skillc_runtime.commands import _library
-from skillc_runtime.evaluation.report.summary import Choices, summarise
+from skillc_runtime.evaluation.report.choices import Choices
+from skillc_runtime.evaluation.report.summary import summarise
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.simulation.cell import SimulatedCell

@@ -8,9 +8,9 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from skillc_runtime.evaluation.measures.work import Inserted, Polished, Pressed, Taught, Wiped, Work
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.trials.trial import Trial
-from skillc_runtime.evaluation.trials.work import Inserted, Polished, Pressed, Taught, Wiped, Work
 
 KILLED, BROKEN = 3, 4
 """Seeds at which a process dies, and at which something goes wrong in it."""

@@ -18,10 +18,11 @@ from skillc_runtime.commands import _looks
 from skillc_runtime.commands._following import Follower
 from skillc_runtime.commands._live import Live
 from skillc_runtime.commands._mission import Mission
+from skillc_runtime.evaluation.report.choices import Choices
 from skillc_runtime.evaluation.report.drawing import Drawing, drawing
 from skillc_runtime.evaluation.report.moments import moments
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.report.summary import Choices, summarise
+from skillc_runtime.evaluation.report.summary import summarise
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.evaluation.report.write import write_report
 from skillc_runtime.planning.planners import Planners

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from skillc_runtime.evaluation.measures.evidence import Evidence
-from skillc_runtime.evaluation.trials.work import Pressed, Work
+from skillc_runtime.evaluation.measures.evidence import RunEvidence
+from skillc_runtime.evaluation.measures.work import Pressed, Work
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.sheet import number
 from skillc_runtime.world.terms import PRESS_FORCE
@@ -16,7 +16,7 @@ HELD_S = 0.1
 """What a button is held with is the greatest mean over this time."""
 
 
-def measure(evidence: Evidence) -> Iterator[Work]:
+def measure(evidence: RunEvidence) -> Iterator[Work]:
     """Yield the pressing of each button that felt something."""
     cell = evidence.cell
     for fixture in cell.facts.fixtures:
@@ -29,7 +29,7 @@ def measure(evidence: Evidence) -> Iterator[Work]:
                 asked_n=number(cell.world.snapshot(), fixture.individual, PRESS_FORCE),
                 held_n=held(pressing),
                 greatest_n=float(pressing[:, 1].max()),
-                took=evidence.took(fixture.individual),
+                took=evidence.duration_share(fixture.individual),
             )
 
 

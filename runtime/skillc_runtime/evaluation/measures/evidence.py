@@ -15,7 +15,7 @@ from skillc_runtime.simulation.cell import SimulatedCell
 
 
 @dataclass(frozen=True, slots=True)
-class Evidence:
+class RunEvidence:
     """The cell that a run left behind, its trees with the choices made in them, and the wiping that was found there."""
 
     library: SkillLibrary
@@ -24,7 +24,7 @@ class Evidence:
     choices: Mapping[int, ImplementationChosen]
     wipings: tuple[tuple[Wiping, WipingResult], ...]
 
-    def took(self, subject: str) -> float | None:
+    def duration_share(self, subject: str) -> float | None:
         """Return how long the last of the outermost calls about an individual took, as a share of what its skill says.
 
         None where there is none, or its skill says nothing.

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_runtime.evaluation.measures.evidence import Evidence
-from skillc_runtime.evaluation.trials.work import Inserted, Work
+from skillc_runtime.evaluation.measures.evidence import RunEvidence
+from skillc_runtime.evaluation.measures.work import Inserted, Work
 from skillc_runtime.simulation.fixture_facts import FixtureFacts
 from skillc_runtime.simulation.fixture_variation import FixtureVariation
 from skillc_runtime.simulation.names import part
@@ -13,7 +13,7 @@ from skillc_runtime.world.sheet import number
 from skillc_runtime.world.terms import CONTAIN, DEPTH, PEG, SOCKET
 
 
-def measure(evidence: Evidence) -> Iterator[Work]:
+def measure(evidence: RunEvidence) -> Iterator[Work]:
     """Yield each peg that the world model says is in a socket."""
     cell, state = evidence.cell, evidence.cell.world.snapshot()
     for fixture, true in zip(cell.facts.fixtures, cell.variation.fixtures, strict=True):
@@ -22,7 +22,7 @@ def measure(evidence: Evidence) -> Iterator[Work]:
             yield _inserted(evidence, fixture, true, peg)
 
 
-def _inserted(evidence: Evidence, fixture: FixtureFacts, true: FixtureVariation, peg: str) -> Inserted:
+def _inserted(evidence: RunEvidence, fixture: FixtureFacts, true: FixtureVariation, peg: str) -> Inserted:
     cell = evidence.cell
     end = cell.data.site(part(cell.facts.names[peg], "face")).xpos
     return Inserted(
@@ -30,5 +30,5 @@ def _inserted(evidence: Evidence, fixture: FixtureFacts, true: FixtureVariation,
         depth_m=-float(true.true_pose(fixture.pose).inverse().at(end)[2]),
         hole_m=number(cell.world.snapshot(), fixture.individual, DEPTH),
         greatest_n=float(cell.recording(peg).force.max(initial=0.0)),
-        took=evidence.took(fixture.individual),
+        took=evidence.duration_share(fixture.individual),
     )

@@ -6,13 +6,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from skillc_runtime.evaluation.measures.evidence import Evidence
-from skillc_runtime.evaluation.trials.work import Taught, Work
+from skillc_runtime.evaluation.measures.evidence import RunEvidence
+from skillc_runtime.evaluation.measures.work import Taught, Work
 from skillc_runtime.world.frames import pose
 from skillc_runtime.world.terms import IS_TAUGHT, TAUGHT_POSE
 
 
-def measure(evidence: Evidence) -> Iterator[Work]:
+def measure(evidence: RunEvidence) -> Iterator[Work]:
     """Yield each pose that was taught, with the person who wanted it nearest to there."""
     cell, state = evidence.cell, evidence.cell.world.snapshot()
     leaders = [person for person in cell.people if person.forces]
@@ -27,5 +27,5 @@ def measure(evidence: Evidence) -> Iterator[Work]:
                 off_m=off[nearest],
                 greatest_n=float(forces.max()),
                 mean_n=float(forces.mean()),
-                took=evidence.took(taught),
+                took=evidence.duration_share(taught),
             )

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from skillc_runtime.evaluation.measures.evidence import Evidence
+from skillc_runtime.evaluation.measures.evidence import RunEvidence
+from skillc_runtime.evaluation.measures.work import Polished, Wiped, Work
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.report.wiping import Wiping
-from skillc_runtime.evaluation.trials.work import Polished, Wiped, Work
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.simulation.recorder import Recording
 from skillc_runtime.world.sheet import number
@@ -19,14 +19,14 @@ LEAST_SWING_M = 1e-3
 """An overlay that goes less far is none."""
 
 
-def measure(evidence: Evidence) -> Iterator[Work]:
+def measure(evidence: RunEvidence) -> Iterator[Work]:
     """Yield the work on each surface along which a pushed tool followed a path."""
     state = evidence.cell.world.snapshot()
     for wiping, how in evidence.wipings:
         yield _polished(evidence, wiping, how) if state.is_a(wiping.surface, POLISHABLE_SURFACE) else Wiped(how=how)
 
 
-def _polished(evidence: Evidence, wiping: Wiping, how: WipingResult) -> Polished:
+def _polished(evidence: RunEvidence, wiping: Wiping, how: WipingResult) -> Polished:
     cell = evidence.cell
     asked, gone = swing(cell.recording(wiping.tool).between(wiping.start, wiping.end))
     seconds = number(cell.world.snapshot(), wiping.surface, POLISH_TIME)

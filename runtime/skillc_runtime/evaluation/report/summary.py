@@ -9,7 +9,6 @@ import numpy as np
 from msgspec import structs
 
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.evaluation.report.choices import Choices as Choices
 from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult
 from skillc_runtime.evaluation.report.wiping import Wiping, judge
 from skillc_runtime.planning.plan import describe_quality

@@ -11,11 +11,13 @@ from pathlib import Path
 from skillc_compiler.library import codec
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, Refused, prepare
-from skillc_runtime.evaluation.measures.evidence import Evidence
-from skillc_runtime.evaluation.report.summary import Choices, summarise
+from skillc_runtime.evaluation.measures import buttons, holes, poses, surfaces
+from skillc_runtime.evaluation.measures.evidence import RunEvidence
+from skillc_runtime.evaluation.measures.work import Work
+from skillc_runtime.evaluation.report.choices import Choices
+from skillc_runtime.evaluation.report.summary import summarise
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.evaluation.trials.disturbance import PushDisturbance, reality
-from skillc_runtime.evaluation.trials.measuring import works
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.known import assumed
@@ -28,6 +30,9 @@ from skillc_runtime.world.scene import load_scene
 from skillc_runtime.world.sheet import SheetError, number
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.terms import CONTACT_FORCE_LIMIT
+
+MEASURES = (surfaces.measure, buttons.measure, holes.measure, poses.measure)
+"""In the order in which trials list what was done."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +80,7 @@ class TrialRunner:
             verified=result.verified,
             assumed=tuple(format_fact(fact.fact) for fact in assumed(result.facts)),
             variation=result.variation,
-            works=works(Evidence(self._library, cell, trees, choices, judged)),
+            works=_measure_work(RunEvidence(self._library, cell, trees, choices, judged)),
             coverage=min((surface.fraction for surface in cell.coverage.values()), default=1.0),
             greatest_force_n=_greatest_force(cell),
             force_limit_n=_force_limit(cell),
@@ -92,6 +97,10 @@ def _assignment(task: str, library: SkillLibrary, state: WorldState) -> Assignme
         return Assignment(task, state, Reach(goal))
     assert body is not None, "a task has a goal or a body"
     return Assignment(task, state, Perform(body))
+
+
+def _measure_work(evidence: RunEvidence) -> tuple[Work, ...]:
+    return tuple(work for measure in MEASURES for work in measure(evidence))
 
 
 def _greatest_force(cell: SimulatedCell) -> float:

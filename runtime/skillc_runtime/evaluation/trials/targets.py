@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Generic, Literal, TypeVar, assert_never
 
+from skillc_runtime.evaluation.measures.work import Inserted, Polished, Pressed, Taught, Wiped, Work
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.trials.trial import Trial
-from skillc_runtime.evaluation.trials.work import Inserted, Polished, Pressed, Taught, Wiped, Work
 
 Result = TypeVar("Result", contravariant=True)
 

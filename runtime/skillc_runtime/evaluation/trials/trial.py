@@ -6,7 +6,7 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-from skillc_runtime.evaluation.trials.work import Work
+from skillc_runtime.evaluation.measures.work import Work
 
 Status: TypeAlias = Literal["success", "failure", "halted", "refused", "crashed"]
 """How a task ended; `crashed` where the process that ran it did not live to say so."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import assert_never
 
+from skillc_runtime.evaluation.measures.work import Inserted, Polished, Pressed, Wiped
 from skillc_runtime.evaluation.trials.targets import Value, values, values_of
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
-from skillc_runtime.evaluation.trials.work import Inserted, Polished, Pressed, Wiped
 
 
 def misses(trial: Trial, disturbance: Disturbance) -> tuple[str, ...]:
