@@ -127,7 +127,7 @@ def _tell_plan(prepared: Prepared, setting: Setting) -> None:
         optimal=solved.optimal,
         cost=cost,
         steps=steps,
-        quality=quality(solved.optimal, solved.left_out, solved.at_least_s),
+        quality=describe_quality(solved.optimal, solved.left_out, solved.at_least_s),
     )
     Listeners(setting.listeners)(made)
 
