@@ -15,7 +15,7 @@ from skillc_runtime.plans.progress import progress
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import FORMAT, Listener, Replanned, TaskEnded, TaskStarted
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.recording.known import KnownFact, assumed
+from skillc_runtime.recording.known import KnownFact, assumed_facts
 from skillc_runtime.recording.listeners import Listeners
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.verifying import known_facts
@@ -89,7 +89,7 @@ def _facts(last: Attempt, cell: SimulatedCell) -> tuple[KnownFact, ...]:
 
 
 def _verified(status: Status, facts: tuple[KnownFact, ...]) -> bool | None:
-    return None if status is not Status.SUCCESS else not assumed(facts)
+    return None if status is not Status.SUCCESS else not assumed_facts(facts)
 
 
 def _following(attempts: Sequence[Attempt], setting: Setting) -> Prepared | Refused | None:

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from skillc_compiler.library.vocabulary import Position
-from skillc_runtime.evaluation.report.moments import moments
+from skillc_runtime.evaluation.report.moments import find_moments
 from skillc_runtime.recording.events import Highlight, ImplementationChosen
 from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.simulation.film import Moment
@@ -45,7 +45,7 @@ CHOICES = {
 
 def test_what_was_waited_for_is_seen_when_it_came() -> None:
     tree = call(1, "success", 0.0, 9.0, call(2, "success", 3.0, 4.0), call(3, "success", 5.0, 6.0))
-    assert moments((), [tree], CHOICES, CELL) == (
+    assert find_moments((), [tree], CHOICES, CELL) == (
         Moment("lab:Button pressed", 4.0, "http://lab#Arm"),
         Moment("lab:Hole found", 5.0, "http://lab#Arm"),
         Moment("lab:Hole filled", 6.0, "http://lab#Arm"),
@@ -54,4 +54,4 @@ def test_what_was_waited_for_is_seen_when_it_came() -> None:
 
 def test_what_did_not_come_is_not_to_be_seen() -> None:
     tree = call(1, "failure", 0.0, 9.0, call(2, "failure", 3.0, 4.0), call(3, "idle", None, None))
-    assert moments((), [tree], CHOICES, CELL) == ()
+    assert find_moments((), [tree], CHOICES, CELL) == ()

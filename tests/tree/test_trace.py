@@ -22,7 +22,7 @@ from skillc_runtime.recording.events import (
 )
 from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.recording.reader import TraceReader
-from skillc_runtime.recording.reasons import Attempted
+from skillc_runtime.recording.reasons import FailedCallContext
 from skillc_runtime.recording.writer import TraceWriter
 from skillc_runtime.tree.run import Run
 from skillc_runtime.world.changes import SetProperty
@@ -135,7 +135,7 @@ def test_values_are_read_back_as_they_were_written(tmp_path: Path) -> None:
     bindings = {str(number): value for number, value in enumerate((*values, ValueList((pose, ValueList(values)))))}
     facts = (RelationFact(arm, arm, None, False), PropertyFact(arm, arm, None), ClassFact(arm, flag))
     changes = (*facts[:2], IndividualAdded(arm, (flag,)), IndividualRemoved(arm))
-    attempted = Attempted(arguments=bindings, facts=(*facts, IdentityFact(arm, flag, False)))
+    attempted = FailedCallContext(arguments=bindings, facts=(*facts, IdentityFact(arm, flag, False)))
     here = Position("a.skill", 1, 2)
     highlights = (Highlight("ends", arm, "pressed"),)
     samples = [

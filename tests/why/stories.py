@@ -9,7 +9,7 @@ from skillc_compiler.library import tree
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import FORMAT, Event, TaskEnded, TaskStarted
-from skillc_runtime.recording.history import story_of
+from skillc_runtime.recording.history import read_story
 from skillc_runtime.recording.story import Call, Story
 from skillc_runtime.recording.writer import TraceWriter
 from skillc_runtime.tree.run import Run
@@ -35,7 +35,7 @@ def events_of(body: tree.Node, library: SkillLibrary, cell: Stage, ticks: int = 
 
 def in_world(body: tree.Node, library: SkillLibrary, state: WorldState) -> Story:
     """Return the story of a body in a world."""
-    return known(story_of(events_of(body, library, Stage(WorldModel(state)))))
+    return known(read_story(events_of(body, library, Stage(WorldModel(state)))))
 
 
 def known(story: Story | None) -> Story:

@@ -22,9 +22,9 @@ from skillc_runtime.recording.events import (
     TaskEnded,
 )
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.recording.history import story_of
+from skillc_runtime.recording.history import read_story
 from skillc_runtime.recording.outcome import Outcome
-from skillc_runtime.recording.record import Body, Records
+from skillc_runtime.recording.record import AttemptRecord, NodeRecords
 from skillc_runtime.recording.story import Call, Story
 from skillc_runtime.tree.run import Run
 from skillc_runtime.world.changes import SetProperty
@@ -52,8 +52,8 @@ def test_the_story_says_of_each_call_what_the_tree_says(play: Play) -> None:
             engine.halt("the test says so")
         if engine.tick() is not Status.RUNNING:
             break
-        assert shape(known(story_of(told))) == shape_of(engine.outcome)
-    story = known(story_of(told))
+        assert shape(known(read_story(told))) == shape_of(engine.outcome)
+    story = known(read_story(told))
     assert shape(story) == shape_of(engine.outcome)
     told_of = [link.message for link in story.chain]
     assert bool(told_of) == (engine.status is Status.FAILURE)
@@ -93,7 +93,7 @@ def calls_in(outcome: Outcome) -> Iterator[Outcome]:
 def test_a_long_run_of_a_small_tree_needs_little_memory() -> None:
     rounds = tree.Repeat(count=400, child=seq(act("a"), check(FLAGS[0]), act("b")), source=here())
     told = events_of(rounds, Library().build(), Stage(world()), ticks=2000)
-    records, starts, most = Records(Body()), 0, 0
+    records, starts, most = NodeRecords(AttemptRecord()), 0, 0
     for each in told:
         if isinstance(each, NodeStarted):
             records.start(each)
@@ -108,7 +108,7 @@ def test_a_long_run_of_a_small_tree_needs_little_memory() -> None:
 def test_how_earlier_starts_ended_is_kept() -> None:
     cell = Stage(world(), {"a": [Script("fail"), Script("fail"), Script()]})
     retry = tree.Retry(count=5, child=seq(act("a"), act("b")), source=here())
-    first, second = steps_of(known(story_of(events_of(retry, Library().build(), cell))))
+    first, second = steps_of(known(read_story(events_of(retry, Library().build(), cell))))
     assert (first.skill, first.status, first.starts) == ("Act", "success", 3)
     assert [(each.status, each.message) for each in first.earlier] == [("failure", "a failed")] * 2
     assert (second.starts, second.earlier) == (1, ())
@@ -116,7 +116,7 @@ def test_how_earlier_starts_ended_is_kept() -> None:
 
 def test_steps_side_by_side_know_of_each_other() -> None:
     cell = Stage(world(), {"a": [Script(ticks=3)], "b": [Script(ticks=5)]})
-    story = known(story_of(events_of(seq(par("all", act("a"), act("b")), act("c")), Library().build(), cell)))
+    story = known(read_story(events_of(seq(par("all", act("a"), act("b")), act("c")), Library().build(), cell)))
     assert [(step.number, step.beside) for step in steps_of(story)] == [("1", ("2",)), ("2", ("1",)), ("3", ())]
 
 
@@ -129,7 +129,7 @@ STAY = PlanStep(skill="Go", arguments={"to": A}, source=LINE)
 def planned(*events: Event) -> Story:
     """Return the story of a plan to go to b and to a."""
     plan = PlanMade(time=0.0, planner="test", optimal="", cost=1.0, steps=(GO, STAY))
-    return known(story_of([BEGIN, plan, *events]))
+    return known(read_story([BEGIN, plan, *events]))
 
 
 def node(number: int, parent: int, kind: str) -> NodeStarted:
@@ -184,7 +184,7 @@ def test_the_end_of_a_task_is_that_of_its_story() -> None:
 
 
 def test_without_a_task_there_is_no_story() -> None:
-    assert story_of([]) is None
+    assert read_story([]) is None
 
 
 def test_a_story_survives_json() -> None:

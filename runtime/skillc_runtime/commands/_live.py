@@ -11,7 +11,7 @@ from rich.text import Text
 
 from skillc_runtime.commands._console import console
 from skillc_runtime.recording.events import Event, NodeEnded, NodeStarted, PlanMade, Replanned, TaskEnded
-from skillc_runtime.recording.known import status_words
+from skillc_runtime.recording.known import format_status
 
 STEP_DEPTH = 2
 """Calls this deep are told of where the output is no terminal: the steps of a plan and what they call."""
@@ -60,7 +60,7 @@ class Live:
             case PlanMade(steps=steps, quality=quality):
                 self.say(f"{' -> '.join(step.skill for step in steps)} ({quality})")
             case TaskEnded(status=status, verified=verified):
-                self.say(status_words(status, verified))
+                self.say(format_status(status, verified))
             case _:
                 pass
 

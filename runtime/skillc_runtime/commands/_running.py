@@ -19,8 +19,8 @@ from skillc_runtime.commands._following import Follower
 from skillc_runtime.commands._live import Live
 from skillc_runtime.commands._mission import Mission
 from skillc_runtime.evaluation.report.choices import Choices
-from skillc_runtime.evaluation.report.drawing import Drawing, drawing
-from skillc_runtime.evaluation.report.moments import moments
+from skillc_runtime.evaluation.report.drawing import Drawing, make_drawing
+from skillc_runtime.evaluation.report.moments import find_moments
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.summary import summarise
 from skillc_runtime.evaluation.report.wiping import find_wipings
@@ -108,9 +108,9 @@ def _run(
         if options.out is None or film is None:
             return Ran(result)
         live.say("writing the report")
-        drawings = tuple(drawing(wiping, cell) for wiping in wipings)
+        drawings = tuple(make_drawing(wiping, cell) for wiping in wipings)
         try:
-            filmed = _filmed(film, options.out, moments(wipings, trees, choices, cell))
+            filmed = _filmed(film, options.out, find_moments(wipings, trees, choices, cell))
             write_report(options.out, result, execution, drawings, filmed)
         except OSError as error:
             click.echo(_refusal(options.out, error), err=True)

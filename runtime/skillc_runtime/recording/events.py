@@ -8,9 +8,9 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from skillc_compiler.library.vocabulary import Position
-from skillc_runtime.recording.failure import Failure, Rejected
+from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known import KnownFact
-from skillc_runtime.recording.reasons import Attempted, Determined, Untried
+from skillc_runtime.recording.reasons import FailedCallContext, ParameterReason, UntriedImplementation
 from skillc_runtime.world.evidence import Evidence
 from skillc_runtime.world.labelled import Iri, LabelledChange, LabelledValue
 
@@ -78,7 +78,7 @@ class NodeEnded(_Event, tag="node-ended", frozen=True, kw_only=True):
     name: str
     status: str
     failure: Failure | None = None
-    attempted: Attempted | None = None
+    attempted: FailedCallContext | None = None
     source: Position
 
 
@@ -102,9 +102,9 @@ class ImplementationChosen(_Event, tag="implementation-chosen", frozen=True, kw_
     skill: str
     implementation: str
     bindings: dict[str, LabelledValue]
-    rejected: tuple[Rejected, ...] = ()
-    determined: tuple[Determined, ...] = ()
-    untried: tuple[Untried, ...] = ()
+    rejected: tuple[Rejection, ...] = ()
+    determined: tuple[ParameterReason, ...] = ()
+    untried: tuple[UntriedImplementation, ...] = ()
     fixed: bool = False
     activity: str = ""
     highlights: tuple[Highlight, ...] = ()

@@ -45,7 +45,7 @@ class Failure(msgspec.Struct, frozen=True, kw_only=True):
         return self.kind in ("hold", "verify") or any(cause.breaks_hold for cause in self.causes)
 
 
-class Rejected(msgspec.Struct, frozen=True, kw_only=True):
+class Rejection(msgspec.Struct, frozen=True, kw_only=True):
     """An implementation that was not taken, the stage at which it fell out, and why.
 
     `failure` is the failure itself where the implementation had started.
@@ -58,7 +58,7 @@ class Rejected(msgspec.Struct, frozen=True, kw_only=True):
     failure: Failure | None = None
 
 
-def as_failure(rejected: Rejected, skill: str) -> Failure:
+def as_failure(rejected: Rejection, skill: str) -> Failure:
     """Return the failure that a rejection means for the call that had no other implementation."""
     if rejected.failure is not None:
         return rejected.failure

@@ -9,13 +9,13 @@ from msgspec import structs
 
 from skillc_runtime.recording import events
 from skillc_runtime.recording.events import Event
-from skillc_runtime.recording.record import Body, Records
-from skillc_runtime.recording.steps import chain, steps
+from skillc_runtime.recording.record import AttemptRecord, NodeRecords
+from skillc_runtime.recording.steps import collect_steps, failure_chain
 from skillc_runtime.recording.story import Attempt, Fact, Story
 from skillc_runtime.world.labelled import LabelledFact, PropertyFact, RelationFact
 
 
-def story_of(recording: Iterable[Event]) -> Story | None:
+def read_story(recording: Iterable[Event]) -> Story | None:
     """Return what happened in a run; None where no task ever started. Raises what the recording raises."""
     history = _History()
     for event in recording:
@@ -32,8 +32,8 @@ class _History:
         self._last = 0.0
         self._written: dict[LabelledFact, Fact] = {}
         self._because = ""
-        self._bodies = [Body()]
-        self._records = Records(self._bodies[0])
+        self._bodies = [AttemptRecord()]
+        self._records = NodeRecords(self._bodies[0])
 
     def hear(self, event: Event) -> None:
         """Take the next event."""
@@ -42,7 +42,7 @@ class _History:
             case events.TaskStarted():
                 self._started = event
             case events.PlanMade():
-                self._begin(Body(plan=event, replaces=self._because))
+                self._begin(AttemptRecord(plan=event, replaces=self._because))
             case events.Replanned(reason=reason):
                 self._because = reason
             case events.NodeStarted():
@@ -78,16 +78,16 @@ class _History:
             format=self._started.format,
             last=self._last,
             failure=self._ended.failure if self._ended is not None else None,
-            chain=chain(self._bodies[-1].roots),
+            chain=failure_chain(self._bodies[-1].roots),
             attempts=tuple(attempts),
         )
 
-    def _begin(self, body: Body) -> None:
+    def _begin(self, body: AttemptRecord) -> None:
         """Begin an attempt; the first plan belongs to the body that nothing has run of yet."""
         if self._bodies[-1].plan is None and not self._bodies[-1].roots:
             self._bodies.pop()
         self._bodies.append(body)
-        self._records = Records(body)
+        self._records = NodeRecords(body)
 
     def _note(self, event: events.WorldChanged) -> None:
         for change in event.changes:
@@ -107,10 +107,10 @@ def _about(fact: LabelledFact) -> LabelledFact:
     return structs.replace(fact, value=None) if isinstance(fact, PropertyFact) else structs.replace(fact, holds=True)
 
 
-def _attempt(body: Body, count: int) -> Attempt:
+def _attempt(body: AttemptRecord, count: int) -> Attempt:
     plan = body.plan
     return Attempt(
-        steps=steps(body, count),
+        steps=collect_steps(body, count),
         planner=plan.planner if plan is not None else "",
         optimal=plan.optimal if plan is not None else "",
         quality=plan.quality if plan is not None else "",

@@ -21,22 +21,22 @@ class KnownFact(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     by: str = ""
 
 
-def assumed(facts: tuple[KnownFact, ...]) -> tuple[KnownFact, ...]:
+def assumed_facts(facts: tuple[KnownFact, ...]) -> tuple[KnownFact, ...]:
     """Return those that nothing looked at."""
     return tuple(fact for fact in facts if fact.known == "assumed")
 
 
-def known_words(fact: KnownFact) -> str:
+def format_evidence(fact: KnownFact) -> str:
     """Return how a fact is known, as `assumed by Place`."""
     return f"{fact.known} by {fact.by}" if fact.by else fact.known
 
 
-def status_words(status: str, verified: bool | None) -> str:
+def format_status(status: str, verified: bool | None) -> str:
     """Return how a task ended, in words: a success that rests on an assumption is not called one."""
     return UNVERIFIED if verified is False else status
 
 
-def assumption_words(known: KnownFact) -> str:
+def format_assumption(known: KnownFact) -> str:
     """Say that a fact is only assumed, and what would have to be sensed."""
     return f"{format_fact(known.fact)} is only assumed: {what_to_sense(known)}"
 

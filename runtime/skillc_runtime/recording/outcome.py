@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import msgspec
 
 from skillc_compiler.library.vocabulary import Position
-from skillc_runtime.recording.failure import Failure, Rejected
+from skillc_runtime.recording.failure import Failure, Rejection
 
 
 class Outcome(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -25,7 +25,7 @@ class Outcome(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     started: float | None = None
     ended: float | None = None
     failure: Failure | None = None
-    rejected: tuple[Rejected, ...] = ()
+    rejected: tuple[Rejection, ...] = ()
     children: tuple[Outcome, ...] = ()
 
     def nodes(self) -> Iterator[Outcome]:

@@ -25,7 +25,7 @@ class Answer(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     calls: tuple[Call, ...]
 
 
-def asked(story: Story, question: str) -> Answer:
+def find_answer(story: Story, question: str) -> Answer:
     """Return what a question is about: `2`, `2.1`, `Pick`, `Pick.gripper`, `2.gripper`, `gripper`, `by_grasp`.
 
     Of names the first that exists counts: a skill, an implementation, a parameter. Capitals do not matter.

@@ -7,11 +7,11 @@ from typing import Literal
 import msgspec
 
 from skillc_compiler.library.vocabulary import Position
-from skillc_runtime.recording.failure import Rejected
+from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.world.labelled import Iri, LabelledFact, LabelledValue
 
 
-class Deciding(msgspec.Struct, frozen=True, kw_only=True):
+class DecidingCondition(msgspec.Struct, frozen=True, kw_only=True):
     """A condition as its author wrote it, with the facts that decided it."""
 
     text: str
@@ -19,7 +19,7 @@ class Deciding(msgspec.Struct, frozen=True, kw_only=True):
     facts: tuple[LabelledFact, ...]
 
 
-class Determined(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+class ParameterReason(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """What a parameter stands for where that is more than an argument of the call.
 
     `how` says who decided: the caller, the parameter's default, or the world through the conditions. `others` are the
@@ -28,11 +28,11 @@ class Determined(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
     parameter: str
     how: Literal["passed", "default", "inferred"]
-    conditions: tuple[Deciding, ...] = ()
+    conditions: tuple[DecidingCondition, ...] = ()
     others: tuple[Iri, ...] = ()
 
 
-class Untried(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+class UntriedImplementation(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """An implementation that ranks after the one chosen; `reason` says why it would not have fitted, if so."""
 
     implementation: str
@@ -40,7 +40,7 @@ class Untried(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     reason: str = ""
 
 
-class Attempted(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+class FailedCallContext(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """What a call that failed had: its arguments, the implementations that did not do, the facts.
 
     `unset` are the parameters that were to be found in the world. The facts are those that its conditions read, at
@@ -49,5 +49,5 @@ class Attempted(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
     arguments: dict[str, LabelledValue] = {}
     unset: tuple[str, ...] = ()
-    rejected: tuple[Rejected, ...] = ()
+    rejected: tuple[Rejection, ...] = ()
     facts: tuple[LabelledFact, ...] = ()

@@ -8,12 +8,12 @@ from math import inf
 from msgspec import structs
 
 from skillc_runtime.recording.events import PlanStep
-from skillc_runtime.recording.record import Body, Record
-from skillc_runtime.recording.story import Call, Link
+from skillc_runtime.recording.record import AttemptRecord, NodeRecord
+from skillc_runtime.recording.story import Call, FailedNode
 from skillc_runtime.world.labelled import LabelledValue
 
 
-def steps(body: Body, before: int) -> tuple[Call, ...]:
+def collect_steps(body: AttemptRecord, before: int) -> tuple[Call, ...]:
     """Return the steps of an attempt, those of a plan in its order, numbered on from `before`.
 
     A step of a plan belongs to the first call of its skill with its arguments; one that has none was skipped or
@@ -21,7 +21,7 @@ def steps(body: Body, before: int) -> tuple[Call, ...]:
     """
     calls = [call for root in body.roots for call in ((root,) if root.is_call else root.calls)]
     skipped = [event.source for event in body.skipped]
-    found: list[Record | Call] = []
+    found: list[NodeRecord | Call] = []
     for step in body.plan.steps if body.plan is not None else ():
         call = next((each for each in calls if _runs(each, step)), None)
         if call is not None:
@@ -35,25 +35,25 @@ def steps(body: Body, before: int) -> tuple[Call, ...]:
     return _side_by_side(tuple(structs.replace(each, planned=body.plan is not None) for each in as_calls))
 
 
-def chain(nodes: Sequence[Record]) -> tuple[Link, ...]:
+def failure_chain(nodes: Sequence[NodeRecord]) -> tuple[FailedNode, ...]:
     """Return who failed together, outermost first: the calls and the innermost node, of several the last to fail."""
     failed = [node for node in nodes if node.status == "failure" and not node.survived]
     if not failed:
         return ()
     last = max(failed, key=lambda node: node.end.time if node.end is not None else 0.0)
-    below = chain(last.children)
+    below = failure_chain(last.children)
     return (_link(last), *below) if last.is_call or not below else below
 
 
-def _link(node: Record) -> Link:
+def _link(node: NodeRecord) -> FailedNode:
     failure = node.end.failure if node.end is not None else None
     name = node.end.name if node.end is not None else node.start.name
     source = failure.source if failure is not None and failure.source is not None and not node.is_call else None
     message = failure.message if failure is not None else ""
-    return Link(kind=node.start.kind, name=name, source=source or node.start.source, message=message)
+    return FailedNode(kind=node.start.kind, name=name, source=source or node.start.source, message=message)
 
 
-def _runs(call: Record, step: PlanStep) -> bool:
+def _runs(call: NodeRecord, step: PlanStep) -> bool:
     """Whether a call may be that of a planned step; its arguments are known once it chose or failed."""
     if _skill(call) != step.skill:
         return False
@@ -61,11 +61,11 @@ def _runs(call: Record, step: PlanStep) -> bool:
     return not bound or all(bound.get(name) == value for name, value in step.arguments.items())
 
 
-def _skill(call: Record) -> str:
+def _skill(call: NodeRecord) -> str:
     return call.choice.skill if call.choice is not None else call.start.name.partition("[")[0]
 
 
-def _bindings(call: Record) -> dict[str, LabelledValue]:
+def _bindings(call: NodeRecord) -> dict[str, LabelledValue]:
     if call.choice is not None:
         return call.choice.bindings
     attempted = call.end.attempted if call.end is not None else None
@@ -76,11 +76,11 @@ def _planned(step: PlanStep, status: str) -> Call:
     return Call(number="", skill=step.skill, status=status, source=step.source, bindings=step.arguments)
 
 
-def _step(found: Record | Call, number: str) -> Call:
+def _step(found: NodeRecord | Call, number: str) -> Call:
     return structs.replace(found, number=number) if isinstance(found, Call) else _call(found, number)
 
 
-def _call(call: Record, number: str) -> Call:
+def _call(call: NodeRecord, number: str) -> Call:
     choice, end = call.choice, call.end
     attempted = end.attempted if end is not None else None
     rejected = attempted.rejected if attempted is not None else choice.rejected if choice is not None else ()
@@ -102,7 +102,7 @@ def _call(call: Record, number: str) -> Call:
         untried=choice.untried if choice is not None else (),
         rejected=rejected,
         failure=end.failure if end is not None else None,
-        chain=chain([call]),
+        chain=failure_chain([call]),
         facts=call.facts,
         starts=call.starts,
         earlier=tuple(call.earlier),

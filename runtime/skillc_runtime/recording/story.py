@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import msgspec
 
 from skillc_compiler.library.vocabulary import Position
-from skillc_runtime.recording.failure import Failure, Rejected
+from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known import KnownFact
-from skillc_runtime.recording.reasons import Determined, Untried
+from skillc_runtime.recording.reasons import ParameterReason, UntriedImplementation
 from skillc_runtime.world.labelled import LabelledFact, LabelledValue
 
 
@@ -29,7 +29,7 @@ class Fact(_Part, frozen=True, kw_only=True):
     known: str = ""
 
 
-class Link(_Part, frozen=True, kw_only=True):
+class FailedNode(_Part, frozen=True, kw_only=True):
     """One of those who failed together: a call, or the innermost node; `message` says what it gave as the reason."""
 
     kind: str
@@ -38,7 +38,7 @@ class Link(_Part, frozen=True, kw_only=True):
     message: str
 
 
-class Earlier(_Part, frozen=True, kw_only=True):
+class EarlierStart(_Part, frozen=True, kw_only=True):
     """How an earlier start of the same call ended."""
 
     ended: float
@@ -66,17 +66,17 @@ class Call(_Part, frozen=True, kw_only=True):
     started: float | None = None
     ended: float | None = None
     bindings: dict[str, LabelledValue] = {}
-    determined: tuple[Determined, ...] = ()
+    determined: tuple[ParameterReason, ...] = ()
     unset: tuple[str, ...] = ()
     planned: bool = False
     fixed: bool = False
-    untried: tuple[Untried, ...] = ()
-    rejected: tuple[Rejected, ...] = ()
+    untried: tuple[UntriedImplementation, ...] = ()
+    rejected: tuple[Rejection, ...] = ()
     failure: Failure | None = None
-    chain: tuple[Link, ...] = ()
+    chain: tuple[FailedNode, ...] = ()
     facts: tuple[Fact, ...] = ()
     starts: int = 1
-    earlier: tuple[Earlier, ...] = ()
+    earlier: tuple[EarlierStart, ...] = ()
     beside: tuple[str, ...] = ()
     calls: tuple[Call, ...] = ()
 
@@ -118,7 +118,7 @@ class Story(_Part, frozen=True, kw_only=True):
     format: int = 1
     last: float = 0.0
     failure: Failure | None = None
-    chain: tuple[Link, ...] = ()
+    chain: tuple[FailedNode, ...] = ()
     attempts: tuple[Attempt, ...] = ()
 
     @property

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Implementation, Parameter, Post, Requirement
-from skillc_runtime.recording.failure import Rejected, Stage
+from skillc_runtime.recording.failure import Rejection, Stage
 from skillc_runtime.selection.arguments import problem_with
 from skillc_runtime.selection.inferred import Inferred, infer_parameters
 from skillc_runtime.world.conditions import evaluate
@@ -33,7 +33,7 @@ class Fitted:
     notes: tuple[str, ...] = ()
 
 
-def fit(implementation: Implementation, arguments: Mapping[str, Value], state: WorldState) -> Fitted | Rejected:
+def fit(implementation: Implementation, arguments: Mapping[str, Value], state: WorldState) -> Fitted | Rejection:
     """Bind the parameters: arguments, defaults, inference; then check types, ranges and preconditions.
 
     EvaluationError when a default or a condition cannot be evaluated.
@@ -59,12 +59,12 @@ def first_broken(
     stage: Stage,
     bindings: Mapping[str, Value],
     state: WorldState,
-) -> Rejected | None:
+) -> Rejection | None:
     """Return the first requirement that does not hold, with what holds instead; None when all hold."""
     for requirement in requirements:
         if not evaluate(requirement.condition, state, bindings):
             reason = broken_text(implementation, requirement, stage, bindings, state)
-            return Rejected(implementation=implementation.name, stage=stage, reason=reason, source=requirement.source)
+            return Rejection(implementation=implementation.name, stage=stage, reason=reason, source=requirement.source)
     return None
 
 
@@ -90,7 +90,7 @@ def bind_arguments(
     passed: Set[str],
     state: WorldState,
     bindings: dict[str, Value],
-) -> Rejected | None:
+) -> Rejection | None:
     """Check the arguments and bind them; `passed` names also those whose values are not known yet."""
     known = {parameter.name for parameter in implementation.parameters if parameter.direction != "out"}
     unknown = [name for name in passed if name not in known]
@@ -122,7 +122,7 @@ def bind_defaults(
 
 def _out_of_bounds(
     implementation: Implementation, arguments: Mapping[str, Value], state: WorldState, bindings: Mapping[str, Value]
-) -> Rejected | None:
+) -> Rejection | None:
     """Check what was not passed: a computed default may be out of range."""
     for parameter in implementation.parameters:
         if parameter.name in bindings and parameter.name not in arguments:
@@ -132,9 +132,9 @@ def _out_of_bounds(
     return None
 
 
-def _rejected(implementation: Implementation, reason: str, parameter: Parameter | None = None) -> Rejected:
+def _rejected(implementation: Implementation, reason: str, parameter: Parameter | None = None) -> Rejection:
     source = parameter.source if parameter is not None else implementation.source
-    return Rejected(implementation=implementation.name, stage="argument", reason=reason, source=source)
+    return Rejection(implementation=implementation.name, stage="argument", reason=reason, source=source)
 
 
 def _mentions(text: str, name: str) -> bool:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Implementation, Parameter, Requirement
 from skillc_compiler.library.vocabulary import ClassType, Vocabulary
-from skillc_runtime.recording.failure import Rejected
+from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.explain import explain
 from skillc_runtime.world.inference import Ambiguous, Binding, Found, NoneFound, infer
@@ -31,7 +31,7 @@ class Inferred:
 
 def infer_parameters(
     implementation: Implementation, bindings: Mapping[str, Value], state: WorldState
-) -> Inferred | Rejected:
+) -> Inferred | Rejection:
     """Find the inferred parameters that nobody passed, from all preconditions."""
     wanted = _wanted(implementation, bindings.keys())
     match infer(wanted, implementation.pre, bindings, state):
@@ -49,7 +49,7 @@ def infer_fixed(
     bindings: dict[str, Value],
     passed: Set[str],
     state: WorldState,
-) -> dict[str, Value] | Rejected:
+) -> dict[str, Value] | Rejection:
     """Return the bindings with those inferred parameters that the requirements leave no choice for.
 
     `requirements` hold for ever or never. A rejection says which of them no individuals can meet.
@@ -119,17 +119,17 @@ def _passed_over(found: Binding, others: Sequence[Binding], vocabulary: Vocabula
 
 def _none(
     implementation: Implementation, wanted: Sequence[Parameter], requirement: Requirement | None, reason: str
-) -> Rejected:
+) -> Rejection:
     about = f"no answer for `{requirement.text}`: " if requirement is not None else ""
     source = requirement.source if requirement is not None else wanted[0].source
-    return Rejected(
+    return Rejection(
         implementation=implementation.name, stage="inference" if wanted else "pre", reason=about + reason, source=source
     )
 
 
 def _none_found(
     implementation: Implementation, wanted: Sequence[Parameter], none: NoneFound, vocabulary: Vocabulary
-) -> Rejected:
+) -> Rejection:
     """Say what left none and, where that says more, what came nearest: first what meets all the rest."""
     near = [miss for miss in none.nearest if miss.reason != none.reason]
     near.sort(key=lambda miss: miss.requirement is not none.requirement)
@@ -146,11 +146,11 @@ def _near(miss: NearMiss, told: Requirement | None, vocabulary: Vocabulary) -> s
 
 def _ambiguous(
     implementation: Implementation, wanted: Sequence[Parameter], answers: Sequence[Binding], vocabulary: Vocabulary
-) -> Rejected:
+) -> Rejection:
     open_ = [p for p in wanted if len({answer[p.name] for answer in answers}) > 1 and not p.any_]
     each = [f"`{p.name}` may be {_listed(p.name, answers, vocabulary)}" for p in open_]
     reason = f"{'; '.join(each)}: pass it, or let any do with `infer any {open_[0].name}`"
-    return Rejected(implementation=implementation.name, stage="inference", reason=reason, source=open_[0].source)
+    return Rejection(implementation=implementation.name, stage="inference", reason=reason, source=open_[0].source)
 
 
 def _listed(name: str, answers: Sequence[Binding], vocabulary: Vocabulary) -> str:

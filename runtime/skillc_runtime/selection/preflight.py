@@ -11,7 +11,7 @@ from skillc_compiler.library.conditions import Condition, Expression, Variable
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Compound, Implementation, Primitive, SkillLibrary
 from skillc_compiler.library.vocabulary import Position
-from skillc_runtime.recording.failure import Rejected
+from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.selection.fit import bind_arguments
 from skillc_runtime.selection.inferred import infer_fixed
 from skillc_runtime.selection.known import Known, known_values, unusable
@@ -38,7 +38,7 @@ class Refusal:
     message: str
     source: Position
     within: tuple[str, ...] = ()
-    rejected: tuple[Rejected, ...] = ()
+    rejected: tuple[Rejection, ...] = ()
     misnamed: Mapping[Origin, Misnamed] = field(default_factory=dict)
 
     def __str__(self) -> str:
@@ -125,11 +125,11 @@ class _Preflight:
         if arguments.never:
             return self._never(call.skill, arguments, call.source, scope.within)
         passed = frozenset(call.arguments)
-        rejected: list[Rejected] = []
+        rejected: list[Rejection] = []
         wrong: dict[Origin, Misnamed] = {}
         for implementation in candidates(self._library, call.skill, call.implementation):
             fitting = self._fit(implementation, arguments.values, passed)
-            if isinstance(fitting, Rejected):
+            if isinstance(fitting, Rejection):
                 rejected.append(fitting)
                 continue
             origins = _origins(call, implementation, scope)
@@ -141,17 +141,17 @@ class _Preflight:
         message = why_none(call.skill, rejected)
         return (Refusal(call.skill, message, call.source, scope.within, tuple(rejected), wrong),)
 
-    def _no_names(self, implementation: Implementation, texts: Mapping[str, Misnamed]) -> Rejected:
+    def _no_names(self, implementation: Implementation, texts: Mapping[str, Misnamed]) -> Rejection:
         reason = "; ".join(
             f"`{name}` names nothing: {text.message(self._state.vocabulary)}" for name, text in texts.items()
         )
-        return Rejected(
+        return Rejection(
             implementation=implementation.name, stage="argument", reason=reason, source=implementation.source
         )
 
     def _fit(
         self, implementation: Implementation, arguments: Mapping[str, Value], passed: frozenset[str]
-    ) -> dict[str, Value] | Rejected:
+    ) -> dict[str, Value] | Rejection:
         """Return what is known of the parameters, or why the implementation can never take these arguments."""
         bindings: dict[str, Value] = {}
         rejected = bind_arguments(implementation, arguments, passed, self._state, bindings)
@@ -161,7 +161,7 @@ class _Preflight:
             try:
                 fitting_class(implementation.body.python, implementation.parameters)
             except PrimitiveError as error:
-                return Rejected(
+                return Rejection(
                     implementation=implementation.name, stage="start", reason=str(error), source=implementation.source
                 )
         rejected = self._bind_defaults(implementation, bindings, passed)
@@ -169,13 +169,13 @@ class _Preflight:
             return rejected
         fixed = [pre for pre in implementation.pre if is_fixed(pre.condition, self._changing, self._state.vocabulary)]
         inferred = infer_fixed(implementation, tuple(fixed), bindings, passed, self._state)
-        if isinstance(inferred, Rejected):
+        if isinstance(inferred, Rejection):
             return inferred
         return self._bind_defaults(implementation, inferred, passed) or inferred
 
     def _bind_defaults(
         self, implementation: Implementation, bindings: dict[str, Value], passed: frozenset[str]
-    ) -> Rejected | None:
+    ) -> Rejection | None:
         """Bind the defaults whose values are known; reject one that can never be had."""
         for parameter in implementation.parameters:
             if parameter.default is None or parameter.name in bindings or parameter.name in passed:
@@ -183,7 +183,7 @@ class _Preflight:
             default = self._compute({parameter.name: parameter.default}, bindings)
             for name, reason in default.never.items():
                 reason = f"`{name}` cannot be had: {reason}"
-                return Rejected(
+                return Rejection(
                     implementation=implementation.name, stage="argument", reason=reason, source=parameter.source
                 )
             bindings |= default.values

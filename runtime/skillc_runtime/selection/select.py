@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from skillc_compiler.library.skills import Implementation, SkillLibrary
-from skillc_runtime.recording.failure import Rejected
+from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.selection.fit import Fitted, fit
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
@@ -18,14 +18,14 @@ class Selection:
 
     implementation: Implementation
     bindings: dict[str, Value]
-    rejected: tuple[Rejected, ...]
+    rejected: tuple[Rejection, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class NoneFits:
     """Every candidate was rejected."""
 
-    rejected: tuple[Rejected, ...]
+    rejected: tuple[Rejection, ...]
 
 
 def candidates(library: SkillLibrary, skill: str, fixed: str | None) -> tuple[Implementation, ...]:
@@ -42,17 +42,17 @@ def select(
     library: SkillLibrary, skill: str, arguments: Mapping[str, Value], state: WorldState, fixed: str | None = None
 ) -> Selection | NoneFits:
     """Return the choice a call would make in this state, without starting anything."""
-    rejected: list[Rejected] = []
+    rejected: list[Rejection] = []
     for implementation in candidates(library, skill, fixed):
         match fit(implementation, arguments, state):
             case Fitted(bindings=bindings):
                 return Selection(implementation, bindings, tuple(rejected))
-            case Rejected() as refusal:
+            case Rejection() as refusal:
                 rejected.append(refusal)
     return NoneFits(tuple(rejected))
 
 
-def why_none(skill: str, rejected: Sequence[Rejected]) -> str:
+def why_none(skill: str, rejected: Sequence[Rejection]) -> str:
     """Say why no implementation fits: the reason itself when all have the same, else each with its own."""
     reasons = {refusal.reason for refusal in rejected}
     if not rejected:

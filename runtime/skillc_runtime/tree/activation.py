@@ -8,7 +8,7 @@ from typing import TypeAlias, assert_never, cast
 
 from skillc_compiler.library import tree
 from skillc_compiler.library.skills import Compound, Implementation, Primitive, Skill
-from skillc_runtime.recording.failure import Failure, FailureKind, Rejected, Stage
+from skillc_runtime.recording.failure import Failure, FailureKind, Rejection, Stage
 from skillc_runtime.selection.arguments import problem_with
 from skillc_runtime.selection.fit import Fitted, broken_text, first_broken
 from skillc_runtime.selection.python import PrimitiveError, fitting_class
@@ -148,7 +148,7 @@ class Activation:
 
 def activate(
     context: Context, skill: Skill, fitted: Fitted, holder: object, enclosing: Enclosing, build: Build
-) -> Activation | Rejected:
+) -> Activation | Rejection:
     """Check the holds, take the locks, compute the lets, build the body; a rejection leaves nothing behind.
 
     EvaluationError from a hold or a let.
@@ -173,7 +173,7 @@ def activate(
 
 def _take_locks(
     context: Context, skill: Skill, fitted: Fitted, holder: object, enclosing: Enclosing
-) -> Rejected | None:
+) -> Rejection | None:
     devices = [str(fitted.bindings[name]) for name in skill.uses if name in fitted.bindings]
     taken = context.locks.take(devices, holder, enclosing.calls)
     if taken is None:
@@ -205,5 +205,5 @@ def _restore(context: Context, skill: str, changes: tuple[Change, ...], before: 
         context.assume(reverse, f"{skill} undone")
 
 
-def _rejected(implementation: Implementation, stage: Stage, reason: str) -> Rejected:
-    return Rejected(implementation=implementation.name, stage=stage, reason=reason, source=implementation.source)
+def _rejected(implementation: Implementation, stage: Stage, reason: str) -> Rejection:
+    return Rejection(implementation=implementation.name, stage=stage, reason=reason, source=implementation.source)

@@ -11,15 +11,15 @@ from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Variable
 from skillc_compiler.library.skills import Implementation
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.recording.failure import Failure, Rejected, as_failure
-from skillc_runtime.recording.reasons import Attempted
+from skillc_runtime.recording.failure import Failure, Rejection, as_failure
+from skillc_runtime.recording.reasons import FailedCallContext
 from skillc_runtime.selection.fit import fit
 from skillc_runtime.selection.select import candidates, why_none
 from skillc_runtime.tree.activation import Activation, Build, activate
 from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.enclosing import Enclosing, Frame
 from skillc_runtime.tree.errors import describe_exception
-from skillc_runtime.tree.event_factory import attempted, chosen, facts_at_failure
+from skillc_runtime.tree.event_factory import facts_at_failure, make_choice_event, make_failure_context
 from skillc_runtime.tree.node import RUNNING, SUCCESS, Node
 from skillc_runtime.tree.primitive_node import PrimitiveNode
 from skillc_runtime.tree.strand import Strand
@@ -55,7 +55,7 @@ class CallNode(Node):
         self.node = node
         self.skill = context.library.skills[node.skill]
         self.activation: Activation | None = None
-        self.rejected: list[Rejected] = []
+        self.rejected: list[Rejection] = []
         self._arguments: Frame = {}
         self._facts: tuple[LabelledFact, ...] | None = None
         self._enclosing = enclosing
@@ -127,7 +127,7 @@ class CallNode(Node):
     def _try_next(self, implementations: Iterator[Implementation]) -> Status:
         for implementation in implementations:
             activation = self._activated(implementation)
-            if isinstance(activation, Rejected):
+            if isinstance(activation, Rejection):
                 self.rejected.append(activation)
                 if activation.stage not in ("run", "lock"):
                     self._remember(activation.implementation, activation.reason)
@@ -137,13 +137,13 @@ class CallNode(Node):
                 return status
         return self.fail(self._none_left())
 
-    def _activated(self, implementation: Implementation) -> Activation | Rejected:
+    def _activated(self, implementation: Implementation) -> Activation | Rejection:
         try:
             repeated = self._repeated(implementation)
             if repeated is not None:
                 return repeated
             fitted = fit(implementation, self._arguments, self.context.state)
-            if isinstance(fitted, Rejected):
+            if isinstance(fitted, Rejection):
                 return fitted
             for note in fitted.notes:
                 self.context.note(note, self.id, self.source)
@@ -185,11 +185,11 @@ class CallNode(Node):
         self._facts = None
         return self._try_next(self._left)
 
-    def _repeated(self, implementation: Implementation) -> Rejected | None:
+    def _repeated(self, implementation: Implementation) -> Rejection | None:
         """Return why an implementation is not taken that failed in a former attempt and can only fail again."""
         failures, name = self._enclosing.failures, implementation.name
         why = failures and failures.reason(self.skill.name, self._arguments, name, self.context.state)
-        return Rejected(implementation=name, stage="run", reason=why, source=implementation.source) if why else None
+        return Rejection(implementation=name, stage="run", reason=why, source=implementation.source) if why else None
 
     def _remember(self, implementation: str, why: str) -> None:
         """Note a failure for the attempts to come."""
@@ -217,8 +217,8 @@ class CallNode(Node):
         message = why_none(self.skill.name, self.rejected)
         return Failure(kind=kind, message=message, source=self.source, skill=self.skill.name, causes=causes)
 
-    def _refusal(self, implementation: Implementation, failure: Failure, ran: bool = False) -> Rejected:
-        return Rejected(
+    def _refusal(self, implementation: Implementation, failure: Failure, ran: bool = False) -> Rejection:
+        return Rejection(
             implementation=implementation.name,
             stage="run" if ran else "start",
             reason=failure.message,
@@ -234,9 +234,9 @@ class CallNode(Node):
             return failure
         return structs.replace(failure, skill=self.skill.name)
 
-    def attempted(self) -> Attempted:
+    def attempted(self) -> FailedCallContext:
         self._look()
-        return attempted(self.skill, self._arguments, self.rejected, self._facts or (), self.context)
+        return make_failure_context(self.skill, self._arguments, self.rejected, self._facts or (), self.context)
 
     def _look(self) -> None:
         """Keep what the conditions read when something fails, before what is undone changes it; once a failure."""
@@ -246,5 +246,5 @@ class CallNode(Node):
 
     def _tell_choice(self, activation: Activation) -> None:
         if self.context.emit is not None:
-            event = chosen(self.id, self.node, activation, self._arguments, self.rejected, self.context)
+            event = make_choice_event(self.id, self.node, activation, self._arguments, self.rejected, self.context)
             self.context.emit(event)

@@ -8,8 +8,8 @@ from skillc_compiler.library.skills import Implementation, Primitive, Skill
 from skillc_compiler.library.tree import Call
 from skillc_runtime.primitives.primitive import Phase
 from skillc_runtime.recording.events import Highlight, ImplementationChosen, WorldChanged
-from skillc_runtime.recording.failure import Rejected
-from skillc_runtime.recording.reasons import Attempted, Untried
+from skillc_runtime.recording.failure import Rejection
+from skillc_runtime.recording.reasons import FailedCallContext, UntriedImplementation
 from skillc_runtime.selection.determined import determined
 from skillc_runtime.selection.fit import fit
 from skillc_runtime.selection.python import primitive_class
@@ -24,12 +24,12 @@ from skillc_runtime.world.support import facts_of
 from skillc_runtime.world.values import Value
 
 
-def chosen(
+def make_choice_event(
     node: int,
     call: Call,
     activation: Activation,
     arguments: Mapping[str, Value],
-    rejected: Sequence[Rejected],
+    rejected: Sequence[Rejection],
     context: Context,
 ) -> ImplementationChosen:
     """Return the event that a call starts with an implementation."""
@@ -63,26 +63,28 @@ def _highlights(
     return tuple(Highlight(when, what, word) for when, what, word in found if isinstance(what, Iri))
 
 
-def _untried(implementation: Implementation, arguments: Mapping[str, Value], state: WorldState) -> Untried:
+def _untried(
+    implementation: Implementation, arguments: Mapping[str, Value], state: WorldState
+) -> UntriedImplementation:
     try:
         fitted = fit(implementation, arguments, state)
-        reason = fitted.reason if isinstance(fitted, Rejected) else ""
+        reason = fitted.reason if isinstance(fitted, Rejection) else ""
     except EvaluationError as error:
         reason = str(error)
-    return Untried(implementation=implementation.name, source=implementation.source, reason=reason)
+    return UntriedImplementation(implementation=implementation.name, source=implementation.source, reason=reason)
 
 
-def attempted(
+def make_failure_context(
     skill: Skill,
     arguments: Mapping[str, Value],
-    rejected: Sequence[Rejected],
+    rejected: Sequence[Rejection],
     facts: tuple[LabelledFact, ...],
     context: Context,
-) -> Attempted:
+) -> FailedCallContext:
     """Return what a call that failed had."""
     values = label_bindings(arguments, skill.parameters, context.library.vocabulary)
     unset = tuple(each.name for each in skill.parameters if each.direction == "infer" and each.name not in arguments)
-    return Attempted(arguments=values, unset=unset, rejected=tuple(rejected), facts=facts)
+    return FailedCallContext(arguments=values, unset=unset, rejected=tuple(rejected), facts=facts)
 
 
 def facts_at_failure(
@@ -95,7 +97,7 @@ def facts_at_failure(
     return facts_of(conditions, state, arguments if running is None else running.frame)
 
 
-def world_changed(event: ChangeEvent, time: float) -> WorldChanged:
+def make_change_event(event: ChangeEvent, time: float) -> WorldChanged:
     """Return the event of a change of the world model; `time` in seconds of the cell's clock."""
     changes = tuple(label_change(change, event.after.vocabulary) for change in event.changes)
     return WorldChanged(time=time, origin=event.origin, changes=changes, known=event.known)

@@ -8,7 +8,7 @@ from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import NodeEnded, NodeStarted
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.recording.reasons import Attempted
+from skillc_runtime.recording.reasons import FailedCallContext
 from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.errors import describe_exception
 
@@ -119,7 +119,7 @@ class Node:
         self.stop(message)
         return self.fail(Failure(kind="error", message=message, source=self.source))
 
-    def attempted(self) -> Attempted | None:
+    def attempted(self) -> FailedCallContext | None:
         """Return what a call that failed has to tell about it; asked when somebody listens."""
         return None
 

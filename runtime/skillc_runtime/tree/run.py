@@ -20,7 +20,7 @@ from skillc_runtime.tree.call import CallNode
 from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.enclosing import Enclosing
 from skillc_runtime.tree.errors import describe_exception
-from skillc_runtime.tree.event_factory import world_changed
+from skillc_runtime.tree.event_factory import make_change_event
 from skillc_runtime.tree.locks import Locks
 from skillc_runtime.tree.node import FAILURE, RUNNING, Node
 from skillc_runtime.tree.outcome import outcome
@@ -207,7 +207,7 @@ class Run:
             self._context.emit(event(time=self._context.time))
 
     def _emit_world_change(self, event: ChangeEvent) -> None:
-        self._listeners(world_changed(event, self._context.time))
+        self._listeners(make_change_event(event, self._context.time))
 
 
 def _claims(node: Node) -> Iterator[Claim]:

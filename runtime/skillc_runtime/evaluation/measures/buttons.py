@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
-from skillc_runtime.evaluation.measures.work import Pressed, Work
+from skillc_runtime.evaluation.measures.work import PressingWork, Work
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.sheet import number
 from skillc_runtime.world.terms import PRESS_FORCE
@@ -24,16 +24,16 @@ def measure(evidence: RunEvidence) -> Iterator[Work]:
             continue
         pressing = cell.button(fixture.individual).pressing
         if len(pressing):
-            yield Pressed(
+            yield PressingWork(
                 button=cell.facts.names[fixture.individual],
                 asked_n=number(cell.world.snapshot(), fixture.individual, PRESS_FORCE),
-                held_n=held(pressing),
+                held_n=held_force(pressing),
                 greatest_n=float(pressing[:, 1].max()),
                 took=evidence.duration_share(fixture.individual),
             )
 
 
-def held(pressing: Array) -> float:
+def held_force(pressing: Array) -> float:
     """Return the greatest mean force in N over `HELD_S` while a button had switched; 0 where it never did so long.
 
     pressing (n, 3): s, N, and 1 where it had switched, of every step.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
-from skillc_runtime.evaluation.measures.work import Inserted, Work
+from skillc_runtime.evaluation.measures.work import InsertingWork, Work
 from skillc_runtime.simulation.fixture_facts import FixtureFacts
 from skillc_runtime.simulation.fixture_variation import FixtureVariation
 from skillc_runtime.simulation.names import part
@@ -22,10 +22,10 @@ def measure(evidence: RunEvidence) -> Iterator[Work]:
             yield _inserted(evidence, fixture, true, peg)
 
 
-def _inserted(evidence: RunEvidence, fixture: FixtureFacts, true: FixtureVariation, peg: str) -> Inserted:
+def _inserted(evidence: RunEvidence, fixture: FixtureFacts, true: FixtureVariation, peg: str) -> InsertingWork:
     cell = evidence.cell
     end = cell.data.site(part(cell.facts.names[peg], "face")).xpos
-    return Inserted(
+    return InsertingWork(
         socket=cell.facts.names[fixture.individual],
         depth_m=-float(true.true_pose(fixture.pose).inverse().at(end)[2]),
         hole_m=number(cell.world.snapshot(), fixture.individual, DEPTH),

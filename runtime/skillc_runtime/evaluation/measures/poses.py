@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
-from skillc_runtime.evaluation.measures.work import Taught, Work
+from skillc_runtime.evaluation.measures.work import TeachingWork, Work
 from skillc_runtime.world.frames import pose
 from skillc_runtime.world.terms import IS_TAUGHT, TAUGHT_POSE
 
@@ -22,7 +22,7 @@ def measure(evidence: RunEvidence) -> Iterator[Work]:
             off = [float(np.linalg.norm(place - person.place)) for person in leaders]
             nearest = int(np.argmin(off))
             forces = np.array(leaders[nearest].forces)
-            yield Taught(
+            yield TeachingWork(
                 pose=cell.facts.names[taught],
                 off_m=off[nearest],
                 greatest_n=float(forces.max()),

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
-from skillc_runtime.evaluation.measures.work import Polished, Wiped, Work
+from skillc_runtime.evaluation.measures.work import PolishingWork, WipingWork, Work
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.report.wiping import Wiping
 from skillc_runtime.motion.pose import Array
@@ -23,15 +23,17 @@ def measure(evidence: RunEvidence) -> Iterator[Work]:
     """Yield the work on each surface along which a pushed tool followed a path."""
     state = evidence.cell.world.snapshot()
     for wiping, how in evidence.wipings:
-        yield _polished(evidence, wiping, how) if state.is_a(wiping.surface, POLISHABLE_SURFACE) else Wiped(how=how)
+        yield (
+            _polished(evidence, wiping, how) if state.is_a(wiping.surface, POLISHABLE_SURFACE) else WipingWork(how=how)
+        )
 
 
-def _polished(evidence: RunEvidence, wiping: Wiping, how: WipingResult) -> Polished:
+def _polished(evidence: RunEvidence, wiping: Wiping, how: WipingResult) -> PolishingWork:
     cell = evidence.cell
-    asked, gone = swing(cell.recording(wiping.tool).between(wiping.start, wiping.end))
+    asked, gone = swing_amplitudes(cell.recording(wiping.tool).between(wiping.start, wiping.end))
     seconds = number(cell.world.snapshot(), wiping.surface, POLISH_TIME)
     swung = asked > LEAST_SWING_M
-    return Polished(
+    return PolishingWork(
         how=how,
         share=cell.camera().rubbed(wiping.surface, seconds),
         swing_m=gone if swung else None,
@@ -39,7 +41,7 @@ def _polished(evidence: RunEvidence, wiping: Wiping, how: WipingResult) -> Polis
     )
 
 
-def swing(window: Recording) -> tuple[float, float]:
+def swing_amplitudes(window: Recording) -> tuple[float, float]:
     """Return the amplitudes in m of the overlay's strongest oscillation: as it was asked for, and as the tool went."""
     overlay = window.reference - window.path
     farthest = overlay[np.linalg.norm(overlay, axis=1).argmax()]

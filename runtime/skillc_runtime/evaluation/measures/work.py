@@ -9,13 +9,13 @@ import msgspec
 from skillc_runtime.evaluation.report.result import WipingResult
 
 
-class Wiped(msgspec.Struct, frozen=True, kw_only=True, tag="wiping"):
+class WipingWork(msgspec.Struct, frozen=True, kw_only=True, tag="wiping"):
     """A surface was wiped."""
 
     how: WipingResult
 
 
-class Polished(msgspec.Struct, frozen=True, kw_only=True, tag="polishing"):
+class PolishingWork(msgspec.Struct, frozen=True, kw_only=True, tag="polishing"):
     """A surface was polished, which is wiping with a swing: how far it went, and was asked to, m; None without one.
 
     `share` of the surface was rubbed for as long as the scene wants.
@@ -27,7 +27,7 @@ class Polished(msgspec.Struct, frozen=True, kw_only=True, tag="polishing"):
     swing_asked_m: float | None
 
 
-class Pressed(msgspec.Struct, frozen=True, kw_only=True, tag="pressing"):
+class PressingWork(msgspec.Struct, frozen=True, kw_only=True, tag="pressing"):
     """A button was pressed: N that it wants, that it was held with once it had switched, and that it ever felt.
 
     `took` is the time it took, as a share of what the skill says, for this and all other work; None where it says none.
@@ -40,7 +40,7 @@ class Pressed(msgspec.Struct, frozen=True, kw_only=True, tag="pressing"):
     took: float | None
 
 
-class Inserted(msgspec.Struct, frozen=True, kw_only=True, tag="inserting"):
+class InsertingWork(msgspec.Struct, frozen=True, kw_only=True, tag="inserting"):
     """A peg is in a socket: m that it is deep in it and that the hole is deep, N that it was pressed with at most."""
 
     socket: str
@@ -50,7 +50,7 @@ class Inserted(msgspec.Struct, frozen=True, kw_only=True, tag="inserting"):
     took: float | None
 
 
-class Taught(msgspec.Struct, frozen=True, kw_only=True, tag="teaching"):
+class TeachingWork(msgspec.Struct, frozen=True, kw_only=True, tag="teaching"):
     """A pose was taught: m from where the person wanted it, N with which they led the tool, at most and on average."""
 
     pose: str
@@ -60,4 +60,4 @@ class Taught(msgspec.Struct, frozen=True, kw_only=True, tag="teaching"):
     took: float | None
 
 
-Work: TypeAlias = Wiped | Polished | Pressed | Inserted | Taught
+Work: TypeAlias = WipingWork | PolishingWork | PressingWork | InsertingWork | TeachingWork

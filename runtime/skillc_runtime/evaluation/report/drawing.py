@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from skillc_runtime.evaluation.report.wiping import Wiping, described
+from skillc_runtime.evaluation.report.wiping import Wiping, describe_wiping
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.dwell import LINGERING, along_lanes
-from skillc_runtime.simulation.metrics import coverage
-from skillc_runtime.simulation.recorder import Recording, joined
+from skillc_runtime.simulation.metrics import measure_coverage
+from skillc_runtime.simulation.recorder import Recording, join_recordings
 
 EVERY = 5
 """Of so many steps one is drawn."""
@@ -52,12 +52,12 @@ class Drawing:
         return LINGERING * float(np.nanmax(self.lane_speed, initial=0.0))
 
 
-def drawing(wiping: Wiping, cell: SimulatedCell) -> Drawing:
+def make_drawing(wiping: Wiping, cell: SimulatedCell) -> Drawing:
     """Gather what is drawn of one wiping."""
-    recording, wiped = cell.recording(wiping.tool).between(wiping.began, wiping.end), described(wiping, cell)
+    recording, wiped = cell.recording(wiping.tool).between(wiping.began, wiping.end), describe_wiping(wiping, cell)
     windows, frame = [recording.between(*stroke) for stroke in wiping.strokes], wiped.surface.inverse()
-    window, drawn = joined(windows), _apart(windows)
-    covered = coverage(window, wiped)
+    window, drawn = join_recordings(windows), _apart(windows)
+    covered = measure_coverage(window, wiped)
 
     def on_surface(points: Array) -> Array:
         return np.asarray(1e3 * (points @ frame.rotation.T + frame.position)[:, :2])

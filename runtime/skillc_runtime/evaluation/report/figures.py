@@ -29,23 +29,23 @@ MARGIN_MM = 10.0
 
 
 @dataclass(frozen=True, slots=True)
-class Drawn:
+class FigureFiles:
     """A figure in two formats, the same bytes for the same drawings."""
 
     png: bytes
     svg: bytes
 
 
-def wiping_figure(drawings: Sequence[Drawing]) -> Drawn:
+def render_figure(drawings: Sequence[Drawing]) -> FigureFiles:
     """Draw wipings side by side, contact times on the same scale. ValueError for none."""
     with mpl.rc_context({"font.size": 9, "axes.titlesize": 10, "legend.fontsize": 8, "svg.hashsalt": "skillc"}):
-        figure = figure_of(drawings)
+        figure = draw_figure(drawings)
         png = _saved(figure, "png", {"Software": ""})
         figure.set_layout_engine("none")
-        return Drawn(png, _saved(figure, "svg", {"Date": None, "Creator": None}))
+        return FigureFiles(png, _saved(figure, "svg", {"Date": None, "Creator": None}))
 
 
-def figure_of(drawings: Sequence[Drawing]) -> Figure:
+def draw_figure(drawings: Sequence[Drawing]) -> Figure:
     """Return the figure as matplotlib has it. ValueError for no drawings."""
     if not drawings:
         raise ValueError("there is no wiping to draw")

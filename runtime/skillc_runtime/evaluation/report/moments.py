@@ -18,7 +18,7 @@ GRASPED_S = 0.3
 """How long after the first moment at which a tool is held its grasp is looked at."""
 
 
-def moments(
+def find_moments(
     wipings: Sequence[Wiping],
     trees: Iterable[Outcome],
     choices: Mapping[int, ImplementationChosen],

@@ -6,7 +6,7 @@ from typing import Literal
 
 import msgspec
 
-from skillc_runtime.recording.failure import Rejected
+from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.recording.known import KnownFact
 from skillc_runtime.world.labelled import LabelledValue
 
@@ -24,7 +24,7 @@ class StepResult(msgspec.Struct, frozen=True, kw_only=True):
     source: str
     status: str
     alternatives: int = 0
-    rejected: tuple[Rejected, ...] = ()
+    rejected: tuple[Rejection, ...] = ()
 
 
 class ChoiceResult(msgspec.Struct, frozen=True, kw_only=True):
@@ -32,7 +32,7 @@ class ChoiceResult(msgspec.Struct, frozen=True, kw_only=True):
 
     skill: str
     implementation: str
-    rejected: tuple[Rejected, ...] = ()
+    rejected: tuple[Rejection, ...] = ()
 
 
 class WipingResult(msgspec.Struct, frozen=True, kw_only=True):

@@ -10,7 +10,7 @@ from msgspec import structs
 
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult
-from skillc_runtime.evaluation.report.wiping import Wiping, judge
+from skillc_runtime.evaluation.report.wiping import Wiping, judge_wiping
 from skillc_runtime.planning.plan import describe_quality
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import ImplementationChosen
@@ -32,7 +32,7 @@ def summarise(
     """Return everything that reports, tables and JSON say of a task that ran; `wipings` are those in it."""
     cell, last = execution.cell, execution.last
     solved = last.prepared.planned.solved if last.prepared.planned else None
-    judged = tuple(judge(wiping, cell) for wiping in wipings)
+    judged = tuple(judge_wiping(wiping, cell) for wiping in wipings)
     short = cell.world.snapshot().vocabulary.short
     robots = sorted({short(arm.robot or arm.individual) for arm in cell.facts.arms})
     wall = execution.wall_time_s

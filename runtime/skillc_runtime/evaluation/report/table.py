@@ -8,7 +8,7 @@ from rich.table import Table
 from rich.text import Text
 
 from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult, WipingResult
-from skillc_runtime.recording.known import assumed, assumption_words, known_words, status_words
+from skillc_runtime.recording.known import assumed_facts, format_assumption, format_evidence, format_status
 from skillc_runtime.world.labelled import format_fact, format_value
 
 STYLES = {"success": "bold green", "failure": "bold red", "refused": "bold red", "halted": "bold yellow"}
@@ -16,10 +16,10 @@ STYLES = {"success": "bold green", "failure": "bold red", "refused": "bold red",
 
 def render(result: TaskResult) -> RenderableType:
     """Return the table of one task: plan with implementations and why, then how it went."""
-    words = status_words(result.status, result.verified)
+    words = format_status(result.status, result.verified)
     title = Text.assemble((result.task, "bold"), "  ", (words, STYLES.get(words, STYLES["halted"])))
     parts: list[RenderableType] = [title]
-    parts += [Text(assumption_words(fact), style="yellow") for fact in assumed(result.facts)]
+    parts += [Text(format_assumption(fact), style="yellow") for fact in assumed_facts(result.facts)]
     if result.failure:
         parts.append(Text(result.failure, style="red"))
     if result.plan:
@@ -58,17 +58,17 @@ def _numbers(result: TaskResult) -> Table:
     table = Table(box=None, pad_edge=False, show_header=False)
     table.add_column(style="dim")
     table.add_column()
-    for name, value in rows(result):
+    for name, value in table_rows(result):
         table.add_row(name, value)
     return table
 
 
-def rows(result: TaskResult) -> list[tuple[str, str]]:
+def table_rows(result: TaskResult) -> list[tuple[str, str]]:
     """Return what there is to say about a run, name and value."""
     planned = [] if result.plan_optimal is None else [("plan", _plan_words(result))]
     return [
         *planned,
-        *((format_fact(fact.fact), known_words(fact)) for fact in result.facts),
+        *((format_fact(fact.fact), format_evidence(fact)) for fact in result.facts),
         ("robot", f"{result.robot}, controller {result.controller}"),
         ("reality", f"{result.variation} (seed {result.seed})"),
         *(("planned anew", why) for why in result.replanned),

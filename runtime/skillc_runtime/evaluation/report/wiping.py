@@ -12,7 +12,7 @@ from skillc_runtime.primitives.primitive import Activity
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.metrics import Stroke, Wiped, wiping_metrics
+from skillc_runtime.simulation.metrics import Stroke, WipingSetup, measure_wiping
 from skillc_runtime.world.frames import size
 from skillc_runtime.world.labelled import Quantity
 from skillc_runtime.world.terms import SURFACE, TOOL
@@ -63,17 +63,17 @@ def find_wipings(trees: Iterable[Outcome], choices: Choices, cell: SimulatedCell
     return tuple(found.values())
 
 
-def described(wiping: Wiping, cell: SimulatedCell) -> Wiped:
+def describe_wiping(wiping: Wiping, cell: SimulatedCell) -> WipingSetup:
     """Return what was wiped with what, as it really was."""
     surface = next(each for each in cell.facts.surfaces if each.individual == wiping.surface)
     tool = size(cell.world.snapshot(), wiping.tool)[:2]
-    return Wiped(cell.true_pose(surface), surface.layout, tool, wiping.force_n, surface.least_n)
+    return WipingSetup(cell.true_pose(surface), surface.layout, tool, wiping.force_n, surface.least_n)
 
 
-def judge(wiping: Wiping, cell: SimulatedCell) -> WipingResult:
+def judge_wiping(wiping: Wiping, cell: SimulatedCell) -> WipingResult:
     """Measure how good the wiping was."""
     recording = cell.recording(wiping.tool).between(wiping.began, wiping.end)
-    metrics = wiping_metrics(recording, wiping.strokes, described(wiping, cell))
+    metrics = measure_wiping(recording, wiping.strokes, describe_wiping(wiping, cell))
     dwell = metrics.lane_dwell
     return WipingResult(
         surface=cell.world.snapshot().vocabulary.short(wiping.surface),

@@ -9,7 +9,7 @@ import msgspec
 
 from skillc_runtime.evaluation.report import page
 from skillc_runtime.evaluation.report.drawing import Drawing
-from skillc_runtime.evaluation.report.figures import Drawn, wiping_figure
+from skillc_runtime.evaluation.report.figures import FigureFiles, render_figure
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.simulation.film import Filmed
 from skillc_runtime.task import Execution
@@ -28,14 +28,14 @@ def write_report(
     _write(directory / "result.json", msgspec.json.format(msgspec.json.encode(result), indent=2) + b"\n")
 
 
-def write_figure(directory: Path, drawings: Sequence[Drawing]) -> Drawn | None:
+def write_figure(directory: Path, drawings: Sequence[Drawing]) -> FigureFiles | None:
     """Write the figure of wipings side by side as wiping.png and wiping.svg; nothing where nothing was wiped.
 
     OSError where the folder cannot be written to.
     """
     if not drawings:
         return None
-    figure = wiping_figure(drawings)
+    figure = render_figure(drawings)
     _write(directory / f"{FIGURE}.png", figure.png)
     _write(directory / f"{FIGURE}.svg", figure.svg)
     return figure

@@ -20,7 +20,7 @@ from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.evaluation.trials.disturbance import PushDisturbance, reality
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 from skillc_runtime.recording.events import Listener
-from skillc_runtime.recording.known import assumed
+from skillc_runtime.recording.known import assumed_facts
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import execute
 from skillc_runtime.world.frames import FrameError
@@ -78,7 +78,7 @@ class TrialRunner:
             status=result.status,
             reason=result.failure,
             verified=result.verified,
-            assumed=tuple(format_fact(fact.fact) for fact in assumed(result.facts)),
+            assumed=tuple(format_fact(fact.fact) for fact in assumed_facts(result.facts)),
             variation=result.variation,
             works=_measure_work(RunEvidence(self._library, cell, trees, choices, judged)),
             coverage=min((surface.fraction for surface in cell.coverage.values()), default=1.0),

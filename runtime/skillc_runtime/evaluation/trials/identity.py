@@ -15,7 +15,7 @@ DIGITS = 12
 
 
 @cache
-def skillc() -> str:
+def skillc_identity() -> str:
     """Return the version of skillc, a digest of what runs and simulates in it, and the version of MuJoCo."""
     return f"{version('skillc')} of {digest(_contents())}, MuJoCo {version('mujoco')}"
 
@@ -28,7 +28,7 @@ def digest(contents: Iterator[bytes]) -> str:
     return sha.hexdigest()[:DIGITS]
 
 
-def of_file(path: Path) -> str:
+def file_identity(path: Path) -> str:
     """Return the name and a digest of a file; OSError where it cannot be read."""
     return f"{path.name} of {digest(iter((path.read_bytes(),)))}"
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import msgspec
 
-from skillc_runtime.evaluation.trials.targets import Metric, values
+from skillc_runtime.evaluation.trials.targets import Metric, metric_values
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
-from skillc_runtime.evaluation.trials.verdict import misses
+from skillc_runtime.evaluation.trials.verdict import find_misses
 
 
 class Spread(msgspec.Struct, frozen=True, kw_only=True):
@@ -32,7 +32,7 @@ class Spread(msgspec.Struct, frozen=True, kw_only=True):
     median_missed: str | None = None
 
 
-class Failed(msgspec.Struct, frozen=True, kw_only=True):
+class FailedSeed(msgspec.Struct, frozen=True, kw_only=True):
     """A seed whose trial is not as it should be, with the reasons and how reality differed."""
 
     seed: int
@@ -52,7 +52,7 @@ class Series(msgspec.Struct, frozen=True, kw_only=True):
     done: int
     passed: int
     spreads: tuple[Spread, ...]
-    failed: tuple[Failed, ...]
+    failed: tuple[FailedSeed, ...]
     trials: tuple[Trial, ...]
     unverified: int = 0
     assumed: tuple[str, ...] = ()
@@ -63,18 +63,18 @@ class Series(msgspec.Struct, frozen=True, kw_only=True):
         return self.passed == self.wanted and not any(spread.median_missed for spread in self.spreads)
 
 
-def series(task: str, disturbance: Disturbance, wanted: int, trials: Sequence[Trial]) -> Series:
+def judge_series(task: str, disturbance: Disturbance, wanted: int, trials: Sequence[Trial]) -> Series:
     """Judge the trials of a task, `wanted` of which were asked for."""
     ordered = tuple(sorted(trials, key=lambda trial: trial.seed))
-    judged = [(trial, misses(trial, disturbance)) for trial in ordered]
-    failed = tuple(Failed(seed=t.seed, reasons=why, variation=t.variation) for t, why in judged if why)
+    judged = [(trial, find_misses(trial, disturbance)) for trial in ordered]
+    failed = tuple(FailedSeed(seed=t.seed, reasons=why, variation=t.variation) for t, why in judged if why)
     return Series(
         task=task,
         disturbance=disturbance,
         wanted=wanted,
         done=len(ordered),
         passed=len(ordered) - len(failed),
-        spreads=spreads(ordered, judged_by_targets=disturbance == "none"),
+        spreads=compute_spreads(ordered, judged_by_targets=disturbance == "none"),
         failed=failed,
         trials=ordered,
         unverified=sum(trial.verified is False for trial in ordered),
@@ -82,10 +82,10 @@ def series(task: str, disturbance: Disturbance, wanted: int, trials: Sequence[Tr
     )
 
 
-def spreads(trials: Sequence[Trial], judged_by_targets: bool = True) -> tuple[Spread, ...]:
+def compute_spreads(trials: Sequence[Trial], judged_by_targets: bool = True) -> tuple[Spread, ...]:
     """Return how each metric of each thing spreads over trials, in order of thing and metric."""
     found: dict[tuple[str, str], tuple[Metric[Any], list[float]]] = {}
-    for each in (value for trial in trials for value in values(trial)):
+    for each in (value for trial in trials for value in metric_values(trial)):
         found.setdefault((each.subject, each.metric.name), (each.metric, []))[1].append(each.value)
     by_subject = sorted(found.items(), key=lambda item: item[0][0])
     return tuple(_spread(metric, subject, got, judged_by_targets) for (subject, _), (metric, got) in by_subject)

@@ -6,7 +6,14 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Generic, Literal, TypeVar, assert_never
 
-from skillc_runtime.evaluation.measures.work import Inserted, Polished, Pressed, Taught, Wiped, Work
+from skillc_runtime.evaluation.measures.work import (
+    InsertingWork,
+    PolishingWork,
+    PressingWork,
+    TeachingWork,
+    WipingWork,
+    Work,
+)
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.trials.trial import Trial
 
@@ -53,24 +60,24 @@ WIPING: tuple[Metric[WipingResult], ...] = (
     Metric("lane-end dwell", "s", lambda w: w.lane_dwell_s, "at most", 0.02),
 )
 
-POLISHING: tuple[Metric[Polished], ...] = (
+POLISHING: tuple[Metric[PolishingWork], ...] = (
     Metric("rubbed long enough", "%", lambda w: 100 * w.share, "at least", 99.0),
     Metric("swing kept", "%", lambda w: _percent(w.swing_m, w.swing_asked_m), "at least", 90.0),
 )
 
-PRESSING: tuple[Metric[Pressed], ...] = (
+PRESSING: tuple[Metric[PressingWork], ...] = (
     Metric("held force", "% of F", lambda w: 100 * w.held_n / w.asked_n, "at least", 95.0),
     Metric("greatest force", "% of F", lambda w: 100 * w.greatest_n / w.asked_n, "at most", 120.0),
     Metric("time", "% of the skill's", lambda w: _percent(w.took, 1.0), "at most", 100.0),
 )
 
-INSERTING: tuple[Metric[Inserted], ...] = (
+INSERTING: tuple[Metric[InsertingWork], ...] = (
     Metric("depth", "% of the hole", lambda w: 100 * w.depth_m / w.hole_m, "at least", 98.0),
     Metric("greatest force", "N", lambda w: w.greatest_n, "at most", 40.0),
     Metric("time", "% of the skill's", lambda w: _percent(w.took, 1.0), "at most", 100.0),
 )
 
-TEACHING: tuple[Metric[Taught], ...] = (
+TEACHING: tuple[Metric[TeachingWork], ...] = (
     Metric("off the place", "mm", lambda w: 1e3 * w.off_m, "at most", 5.0),
     Metric("greatest force of the person", "N", lambda w: w.greatest_n, "at most", 25.0),
     Metric("mean force of the person", "N", lambda w: w.mean_n, "at most", 10.0),
@@ -88,7 +95,7 @@ METRICS: Mapping[str, tuple[Metric[Any], ...]] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Value:
+class MetricValue:
     """A metric of one piece of work in one trial; `subject` is what was worked on."""
 
     metric: Metric[Any]
@@ -96,35 +103,35 @@ class Value:
     value: float
 
 
-def values(trial: Trial) -> Iterator[Value]:
+def metric_values(trial: Trial) -> Iterator[MetricValue]:
     """Yield everything that was measured in a trial."""
     for work in trial.works:
-        yield from values_of(work)
+        yield from work_values(work)
 
 
-def values_of(work: Work) -> Iterator[Value]:
+def work_values(work: Work) -> Iterator[MetricValue]:
     """Yield everything that was measured of a piece of work."""
     match work:
-        case Wiped(how=how):
+        case WipingWork(how=how):
             yield from _values(WIPING, how, how.surface)
-        case Polished(how=how):
+        case PolishingWork(how=how):
             yield from _values(POLISHING, work, how.surface)
             yield from _values(WIPING, how, how.surface)
-        case Pressed(button=button):
+        case PressingWork(button=button):
             yield from _values(PRESSING, work, button)
-        case Inserted(socket=socket):
+        case InsertingWork(socket=socket):
             yield from _values(INSERTING, work, socket)
-        case Taught(pose=pose):
+        case TeachingWork(pose=pose):
             yield from _values(TEACHING, work, pose)
         case _:
             assert_never(work)
 
 
-def _values(metrics: tuple[Metric[Result], ...], result: Result, subject: str) -> Iterator[Value]:
+def _values(metrics: tuple[Metric[Result], ...], result: Result, subject: str) -> Iterator[MetricValue]:
     for metric in metrics:
         value = metric.of(result)
         if value is not None:
-            yield Value(metric, subject, value)
+            yield MetricValue(metric, subject, value)
 
 
 def _percent(part: float | None, whole: float | None) -> float | None:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import assert_never
 
-from skillc_runtime.evaluation.measures.work import Inserted, Polished, Pressed, Wiped
-from skillc_runtime.evaluation.trials.targets import Value, values, values_of
+from skillc_runtime.evaluation.measures.work import InsertingWork, PolishingWork, PressingWork, WipingWork
+from skillc_runtime.evaluation.trials.targets import MetricValue, metric_values, work_values
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 
 
-def misses(trial: Trial, disturbance: Disturbance) -> tuple[str, ...]:
+def find_misses(trial: Trial, disturbance: Disturbance) -> tuple[str, ...]:
     """Return why a trial is not as it should be, in words; nothing for one that is."""
     if trial.status in ("refused", "crashed"):
         return (_ended(trial),)
@@ -45,7 +45,7 @@ def _unsuccessful(trial: Trial) -> Iterator[str]:
 
 def _off_target(trial: Trial) -> Iterator[str]:
     several = len(trial.works) > 1
-    for each in values(trial):
+    for each in metric_values(trial):
         if not each.metric.met(each.value):
             where = f"{each.subject}: " if several else ""
             yield where + _missed(each)
@@ -53,15 +53,15 @@ def _off_target(trial: Trial) -> Iterator[str]:
 
 def _untrue(trial: Trial) -> Iterator[str]:
     """Yield what a trial claims to have done where something was in the way."""
-    fixed = [work for work in trial.works if isinstance(work, Pressed | Inserted)]
-    worked = [work for work in trial.works if isinstance(work, Wiped | Polished)]
+    fixed = [work for work in trial.works if isinstance(work, PressingWork | InsertingWork)]
+    worked = [work for work in trial.works if isinstance(work, WipingWork | PolishingWork)]
     if trial.status == "success" and worked and trial.coverage < 1.0:
         yield f"success, wanted a failure that says why: coverage {100 * trial.coverage:.1f} %"
     if trial.status == "success" and fixed:
-        yield f"success, wanted a failure that says why: {', '.join(_missed(v) for w in fixed for v in values_of(w))}"
+        yield f"success, wanted a failure that says why: {', '.join(_missed(v) for w in fixed for v in work_values(w))}"
 
 
-def _missed(value: Value) -> str:
+def _missed(value: MetricValue) -> str:
     return f"{value.metric.name} {value.value:.3g} {value.metric.unit}, wanted {value.metric.wanted}"
 
 
