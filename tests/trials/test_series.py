@@ -104,7 +104,7 @@ def test_a_trial_that_misses_a_target_is_told_so(name: str) -> None:
         ("missing", replace(FAILURE, status="crashed"), "crashed: nothing to push against"),
         ("push", replace(good(1), works=(wiping(coverage=0.9),)), None),
         ("push", replace(good(1), coverage=0.99), "coverage 99.0 %, wanted 100 % in the end"),
-        ("push", replace(good(1), pushed=False), "nobody pushed: nothing is done along a path or in a search"),
+        ("push", replace(good(1), pushed=False), "there was no push: nothing is done along a path or in a search"),
         ("push", FAILURE, "failure: nothing to push against"),
         ("obstacle", FAILURE, None),
         ("obstacle", replace(FAILURE, greatest_force_n=60.0), "a tool felt 60.0 N, the limit is 50 N"),

@@ -56,7 +56,7 @@ class Live:
             case NodeEnded(node=node):
                 self._calls.pop(node, None)
             case Replanned(reason=reason):
-                self.say(f"planning anew: {reason}")
+                self.say(f"planning again: {reason}")
             case PlanMade(steps=steps, quality=quality):
                 self.say(f"{' -> '.join(step.skill for step in steps)} ({quality})")
             case TaskEnded(status=status, verified=verified):

@@ -60,7 +60,7 @@ def _rests_on(story: Story) -> list[str]:
 
 def _attempt(attempt: Attempt) -> Iterator[str]:
     if attempt.replaces:
-        yield f"planned anew: {attempt.replaces}"
+        yield f"planned again: {attempt.replaces}"
     if attempt.planner:
         quality = attempt.quality or {"proven": "proved optimal"}.get(attempt.optimal, "")
         proved = f", {quality}" if quality else ""
@@ -111,7 +111,7 @@ def _never(call: Call) -> Iterator[str]:
     if call.status == "skipped":
         yield "  skipped: what it is for held already when its turn came"
     if call.status == "not started":
-        yield "  never started: the run ended, or was planned anew, before its turn"
+        yield "  never started: the run ended, or was planned again, before its turn"
 
 
 def _choice(call: Call) -> Iterator[str]:

@@ -1,1 +1,4 @@
-"""What happened: events as they occur, the log file they go to, and the tree with its outcomes afterwards."""
+"""What happened in a run. Start at `events`, the closed set of events, whose values are those of `world.labelled`.
+
+`writer` and `reader` are their file; `history` makes the steps of a run of them, which `question` is asked about.
+"""

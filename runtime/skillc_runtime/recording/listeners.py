@@ -1,4 +1,4 @@
-"""Telling everybody who listens; a listener that fails is told nothing more and never stops the robot."""
+"""Passes events on to several listeners; one that fails is removed and never stops the robot."""
 
 from __future__ import annotations
 
@@ -20,4 +20,4 @@ class Listeners:
                 listener(event)
             except Exception as error:  # noqa: BLE001  somebody else's code; the run must go on
                 self._active.remove(listener)
-                self.problems.append(f"{listener!r} listens no more: {type(error).__name__}: {error}")
+                self.problems.append(f"{listener!r} was removed as a listener: {type(error).__name__}: {error}")

@@ -20,7 +20,7 @@ class _Part(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 class Fact(_Part, frozen=True, kw_only=True):
     """A fact at some moment; `since` and `by` say when it was written and by whom, where that was during the run.
 
-    `known` says how it is known: sensed, reported or assumed; empty where nobody said so.
+    `known` says how it is known: sensed, reported or assumed; empty where that is not known.
     """
 
     fact: LabelledFact

@@ -1,1 +1,1 @@
-"""How good each kind of work was, judged by what the simulator knows; which kind it is, the world model says."""
+"""How good each kind of work was, judged by what the simulator knows: a module a kind, results in `work`."""

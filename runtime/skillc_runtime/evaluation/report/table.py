@@ -71,7 +71,7 @@ def table_rows(result: TaskResult) -> list[tuple[str, str]]:
         *((format_fact(fact.fact), format_evidence(fact)) for fact in result.facts),
         ("robot", f"{result.robot}, controller {result.controller}"),
         ("reality", f"{result.variation} (seed {result.seed})"),
-        *(("planned anew", why) for why in result.replanned),
+        *(("planned again", why) for why in result.replanned),
         *(row for wiping in result.wipings for row in _wiping_rows(wiping, len(result.wipings) > 1)),
         ("time", f"{result.sim_time_s:.1f} s simulated in {result.wall_time_s:.1f} s"),
         ("speed", f"{result.real_time_factor:.1f} x real time"),

@@ -25,7 +25,7 @@ def _unlike(trial: Trial, disturbance: Disturbance) -> Iterator[str]:
             yield from _off_target(trial)
         case "push":
             if not trial.pushed:
-                yield "nobody pushed: nothing is done along a path or in a search"
+                yield "there was no push: nothing is done along a path or in a search"
             yield from _unsuccessful(trial)
             if trial.coverage < 1.0:
                 yield f"coverage {100 * trial.coverage:.1f} %, wanted 100 % in the end"
