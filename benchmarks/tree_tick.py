@@ -16,7 +16,7 @@ import py_trees
 from skillc_compiler.library import tree
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Primitive, Status
-from skillc_runtime.trace.outcome import Outcome
+from skillc_runtime.recording.outcome import Outcome
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 from tree.stage import FLAGS, Library, Stage, act, call, par, seq, world

@@ -16,8 +16,8 @@ from skillc_runtime.execution.assignment import AchieveGoal, Assignment, Execute
 from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Primitive, Status
+from skillc_runtime.recording.events import Event
 from skillc_runtime.robots.watchdog import Watchdog
-from skillc_runtime.trace.events import Event
 from skillc_runtime.world.changes import AddIndividual, AddRelation, SetProperty
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.state import WorldState

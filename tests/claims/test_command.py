@@ -88,15 +88,3 @@ def test_the_table_and_the_recording_say_what_was_not_sensed(folder: Path) -> No
     assert json.loads(skillc("why", "out", "--json").stdout)["verified"] is False
     page = (folder / "out" / "report.html").read_text(encoding="utf-8")
     assert "finished, not verified" in page and "is only assumed" in page
-
-
-def test_a_recording_of_an_older_format_says_nothing_of_it(folder: Path) -> None:
-    skillc("run", ".:put", "--out", "out")
-    trace = folder / "out" / "events.jsonl"
-    old = []
-    for line in trace.read_text(encoding="utf-8").splitlines():
-        event = json.loads(line)
-        event.pop("known", None), event.pop("verified", None), event.pop("facts", None)
-        old.append(json.dumps({**event, "format": 2} if event["type"] == "task-started" else event))
-    trace.write_text("\n".join(old) + "\n", encoding="utf-8")
-    assert skillc("why", "out").stdout.startswith("put: success after")

@@ -14,7 +14,7 @@ from skillc_runtime.commands._live import Live
 from skillc_runtime.commands._results import show
 from skillc_runtime.commands._trialling import Told, Wanted
 from skillc_runtime.commands.main import skillc
-from skillc_runtime.report.result import StepResult, TaskResult
+from skillc_runtime.evaluation.report.result import StepResult, TaskResult
 
 LIBRARY = """use skiros
 

@@ -7,8 +7,19 @@ from pathlib import Path
 import pytest
 
 from docs.pages import ROOT, Reader, blocks
+from skillc_runtime.recording.events import ImplementationChosen, TaskStarted
+from skillc_runtime.recording.reader import TraceReader
+from skillc_runtime.world.labelled import Quantity
 
 PAGE = ROOT / "docs/why.md"
+
+
+def test_the_lines_of_the_event_file_are_events(tmp_path: Path) -> None:
+    (example,) = (block.text for block in blocks(PAGE) if block.language == "jsonl")
+    (tmp_path / "events.jsonl").write_text(example, encoding="utf-8")
+    started, chosen = TraceReader(tmp_path / "events.jsonl")
+    assert isinstance(started, TaskStarted)
+    assert isinstance(chosen, ImplementationChosen) and chosen.bindings["force"] == Quantity(10.0, "N")
 
 
 @pytest.mark.sim

@@ -14,8 +14,8 @@ from skillc_runtime.commands import _library
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.recording.events import Event
 from skillc_runtime.robots.watchdog import Watchdog
-from skillc_runtime.trace.events import Event
 from skillc_runtime.world.changes import AddIndividual, AddRelation
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.state import WorldState

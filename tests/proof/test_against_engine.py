@@ -34,8 +34,8 @@ from skillc_compiler.resolve.program import resolve
 from skillc_dsl.source import Source
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.trace.events import Event, ImplementationChosen, NodeEnded, NodeStarted
-from skillc_runtime.trace.failure import Failure
+from skillc_runtime.recording.events import Event, ImplementationChosen, NodeEnded, NodeStarted
+from skillc_runtime.recording.failure import Failure
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.state import WorldState
 

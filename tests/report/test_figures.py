@@ -8,8 +8,8 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from skillc_runtime.report.drawing import Drawing
-from skillc_runtime.report.figures import figure_of, wiping_figure
+from skillc_runtime.evaluation.report.drawing import Drawing
+from skillc_runtime.evaluation.report.figures import draw_figure, render_figure
 
 TIME = np.linspace(0.0, 10.0, 200)
 WAY = np.column_stack([np.linspace(-150.0, 150.0, 200), np.zeros(200)])
@@ -38,7 +38,7 @@ def wiped(*, upright: bool = False) -> Drawing:
 
 
 def test_every_axis_has_a_unit_and_every_part_a_title_and_a_legend() -> None:
-    parts = figure_of([wiped(), wiped(upright=True)]).axes[:6]
+    parts = draw_figure([wiped(), wiped(upright=True)]).axes[:6]
     assert len(parts) == 6
     for axes in parts:
         assert axes.get_xlabel().endswith((", mm", ", s"))
@@ -48,7 +48,7 @@ def test_every_axis_has_a_unit_and_every_part_a_title_and_a_legend() -> None:
 
 
 def test_a_surface_that_is_longer_along_y_is_drawn_lying_with_the_same_lines() -> None:
-    lying, turned = (figure_of([drawing]).axes[0] for drawing in (wiped(), wiped(upright=True)))
+    lying, turned = (draw_figure([drawing]).axes[0] for drawing in (wiped(), wiped(upright=True)))
     assert (lying.get_xlabel()[0], turned.get_xlabel()[0]) == ("x", "y")
     for one, other in zip(lying.lines[:2], turned.lines[:2], strict=True):
         np.testing.assert_array_equal(one.get_xydata(), other.get_xydata())
@@ -58,18 +58,18 @@ def test_a_surface_that_is_longer_along_y_is_drawn_lying_with_the_same_lines() -
 
 def test_what_was_not_wiped_has_no_shade_and_columns_share_the_scale() -> None:
     short, long = wiped(), replace(wiped(), dose=4 * wiped().dose)
-    shades = [axes.images[0] for axes in figure_of([short, long]).axes if axes.images]
+    shades = [axes.images[0] for axes in draw_figure([short, long]).axes if axes.images]
     assert [each.get_clim() for each in shades] == [(0.0, 2.0), (0.0, 2.0)]
     np.testing.assert_array_equal(np.ma.getmaskarray(shades[0].get_array()), short.dose == 0)
 
 
 def test_the_same_drawing_gives_the_same_files() -> None:
-    drawn = wiping_figure([wiped()])
-    assert drawn == wiping_figure([wiped()])
+    drawn = render_figure([wiped()])
+    assert drawn == render_figure([wiped()])
     assert drawn.png.startswith(b"\x89PNG")
     assert ElementTree.fromstring(drawn.svg).tag.endswith("svg")
 
 
 def test_there_is_no_figure_of_nothing() -> None:
     with pytest.raises(ValueError, match="no wiping"):
-        wiping_figure([])
+        render_figure([])

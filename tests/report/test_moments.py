@@ -6,10 +6,11 @@ from types import SimpleNamespace
 from typing import Any
 
 from skillc_compiler.library.vocabulary import Position
-from skillc_runtime.report.moments import moments
+from skillc_runtime.evaluation.report.moments import find_moments
+from skillc_runtime.recording.events import Highlight, ImplementationChosen
+from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.simulation.film import Moment
-from skillc_runtime.trace.events import ImplementationChosen
-from skillc_runtime.trace.outcome import Outcome
+from skillc_runtime.world.labelled import Iri
 
 HERE = Position(path="press.skill", line=1, column=1)
 CELL: Any = SimpleNamespace(
@@ -23,27 +24,28 @@ def call(number: int, status: str, started: float | None, ended: float | None, *
     )
 
 
-def chosen(node: int, skill: str, **bindings: str) -> ImplementationChosen:
+def chosen(node: int, what: Iri, *seen: tuple[str, str]) -> ImplementationChosen:
     return ImplementationChosen(
         time=0.0,
         node=node,
-        skill=skill,
+        skill="Work",
         implementation="x",
-        bindings={"arm": "lab:Arm", **bindings},
+        bindings={"arm": Iri("http://lab#Arm", "lab:Arm"), "what": what},
+        highlights=tuple(Highlight(when, what, word) for when, word in seen),
         rejected=(),
         source=HERE,
     )
 
 
 CHOICES = {
-    2: chosen(2, "AwaitSwitch", button="lab:Button"),
-    3: chosen(3, "Seat", object="lab:Peg", socket="lab:Hole"),
+    2: chosen(2, Iri("http://lab#Button", "lab:Button"), ("ends", "pressed")),
+    3: chosen(3, Iri("http://lab#Hole", "lab:Hole"), ("begins", "found"), ("ends", "filled")),
 }
 
 
 def test_what_was_waited_for_is_seen_when_it_came() -> None:
     tree = call(1, "success", 0.0, 9.0, call(2, "success", 3.0, 4.0), call(3, "success", 5.0, 6.0))
-    assert moments((), [tree], CHOICES, CELL) == (
+    assert find_moments((), [tree], CHOICES, CELL) == (
         Moment("lab:Button pressed", 4.0, "http://lab#Arm"),
         Moment("lab:Hole found", 5.0, "http://lab#Arm"),
         Moment("lab:Hole filled", 6.0, "http://lab#Arm"),
@@ -52,4 +54,4 @@ def test_what_was_waited_for_is_seen_when_it_came() -> None:
 
 def test_what_did_not_come_is_not_to_be_seen() -> None:
     tree = call(1, "failure", 0.0, 9.0, call(2, "failure", 3.0, 4.0), call(3, "idle", None, None))
-    assert moments((), [tree], CHOICES, CELL) == ()
+    assert find_moments((), [tree], CHOICES, CELL) == ()

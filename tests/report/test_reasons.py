@@ -5,14 +5,14 @@ from __future__ import annotations
 import pytest
 
 from skillc_compiler.library.vocabulary import Position
-from skillc_runtime.report.result import ChoiceResult, StepResult
-from skillc_runtime.report.table import reason_of
-from skillc_runtime.trace.failure import Rejected
+from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult
+from skillc_runtime.evaluation.report.table import reason_of
+from skillc_runtime.recording.failure import Rejection
 
-TOO_WIDE = Rejected(implementation="wsg", stage="type", reason="too wide", source=Position("grip.skill", 1, 1))
+TOO_WIDE = Rejection(implementation="wsg", stage="type", reason="too wide", source=Position("grip.skill", 1, 1))
 
 
-def step(alternatives: int, *rejected: Rejected) -> StepResult:
+def step(alternatives: int, *rejected: Rejection) -> StepResult:
     return StepResult(
         skill="Grip",
         implementation="robotiq",

@@ -21,9 +21,9 @@ from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.compliance import ReleaseAxis
 from skillc_runtime.primitives.overlay import AddedMotion
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.recording.events import Event, NodeEnded, Note, TaskEnded
 from skillc_runtime.robots.cell import Cell
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.trace.events import Event, NodeEnded, Note, TaskEnded
 from skillc_runtime.world.terms import (
     ARM_DEVICE,
     BUTTON,

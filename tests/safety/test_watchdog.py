@@ -13,8 +13,8 @@ from skillc_runtime.execution.assignment import NotStarted
 from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.recording.events import Event
 from skillc_runtime.robots.watchdog import PATIENCE_S, Watchdog
-from skillc_runtime.trace.events import Event
 from tree.stage import call
 
 

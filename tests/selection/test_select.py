@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import pytest
 
 from selection.library import EMPTY, MOUNTED, THERE, force, gripper, impl, library, requirement, scene
 from skillc_compiler.library.conditions import Arithmetic, Compare, Given, Literal, Not, Or, PropertyOf, Variable
+from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_primitive
 from skillc_runtime.execution.selection.select import (
     NoneSelected,
     SelectedImplementation,
@@ -154,3 +158,22 @@ def test_an_unset_optional_parameter_is_absent_and_guarded_by_given() -> None:
         select_implementation(library(careful), "Lift", GRIPPER | {"force": 11.0}, scene()), SelectedImplementation
     )
     assert isinstance(select_implementation(library(careful), "Lift", GRIPPER | {"force": 9.0}, scene()), NoneSelected)
+
+
+@pytest.mark.parametrize(
+    ("declared", "problem"),
+    [
+        ('activity = "juggle"', "`activity` of `MODULE:Own` is none of press, follow-path, search"),
+        ('highlights = (("later", "button", "pressed"),)', "`highlights` of `MODULE:Own` is not"),
+        ('highlights = ("button", "pressed")', "`highlights` of `MODULE:Own` is not"),
+    ],
+)
+def test_what_a_primitive_declares_of_itself_is_checked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, declared: str, problem: str
+) -> None:
+    module = f"own_{sum(declared.encode())}"
+    text = f"from skillc_runtime.primitives.primitive import Primitive\n\n\nclass Own(Primitive):\n    {declared}\n"
+    (tmp_path / f"{module}.py").write_text(f"{text}\n    def tick(self): ...\n", "utf-8")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    with pytest.raises(PrimitiveError, match=re.escape(problem.replace("MODULE", module))):
+        import_primitive(f"{module}:Own")

@@ -12,14 +12,15 @@ from skillc_compiler.goals import parse_call
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
+from skillc_runtime.evaluation.trials.disturbance import reality
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.facts import SceneFacts
 from skillc_runtime.simulation.variation import Variation, draw, with_obstacles
-from skillc_runtime.trials.disturbance import reality
 from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.labelled import format_fact
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
 from skillc_runtime.world.state import WorldState
@@ -130,7 +131,7 @@ def test_a_part_that_is_let_go_in_the_air_is_not_said_to_be_placed() -> None:
     assert picked.status is Status.SUCCESS and picked.verified, picked.failure
     assert placed.status is Status.SUCCESS, placed.failure
     assert placed.verified is False
-    known = {fact.fact: fact.known for fact in placed.facts}
+    known = {format_fact(fact.fact): fact.known for fact in placed.facts}
     assert known["lab:Cell contain lab:Eraser-1"] == "assumed"
     assert known["not lab:Robotiq-1 contain lab:Eraser-1"] == "sensed", "the fingers opened"
 

@@ -11,11 +11,12 @@ from skillc_compiler.library.conditions import Literal
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
+from skillc_runtime.evaluation.report.choices import Choices
+from skillc_runtime.evaluation.report.result import WipingResult
+from skillc_runtime.evaluation.report.summary import summarise
+from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
-from skillc_runtime.report.result import WipingResult
-from skillc_runtime.report.summary import Choices, summarise
-from skillc_runtime.report.wiping import find_wipings
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene

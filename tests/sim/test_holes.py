@@ -10,11 +10,12 @@ import pytest
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
+from skillc_runtime.evaluation.report.choices import Choices
+from skillc_runtime.evaluation.report.summary import summarise
+from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.report.summary import Choices, summarise
-from skillc_runtime.report.wiping import find_wipings
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.frames import placed

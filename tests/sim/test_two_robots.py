@@ -9,13 +9,15 @@ import pytest
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
+from skillc_runtime.evaluation.report.choices import Choices
+from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.evaluation.report.summary import summarise
+from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
-from skillc_runtime.report.result import TaskResult
-from skillc_runtime.report.summary import Choices, summarise
-from skillc_runtime.report.wiping import find_wipings
+from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.trace.outcome import Outcome
+from skillc_runtime.world.labelled import Iri
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.scene import load_scene
 
@@ -41,7 +43,9 @@ def run(name: str) -> tuple[TaskResult, dict[str, list[Outcome]]]:
     result = summarise(execution, choices, library(), find_wipings([execution.last.tree], choices, cell))
     steps: dict[str, list[Outcome]] = {}
     for call in sorted(calls_in(execution.last.tree), key=lambda each: each.started or 0.0):
-        steps.setdefault(choices[call.id].bindings["arm"], []).append(call)
+        arm = choices[call.id].bindings["arm"]
+        assert isinstance(arm, Iri)
+        steps.setdefault(arm.label, []).append(call)
     return result, steps
 
 

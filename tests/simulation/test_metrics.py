@@ -8,7 +8,7 @@ from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Pose, exp, quaternion_of
 from skillc_runtime.simulation.coverage import CoverageMap
 from skillc_runtime.simulation.highpass import highpass
-from skillc_runtime.simulation.metrics import Wiped, wiping_metrics
+from skillc_runtime.simulation.metrics import WipingSetup, measure_wiping
 from skillc_runtime.simulation.recorder import COLUMNS, Recording
 
 SURFACE = Pose.of((1.0, 2.0, 0.5), (0.5, 0.5, -0.5, -0.5))
@@ -35,13 +35,13 @@ def lane(offset: float, count: int = 3000) -> np.ndarray:
     return np.column_stack([np.linspace(-0.2, 0.2, count), np.full(count, offset)])
 
 
-def wiped(force: float = 10.0) -> Wiped:
-    return Wiped(SURFACE, Layout(EXTENT), TOOL, force, LEAST_N)
+def wiped(force: float = 10.0) -> WipingSetup:
+    return WipingSetup(SURFACE, Layout(EXTENT), TOOL, force, LEAST_N)
 
 
 def test_one_lane_covers_its_share_of_the_surface() -> None:
     local = lane(0.0)
-    metrics = wiping_metrics(recording(local, np.full(len(local), 10.0)), [(0.0, 3.0)], wiped())
+    metrics = measure_wiping(recording(local, np.full(len(local), 10.0)), [(0.0, 3.0)], wiped())
     assert metrics.coverage == pytest.approx(0.05 / 0.30)
     assert metrics.force_mean_n == 10.0
     assert metrics.force_rmse_n == 0.0
@@ -53,7 +53,7 @@ def test_one_lane_covers_its_share_of_the_surface() -> None:
 def test_what_is_not_pressed_is_not_wiped_and_counts_as_lost() -> None:
     local = lane(0.0)
     force = np.where(np.arange(len(local)) < len(local) // 2, 10.0, 0.2)
-    metrics = wiping_metrics(recording(local, force), [(0.0, 3.0)], wiped())
+    metrics = measure_wiping(recording(local, force), [(0.0, 3.0)], wiped())
     assert metrics.contact_lost == pytest.approx(0.5)
     assert metrics.coverage == pytest.approx(0.05 / 0.30 * 0.625, rel=0.02)
     assert metrics.force_rmse_n == pytest.approx(9.8 / np.sqrt(2), rel=0.01)
@@ -61,7 +61,7 @@ def test_what_is_not_pressed_is_not_wiped_and_counts_as_lost() -> None:
 
 def test_all_lanes_cover_all() -> None:
     local = np.concatenate([lane(offset) for offset in np.arange(-0.14, 0.141, 0.04)])
-    metrics = wiping_metrics(recording(local, np.full(len(local), 10.0)), [(0.0, 100.0)], wiped())
+    metrics = measure_wiping(recording(local, np.full(len(local), 10.0)), [(0.0, 100.0)], wiped())
     assert metrics.coverage == 1.0
 
 
@@ -70,7 +70,7 @@ def test_tilt_and_tracking_are_those_of_the_tool() -> None:
     made = recording(local, np.full(len(local), 10.0), tilt_rad=np.radians(2.0))
     rows = made.rows.copy()
     rows[:, 12:15] += 0.003 * SURFACE.rotation[:, 0] + 0.5 * SURFACE.rotation[:, 2]
-    metrics = wiping_metrics(Recording(rows), [(0.0, 3.0)], wiped())
+    metrics = measure_wiping(Recording(rows), [(0.0, 3.0)], wiped())
     assert metrics.tilt_rms_deg == pytest.approx(2.0, rel=1e-6)
     assert metrics.tracking_mm == pytest.approx(3.0, rel=1e-6), "only what lies in the plane counts"
 
@@ -80,7 +80,7 @@ def test_the_first_impact_lies_before_the_window() -> None:
     force = np.full(len(local), 10.0)
     force[500] = 17.0
     force[2000] = 40.0
-    assert wiping_metrics(recording(local, force), [(1.0, 3.0)], wiped()).first_impact_n == 17.0
+    assert measure_wiping(recording(local, force), [(1.0, 3.0)], wiped()).first_impact_n == 17.0
 
 
 def test_vibration_above_15_hz_counts_and_slower_motion_does_not() -> None:
@@ -90,7 +90,7 @@ def test_vibration_above_15_hz_counts_and_slower_motion_does_not() -> None:
         made = recording(np.zeros((4000, 2)), np.full(4000, 10.0))
         rows = made.rows.copy()
         rows[:, 9] = signal
-        assert wiping_metrics(Recording(rows), [(0.0, 4.0)], wiped()).vibration_mm_s == pytest.approx(
+        assert measure_wiping(Recording(rows), [(0.0, 4.0)], wiped()).vibration_mm_s == pytest.approx(
             expected, abs=0.05
         )
 
@@ -107,7 +107,7 @@ def test_the_high_pass_is_a_butterworth_run_both_ways() -> None:
 def test_an_empty_window_is_refused() -> None:
     local = lane(0.0)
     with pytest.raises(ValueError, match="nothing was recorded"):
-        wiping_metrics(recording(local, np.ones(len(local))), [(10.0, 20.0)], wiped())
+        measure_wiping(recording(local, np.ones(len(local))), [(10.0, 20.0)], wiped())
 
 
 def test_a_turned_tool_wipes_what_it_covers() -> None:
@@ -125,8 +125,8 @@ def test_of_strokes_with_lifts_between_them_only_what_is_wiped_counts() -> None:
     local = lane(0.0, 4000)
     force = np.full(len(local), 10.0)
     force[1000:3000], force[1500] = 0.0, 25.0
-    whole = wiping_metrics(recording(local, force), [(0.0, 4.0)], wiped())
-    parted = wiping_metrics(recording(local, force), [(0.0, 1.0), (3.0, 4.0)], wiped())
+    whole = measure_wiping(recording(local, force), [(0.0, 4.0)], wiped())
+    parted = measure_wiping(recording(local, force), [(0.0, 1.0), (3.0, 4.0)], wiped())
     assert whole.contact_lost == pytest.approx(0.5, abs=0.001)
     assert parted.contact_lost == 0.0
     assert parted.force_mean_n == 10.0

@@ -8,17 +8,24 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from skillc_runtime.report.result import WipingResult
-from skillc_runtime.trials.trial import Trial
-from skillc_runtime.trials.work import Inserted, Polished, Pressed, Taught, Wiped, Work
+from skillc_runtime.evaluation.measures.work import (
+    InsertingWork,
+    PolishingWork,
+    PressingWork,
+    TeachingWork,
+    WipingWork,
+    Work,
+)
+from skillc_runtime.evaluation.report.result import WipingResult
+from skillc_runtime.evaluation.trials.trial import Trial
 
 KILLED, BROKEN = 3, 4
 """Seeds at which a process dies, and at which something goes wrong in it."""
 
 
-def wiping(surface: str = "lab:Table-1", **changes: float) -> Wiped:
+def wiping(surface: str = "lab:Table-1", **changes: float) -> WipingWork:
     """Return a wiping that meets all targets, but for what is changed."""
-    return Wiped(how=wiped(surface, **changes))
+    return WipingWork(how=wiped(surface, **changes))
 
 
 def wiped(surface: str, **changes: float) -> WipingResult:
@@ -40,10 +47,10 @@ def wiped(surface: str, **changes: float) -> WipingResult:
 
 GOOD: dict[str, Work] = {
     "wiping": wiping(),
-    "polishing": Polished(how=wiped("lab:Sheet-1"), share=1.0, swing_m=0.0095, swing_asked_m=0.01),
-    "pressing": Pressed(button="lab:Button-1", asked_n=10.0, held_n=10.0, greatest_n=10.5, took=0.9),
-    "inserting": Inserted(socket="lab:Socket-1", depth_m=0.03, hole_m=0.03, greatest_n=20.0, took=0.5),
-    "teaching": Taught(pose="lab:Taught-1", off_m=0.001, greatest_n=18.0, mean_n=5.0, took=0.4),
+    "polishing": PolishingWork(how=wiped("lab:Sheet-1"), share=1.0, swing_m=0.0095, swing_asked_m=0.01),
+    "pressing": PressingWork(button="lab:Button-1", asked_n=10.0, held_n=10.0, greatest_n=10.5, took=0.9),
+    "inserting": InsertingWork(socket="lab:Socket-1", depth_m=0.03, hole_m=0.03, greatest_n=20.0, took=0.5),
+    "teaching": TeachingWork(pose="lab:TeachingWork-1", off_m=0.001, greatest_n=18.0, mean_n=5.0, took=0.4),
 }
 """A piece of work of each kind that meets all targets."""
 

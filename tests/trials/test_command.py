@@ -13,9 +13,9 @@ from click.testing import CliRunner, Result
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.commands import _library, _mission, _trialling
 from skillc_runtime.commands.main import skillc
-from skillc_runtime.trials.journal import FILE
-from skillc_runtime.trials.trial import Trial
-from skillc_runtime.trials.workers import Prepare
+from skillc_runtime.evaluation.trials.journal import FILE
+from skillc_runtime.evaluation.trials.trial import Trial
+from skillc_runtime.evaluation.trials.workers import Prepare
 from trials.runners import good, wiping
 
 TILTED = 8

@@ -7,7 +7,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from skillc_runtime.trials.journal import FILE, Heading, Journal, JournalError, missing
+from skillc_runtime.evaluation.trials.journal import FILE, Heading, Journal, JournalError, missing
 from trials.runners import good
 
 HEADING = Heading(task="clean", disturbance="none", skillc="0.1", library="wiping of 12", scene="a.ttl of 34")

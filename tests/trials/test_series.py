@@ -8,11 +8,11 @@ import pytest
 from msgspec.structs import replace
 from rich.console import Console
 
-from skillc_runtime.trials import page, table
-from skillc_runtime.trials.series import series
-from skillc_runtime.trials.targets import METRICS
-from skillc_runtime.trials.trial import Disturbance, Trial
-from skillc_runtime.trials.verdict import misses
+from skillc_runtime.evaluation.trials import page, table
+from skillc_runtime.evaluation.trials.series import judge_series
+from skillc_runtime.evaluation.trials.targets import METRICS
+from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
+from skillc_runtime.evaluation.trials.verdict import find_misses
 from trials.runners import GOOD, good, wiped, wiping
 
 FAILURE = replace(good(1), status="failure", reason="nothing to push against", works=(), coverage=0.0)
@@ -67,28 +67,28 @@ def test_every_target_of_every_kind_is_missed_by_some_trial_here() -> None:
 
 @pytest.mark.parametrize(("kind", "changed", "said"), [(k, *each) for k, worse in OTHERS.items() for each in worse])
 def test_other_work_that_misses_a_target_is_told_so(kind: str, changed: dict[str, float], said: str) -> None:
-    assert misses(good(1, GOOD[kind]), "none") == ()
-    assert misses(good(1, replace(GOOD[kind], **changed)), "none") == (said,)
+    assert find_misses(good(1, GOOD[kind]), "none") == ()
+    assert find_misses(good(1, replace(GOOD[kind], **changed)), "none") == (said,)
 
 
 def test_what_polishes_must_wipe_as_well() -> None:
     rough = replace(GOOD["polishing"], how=wiped("lab:Sheet-1", tilt_rms_deg=0.6))
-    assert misses(good(1, rough), "none") == ("tilt 0.6 deg rms, wanted at most 0.5 deg rms",)
+    assert find_misses(good(1, rough), "none") == ("tilt 0.6 deg rms, wanted at most 0.5 deg rms",)
 
 
 def test_a_fixture_that_is_blocked_is_not_said_to_be_done() -> None:
-    (told,) = misses(good(1, GOOD["inserting"]), "obstacle")
+    (told,) = find_misses(good(1, GOOD["inserting"]), "obstacle")
     assert told.startswith("success, wanted a failure that says why: depth 100 % of the hole")
-    assert misses(good(1), "obstacle") == ()
+    assert find_misses(good(1), "obstacle") == ()
 
 
 @pytest.mark.parametrize("name", targeted("wiping"))
 def test_a_trial_that_misses_a_target_is_told_so(name: str) -> None:
     changed, said = WORSE[name]
-    assert misses(good(1), "none") == ()
-    assert misses(good(1, wiping(**changed)), "none") == (said,)
+    assert find_misses(good(1), "none") == ()
+    assert find_misses(good(1, wiping(**changed)), "none") == (said,)
     both = good(1, wiping("lab:A"), wiping("lab:B", **changed))
-    assert misses(both, "none") == (f"lab:B: {said}",)
+    assert find_misses(both, "none") == (f"lab:B: {said}",)
 
 
 @pytest.mark.parametrize(
@@ -104,7 +104,7 @@ def test_a_trial_that_misses_a_target_is_told_so(name: str) -> None:
         ("missing", replace(FAILURE, status="crashed"), "crashed: nothing to push against"),
         ("push", replace(good(1), works=(wiping(coverage=0.9),)), None),
         ("push", replace(good(1), coverage=0.99), "coverage 99.0 %, wanted 100 % in the end"),
-        ("push", replace(good(1), pushed=False), "nobody pushed: nothing is done along a path or in a search"),
+        ("push", replace(good(1), pushed=False), "there was no push: nothing is done along a path or in a search"),
         ("push", FAILURE, "failure: nothing to push against"),
         ("obstacle", FAILURE, None),
         ("obstacle", replace(FAILURE, greatest_force_n=60.0), "a tool felt 60.0 N, the limit is 50 N"),
@@ -113,25 +113,25 @@ def test_a_trial_that_misses_a_target_is_told_so(name: str) -> None:
 def test_what_shall_become_of_a_trial_depends_on_what_happens(
     disturbance: Disturbance, trial: Trial, said: str | None
 ) -> None:
-    told = misses(trial, disturbance)
+    told = find_misses(trial, disturbance)
     assert said in told if said else told == ()
 
 
 def test_spreads_are_those_of_all_trials_whatever_their_order() -> None:
     trials = [good(seed, wiping(tilt_rms_deg=tilt)) for seed, tilt in ((3, 0.3), (1, 0.1), (2, 0.9))]
-    found = series("clean", "none", 4, trials)
+    found = judge_series("clean", "none", 4, trials)
     (tilt,) = [spread for spread in found.spreads if spread.metric == "tilt"]
     assert (tilt.least, tilt.median, tilt.greatest, tilt.met) == (0.1, 0.3, 0.9, 2)
     assert tilt.values == (0.1, 0.9, 0.3)
     assert [failed.seed for failed in found.failed] == [2]
     assert (found.wanted, found.done, found.passed, found.good) == (4, 3, 2, False)
-    assert found == series("clean", "none", 4, trials[::-1])
+    assert found == judge_series("clean", "none", 4, trials[::-1])
 
 
 def test_a_series_is_good_when_all_trials_are_and_the_median_is_on_target() -> None:
-    assert series("clean", "none", 2, [good(1), good(2)]).good
-    assert not series("clean", "none", 3, [good(1), good(2)]).good
-    rough = series("clean", "none", 2, [good(seed, wiping(force_rmse_n=0.6)) for seed in (1, 2)])
+    assert judge_series("clean", "none", 2, [good(1), good(2)]).good
+    assert not judge_series("clean", "none", 3, [good(1), good(2)]).good
+    rough = judge_series("clean", "none", 2, [good(seed, wiping(force_rmse_n=0.6)) for seed in (1, 2)])
     assert rough.passed == 2 and not rough.good
     (missed,) = [spread.median_missed for spread in rough.spreads if spread.median_missed]
     assert missed == "median 6 % of F, wanted at most 5"
@@ -140,7 +140,7 @@ def test_a_series_is_good_when_all_trials_are_and_the_median_is_on_target() -> N
 def shown(disturbance: Disturbance, *trials: Trial) -> str:
     console = Console(width=200)
     with console.capture() as capture:
-        console.print(table.render(series("clean", disturbance, len(trials), trials)))
+        console.print(table.render(judge_series("clean", disturbance, len(trials), trials)))
     return capture.get()
 
 
@@ -155,7 +155,7 @@ def test_the_table_has_every_metric_and_every_failed_seed() -> None:
 
 def test_the_page_draws_every_value_and_escapes_what_it_says() -> None:
     odd = replace(FAILURE, seed=7, reason="<b>no</b>")
-    text = page.render(series("clean", "none", 3, [good(1), good(2), odd]))
+    text = page.render(judge_series("clean", "none", 3, [good(1), good(2), odd]))
     measured = [metric for metric in METRICS["wiping"] if metric.of(wiping().how) is not None]
     bound = [metric for metric in measured if metric.target is not None]
     assert text.count("<circle") == 2 * len(measured)
@@ -167,7 +167,7 @@ def test_the_page_draws_every_value_and_escapes_what_it_says() -> None:
 @pytest.mark.parametrize("count", [1, 2, 50])
 def test_drawings_stay_inside_their_frame(count: int) -> None:
     trials = [good(seed, wiping(tilt_rms_deg=0.01 * seed)) for seed in range(count)]
-    strips = [page.strip(spread) for spread in series("clean", "none", count, trials).spreads]
+    strips = [page.strip(spread) for spread in judge_series("clean", "none", count, trials).spreads]
     places = [place for strip in strips for place in strip.dots]
     assert len(places) == count * len(strips) > 0
     assert all(0 <= x <= page.WIDTH and 0 <= y <= page.HEIGHT for x, y in places)

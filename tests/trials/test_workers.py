@@ -12,14 +12,14 @@ from pathlib import Path
 
 import pytest
 
-from skillc_runtime.trials.workers import run_all
+from skillc_runtime.evaluation.trials.workers import run_all
 from trials.runners import BROKEN, KILLED, Faulty, good
 
 TESTS = Path(__file__).parents[1]
 PARENT = """
 from functools import partial
 from pathlib import Path
-from skillc_runtime.trials.workers import run_all
+from skillc_runtime.evaluation.trials.workers import run_all
 from trials.runners import Endless
 
 if __name__ == "__main__":

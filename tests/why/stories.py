@@ -9,10 +9,10 @@ from skillc_compiler.library import tree
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.trace.events import FORMAT, Event, TaskEnded, TaskStarted
-from skillc_runtime.trace.history import story_of
-from skillc_runtime.trace.story import Call, Story
-from skillc_runtime.trace.writer import TraceWriter
+from skillc_runtime.recording.events import FORMAT, Event, TaskEnded, TaskStarted
+from skillc_runtime.recording.history import read_story
+from skillc_runtime.recording.story import Call, Story
+from skillc_runtime.recording.writer import TraceWriter
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.state import WorldState
 from tree.stage import PERIOD_S, Stage
@@ -35,7 +35,7 @@ def events_of(body: tree.Node, library: SkillLibrary, cell: Stage, ticks: int = 
 
 def in_world(body: tree.Node, library: SkillLibrary, state: WorldState) -> Story:
     """Return the story of a body in a world."""
-    return known(story_of(events_of(body, library, Stage(WorldModel(state)))))
+    return known(read_story(events_of(body, library, Stage(WorldModel(state)))))
 
 
 def known(story: Story | None) -> Story:

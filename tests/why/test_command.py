@@ -39,7 +39,7 @@ def test_the_folder_and_the_file_of_a_run_are_explained(run: Path) -> None:
 def test_json_has_the_run_or_the_answer(run: Path) -> None:
     story, answer = (json.loads(why(run, *each, "--json").stdout) for each in ((), ("Pick.gripper",)))
     (step,) = story["attempts"][0]["steps"]
-    assert (story["status"], step["number"], step["bindings"]["gripper"]) == ("failure", "1", "t:gripper")
+    assert (story["status"], step["number"], step["bindings"]["gripper"]["label"]) == ("failure", "1", "t:gripper")
     assert (answer["parameter"], answer["calls"]) == ("gripper", [step])
 
 
@@ -72,7 +72,8 @@ def test_a_run_that_was_cut_short_is_explained_as_far_as_it_goes(run: Path) -> N
         (b'["task-started"]\n', ":1: this is no event of skillc"),
         (b"\xff\xfe\x00\n", ":1: this is no event of skillc"),
         (b'{"type":"note","time":0.0,"message":"hm"}\n{"type":"moon"}\n', ":2: this is no event of skillc"),
-        (b'{"type":"task-started","time":0.0,"format":99,"task":"x"}\n', ":1: a newer skillc wrote this"),
+        (b'{"type":"task-started","format":99,"run":"x"}\n', ":1: a newer skillc wrote this (format 99"),
+        (b'{"type":"task-started","time":0.0,"format":3,"task":"x"}\n', ":1: an older skillc wrote this (format 3"),
     ],
 )
 def test_a_file_that_is_no_recording_is_refused(tmp_path: Path, content: bytes, message: str) -> None:

@@ -8,8 +8,8 @@ from msgspec import structs
 from selection.library import call, library, scene
 from skillc_compiler.library.conditions import Individual
 from skillc_runtime.commands import _why
-from skillc_runtime.trace.question import QuestionError, asked
-from skillc_runtime.trace.story import Story
+from skillc_runtime.recording.question import QuestionError, find_answer
+from skillc_runtime.recording.story import Story
 from skillc_runtime.world.changes import Change, RemoveRelation
 from why.stories import in_world
 from world.lab import fact, individual, iri
@@ -27,7 +27,7 @@ def picked(*changes: Change) -> Story:
 
 def told(story: Story, question: str) -> str:
     """Return the answer to a question."""
-    return _why.explanation(asked(story, question))
+    return _why.explanation(find_answer(story, question))
 
 
 def test_the_overview_numbers_the_steps_and_says_what_led_to_the_failure() -> None:
@@ -113,5 +113,5 @@ def test_a_failure_is_told_with_the_facts_at_that_moment() -> None:
 )
 def test_a_question_about_nothing_is_told_what_there_is(question: str, answer: str) -> None:
     with pytest.raises(QuestionError) as raised:
-        asked(picked(), question)
+        find_answer(picked(), question)
     assert str(raised.value).startswith(answer)

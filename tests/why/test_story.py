@@ -12,7 +12,7 @@ from skillc_compiler.library import tree
 from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.trace.events import (
+from skillc_runtime.recording.events import (
     Event,
     ImplementationChosen,
     NodeEnded,
@@ -22,12 +22,13 @@ from skillc_runtime.trace.events import (
     Replanned,
     TaskEnded,
 )
-from skillc_runtime.trace.failure import Failure
-from skillc_runtime.trace.history import story_of
-from skillc_runtime.trace.outcome import Outcome
-from skillc_runtime.trace.record import Body, Records
-from skillc_runtime.trace.story import Call, Story
+from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.history import read_story
+from skillc_runtime.recording.outcome import Outcome
+from skillc_runtime.recording.record import AttemptRecord, NodeRecords
+from skillc_runtime.recording.story import Call, Story
 from skillc_runtime.world.changes import SetProperty
+from skillc_runtime.world.labelled import Iri
 from tree.stage import FLAGS, ON, PERIOD_S, Library, Script, Stage, act, check, here, par, seq, world
 from tree.strategies import Play, plays
 from why.stories import BEGIN, events_of, known, steps_of
@@ -51,8 +52,8 @@ def test_the_story_says_of_each_call_what_the_tree_says(play: Play) -> None:
             engine.halt("the test says so")
         if engine.tick() is not Status.RUNNING:
             break
-        assert shape(known(story_of(told))) == shape_of(engine.outcome)
-    story = known(story_of(told))
+        assert shape(known(read_story(told))) == shape_of(engine.outcome)
+    story = known(read_story(told))
     assert shape(story) == shape_of(engine.outcome)
     told_of = [link.message for link in story.chain]
     assert bool(told_of) == (engine.status is Status.FAILURE)
@@ -92,7 +93,7 @@ def calls_in(outcome: Outcome) -> Iterator[Outcome]:
 def test_a_long_run_of_a_small_tree_needs_little_memory() -> None:
     rounds = tree.Repeat(count=400, child=seq(act("a"), check(FLAGS[0]), act("b")), source=here())
     told = events_of(rounds, Library().build(), Stage(world()), ticks=2000)
-    records, starts, most = Records(Body()), 0, 0
+    records, starts, most = NodeRecords(AttemptRecord()), 0, 0
     for each in told:
         if isinstance(each, NodeStarted):
             records.start(each)
@@ -107,7 +108,7 @@ def test_a_long_run_of_a_small_tree_needs_little_memory() -> None:
 def test_how_earlier_starts_ended_is_kept() -> None:
     cell = Stage(world(), {"a": [Script("fail"), Script("fail"), Script()]})
     retry = tree.Retry(count=5, child=seq(act("a"), act("b")), source=here())
-    first, second = steps_of(known(story_of(events_of(retry, Library().build(), cell))))
+    first, second = steps_of(known(read_story(events_of(retry, Library().build(), cell))))
     assert (first.skill, first.status, first.starts) == ("Act", "success", 3)
     assert [(each.status, each.message) for each in first.earlier] == [("failure", "a failed")] * 2
     assert (second.starts, second.earlier) == (1, ())
@@ -115,21 +116,20 @@ def test_how_earlier_starts_ended_is_kept() -> None:
 
 def test_steps_side_by_side_know_of_each_other() -> None:
     cell = Stage(world(), {"a": [Script(ticks=3)], "b": [Script(ticks=5)]})
-    story = known(story_of(events_of(seq(par("all", act("a"), act("b")), act("c")), Library().build(), cell)))
+    story = known(read_story(events_of(seq(par("all", act("a"), act("b")), act("c")), Library().build(), cell)))
     assert [(step.number, step.beside) for step in steps_of(story)] == [("1", ("2",)), ("2", ("1",)), ("3", ())]
 
 
 LINE = Position("depot.skill", 5, 1)
-GO = PlanStep(skill="Go", arguments={"to": "http://example.org/lab#b"}, source=LINE)
-STAY = PlanStep(skill="Go", arguments={"to": "http://example.org/lab#a"}, source=LINE)
-
-NAMES = {"http://example.org/lab#a": "lab:a", "http://example.org/lab#b": "lab:b"}
+A, B = Iri("http://example.org/lab#a", "lab:a"), Iri("http://example.org/lab#b", "lab:b")
+GO = PlanStep(skill="Go", arguments={"to": B}, source=LINE)
+STAY = PlanStep(skill="Go", arguments={"to": A}, source=LINE)
 
 
 def planned(*events: Event) -> Story:
     """Return the story of a plan to go to b and to a."""
-    plan = PlanMade(time=0.0, planner="test", optimal="", cost=1.0, steps=(GO, STAY), names=NAMES)
-    return known(story_of([BEGIN, plan, *events]))
+    plan = PlanMade(time=0.0, planner="test", optimal="", cost=1.0, steps=(GO, STAY))
+    return known(read_story([BEGIN, plan, *events]))
 
 
 def node(number: int, parent: int, kind: str) -> NodeStarted:
@@ -140,29 +140,29 @@ def ended(number: int, status: str = "success") -> NodeEnded:
     return NodeEnded(time=1.0, node=number, name="Go", status=status, source=LINE)
 
 
-def chose(number: int, to: str) -> ImplementationChosen:
+def chose(number: int, to: Iri) -> ImplementationChosen:
     return ImplementationChosen(
         time=0.0, node=number, skill="Go", implementation="wheels", bindings={"to": to}, source=LINE
     )
 
 
 def test_planned_steps_find_their_calls_by_their_arguments() -> None:
-    story = planned(node(1, 0, "call"), chose(1, "lab:a"), ended(1), node(2, 0, "call"), chose(2, "lab:b"), ended(2))
-    assert [step.bindings for step in steps_of(story)] == [{"to": "lab:b"}, {"to": "lab:a"}]
+    story = planned(node(1, 0, "call"), chose(1, A), ended(1), node(2, 0, "call"), chose(2, B), ended(2))
+    assert [step.bindings for step in steps_of(story)] == [{"to": B}, {"to": A}]
 
 
 def test_a_step_whose_purpose_holds_is_skipped_and_one_that_was_not_reached_never_started() -> None:
     story = planned(node(1, 0, "if"), ended(1))
     assert [(step.status, step.bindings) for step in steps_of(story)] == [
-        ("skipped", {"to": "lab:b"}),
-        ("not started", {"to": "lab:a"}),
+        ("skipped", {"to": B}),
+        ("not started", {"to": A}),
     ]
 
 
 def test_plans_that_number_their_nodes_anew_are_told_apart() -> None:
     plan = PlanMade(time=2.0, planner="test", optimal="", cost=1.0, steps=(GO,))
-    first = (node(1, 0, "call"), chose(1, "lab:b"), ended(1, "failure"))
-    again = (node(1, 0, "call"), chose(1, "lab:b"), ended(1))
+    first = (node(1, 0, "call"), chose(1, B), ended(1, "failure"))
+    again = (node(1, 0, "call"), chose(1, B), ended(1))
     story = planned(*first, Replanned(time=2.0, reason="stuck"), plan, *again)
     assert [(step.number, step.status) for step in steps_of(story)] == [
         ("1", "failure"),
@@ -173,7 +173,7 @@ def test_plans_that_number_their_nodes_anew_are_told_apart() -> None:
 
 
 def test_a_recording_that_stops_has_no_status_and_says_what_ran() -> None:
-    story = planned(node(1, 0, "call"), chose(1, "lab:b"))
+    story = planned(node(1, 0, "call"), chose(1, B))
     assert story.status == "" and steps_of(story)[0].status == "running"
 
 
@@ -184,9 +184,9 @@ def test_the_end_of_a_task_is_that_of_its_story() -> None:
 
 
 def test_without_a_task_there_is_no_story() -> None:
-    assert story_of([]) is None
+    assert read_story([]) is None
 
 
 def test_a_story_survives_json() -> None:
-    story = planned(node(1, 0, "call"), chose(1, "lab:b"), ended(1))
+    story = planned(node(1, 0, "call"), chose(1, B), ended(1))
     assert msgspec.json.decode(msgspec.json.encode(story), type=Story) == story

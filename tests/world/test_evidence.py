@@ -20,8 +20,9 @@ from skillc_compiler.library.conditions import (
 from skillc_runtime.world import evidence
 from skillc_runtime.world.changes import AddIndividual, ClearProperty, RemoveIndividual, RemoveRelation
 from skillc_runtime.world.evidence import Evidence
-from skillc_runtime.world.facts import Fact, Related, Typed, Valued, fact_text
+from skillc_runtime.world.facts import Fact, Related, Typed, Valued
 from skillc_runtime.world.grounds import grounds
+from skillc_runtime.world.labelled import format_fact, label_fact
 from skillc_runtime.world.model import WorldModel
 from store.memory import MemoryStore
 from store.worlds import model_of
@@ -154,10 +155,10 @@ FREED = "not t:gripper contain t:eraser"
 @pytest.mark.parametrize(
     ("condition", "expected"),
     [
-        (BOX_HEAVY, {"t:box.weight == 4": "sensed"}),
-        (Not(BOX_HEAVY), {"t:box.weight == 4": "sensed"}),
-        (And((BOX_HEAVY, CLEAN)), {"t:box.weight == 4": "sensed", "t:board.isClean == true": "assumed"}),
-        (Or((CLEAN, BOX_HEAVY)), {"t:box.weight == 4": "sensed"}),
+        (BOX_HEAVY, {"t:box.weight == 4 kg": "sensed"}),
+        (Not(BOX_HEAVY), {"t:box.weight == 4 kg": "sensed"}),
+        (And((BOX_HEAVY, CLEAN)), {"t:box.weight == 4 kg": "sensed", "t:board.isClean == true": "assumed"}),
+        (Or((CLEAN, BOX_HEAVY)), {"t:box.weight == 4 kg": "sensed"}),
         (And((CLEAN, IN_GRIPPER)), {FREED: "assumed"}),
         (NOTHING_HELD, {FREED: "assumed"}),
         (ALL_FREE, None),
@@ -172,7 +173,7 @@ def test_a_condition_rests_on_the_facts_that_decide_it(condition: Condition, exp
     world.commit([fact("shelf", "contain", "eraser")], "Place", "assumed")
     found = grounds(condition, world, {})
     told = {
-        fact_text(each.fact, world.snapshot()): each.established.evidence
+        format_fact(label_fact(each.fact, world.snapshot())): each.established.evidence
         for each in found
         if each.established is not None
     }

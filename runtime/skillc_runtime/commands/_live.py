@@ -10,8 +10,8 @@ from rich.status import Status as Spinner
 from rich.text import Text
 
 from skillc_runtime.commands._console import console
-from skillc_runtime.trace.events import Event, NodeEnded, NodeStarted, PlanMade, Replanned, TaskEnded
-from skillc_runtime.trace.known import status_words
+from skillc_runtime.recording.events import Event, NodeEnded, NodeStarted, PlanMade, Replanned, TaskEnded
+from skillc_runtime.recording.known import format_status
 
 STEP_DEPTH = 2
 """Calls this deep are told of where the output is no terminal: the steps of a plan and what they call."""
@@ -56,11 +56,11 @@ class Live:
             case NodeEnded(node=node):
                 self._calls.pop(node, None)
             case Replanned(reason=reason):
-                self.say(f"planning anew: {reason}")
+                self.say(f"planning again: {reason}")
             case PlanMade(steps=steps, quality=quality):
                 self.say(f"{' -> '.join(step.skill for step in steps)} ({quality})")
             case TaskEnded(status=status, verified=verified):
-                self.say(status_words(status, verified))
+                self.say(format_status(status, verified))
             case _:
                 pass
 

@@ -9,9 +9,9 @@ from typing import NoReturn
 import click
 
 from skillc_runtime.commands._paths import look
-from skillc_runtime.trace.history import story_of
-from skillc_runtime.trace.reader import TraceError, TraceReader
-from skillc_runtime.trace.story import Story
+from skillc_runtime.recording.history import read_story
+from skillc_runtime.recording.reader import TraceError, TraceReader
+from skillc_runtime.recording.story import Story
 
 NAME = "events.jsonl"
 
@@ -26,7 +26,7 @@ def told(run: Path) -> Story:
         _refuse(f"{path} {found.is_what}")
     reader = TraceReader(path)
     try:
-        story = story_of(reader)
+        story = read_story(reader)
     except TraceError as error:
         _refuse(str(error))
     except OSError as error:

@@ -9,8 +9,8 @@ import click
 import msgspec
 
 from skillc_runtime.commands._console import console
-from skillc_runtime.report.result import TaskResult
-from skillc_runtime.report.table import render
+from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.evaluation.report.table import render
 
 
 def show(results: Sequence[TaskResult], directory: Path | None) -> None:

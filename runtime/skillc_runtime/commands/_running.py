@@ -17,21 +17,22 @@ from skillc_runtime.commands import _looks
 from skillc_runtime.commands._following import Follower
 from skillc_runtime.commands._live import Live
 from skillc_runtime.commands._mission import Mission
+from skillc_runtime.evaluation.report.choices import Choices
+from skillc_runtime.evaluation.report.drawing import Drawing, make_drawing
+from skillc_runtime.evaluation.report.moments import find_moments
+from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.evaluation.report.summary import summarise
+from skillc_runtime.evaluation.report.wiping import find_wipings
+from skillc_runtime.evaluation.report.write import write_report
 from skillc_runtime.execution.assignment import PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.planning.planners import Planners
-from skillc_runtime.report.drawing import Drawing, drawing
-from skillc_runtime.report.moments import moments
-from skillc_runtime.report.result import TaskResult
-from skillc_runtime.report.summary import Choices, summarise
-from skillc_runtime.report.wiping import find_wipings
-from skillc_runtime.report.write import write_report
+from skillc_runtime.recording.events import Listener
+from skillc_runtime.recording.writer import TraceWriter
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.film import Film, Filmed, Moment
 from skillc_runtime.simulation.pictures import FilmError
 from skillc_runtime.simulation.rendering import RenderingError
-from skillc_runtime.trace.events import Listener
-from skillc_runtime.trace.writer import TraceWriter
 from skillc_runtime.world.frames import FrameError
 from skillc_runtime.world.sheet import SheetError
 from skillc_runtime.world.store.store import StoreError
@@ -107,9 +108,9 @@ def _run(
         if options.out is None or film is None:
             return Ran(result)
         live.say("writing the report")
-        drawings = tuple(drawing(wiping, cell) for wiping in wipings)
+        drawings = tuple(make_drawing(wiping, cell) for wiping in wipings)
         try:
-            filmed = _filmed(film, options.out, moments(wipings, trees, choices, cell))
+            filmed = _filmed(film, options.out, find_moments(wipings, trees, choices, cell))
             write_report(options.out, result, execution, drawings, filmed)
         except OSError as error:
             click.echo(_refusal(options.out, error), err=True)

@@ -18,13 +18,13 @@ from skillc_compiler.library import codec
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.commands import _mission
 from skillc_runtime.commands._console import console
-from skillc_runtime.trials import identity, page
-from skillc_runtime.trials.experiment import Experiment, Laboratory
-from skillc_runtime.trials.journal import Heading, Journal, JournalError, missing
-from skillc_runtime.trials.series import Series, series
-from skillc_runtime.trials.trial import Disturbance, Trial
-from skillc_runtime.trials.verdict import misses
-from skillc_runtime.trials.workers import run_all
+from skillc_runtime.evaluation.trials import identity, page
+from skillc_runtime.evaluation.trials.experiment import Experiment, TrialRunner
+from skillc_runtime.evaluation.trials.journal import Heading, Journal, JournalError, missing
+from skillc_runtime.evaluation.trials.series import Series, judge_series
+from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
+from skillc_runtime.evaluation.trials.verdict import find_misses
+from skillc_runtime.evaluation.trials.workers import run_all
 
 PAGE = "trials.html"
 
@@ -50,7 +50,7 @@ def tried(wanted: Wanted) -> Series:
     _mission.loaded(scene, library)
     experiment = Experiment(codec.dumps(library), task.name, scene, wanted.disturbance)
     trials = _all(wanted, experiment, _heading(experiment, library))
-    return series(task.name, wanted.disturbance, len(wanted.seeds), trials)
+    return judge_series(task.name, wanted.disturbance, len(wanted.seeds), trials)
 
 
 def write_page(result: Series, out: Path) -> None:
@@ -71,7 +71,7 @@ def _all(wanted: Wanted, experiment: Experiment, heading: Heading) -> tuple[Tria
         done = {trial.seed: trial for trial in kept if trial.seed in wanted.seeds}
         told = stack.enter_context(Told(experiment.task, wanted, len(done)))
         left = missing(wanted.seeds, kept)
-        for trial in _until_interrupted(run_all(partial(Laboratory, experiment), left, wanted.jobs)):
+        for trial in _until_interrupted(run_all(partial(TrialRunner, experiment), left, wanted.jobs)):
             done[trial.seed] = trial
             if journal is not None:
                 journal.add(trial)
@@ -83,9 +83,9 @@ def _heading(experiment: Experiment, library: SkillLibrary) -> Heading:
     return Heading(
         task=experiment.task,
         disturbance=experiment.disturbance,
-        skillc=identity.skillc(),
+        skillc=identity.skillc_identity(),
         library=f"{library.name} of {library.hash[: identity.DIGITS]}",
-        scene=identity.of_file(experiment.scene),
+        scene=identity.file_identity(experiment.scene),
     )
 
 
@@ -125,7 +125,7 @@ class Told:
         """Tell of a trial; on a terminal the good ones only move the bar."""
         self._done += 1
         self._bar.advance(self._row)
-        why = misses(trial, self._disturbance)
+        why = find_misses(trial, self._disturbance)
         if why or self._bar.disable:
             line = f"seed {trial.seed}: {'; '.join(why) or 'as it should be'} ({self._done} of {self._count})"
             self._console.print(line, soft_wrap=True)

@@ -7,11 +7,12 @@ from itertools import chain as together
 
 import msgspec
 
-from skillc_runtime.trace.failure import Failure, Rejected
-from skillc_runtime.trace.known import known_words, status_words
-from skillc_runtime.trace.question import Answer
-from skillc_runtime.trace.reasons import Determined, Untried
-from skillc_runtime.trace.story import Attempt, Call, Fact, Link, Story
+from skillc_runtime.recording.failure import Failure, Rejection
+from skillc_runtime.recording.known import assumed_facts, format_evidence, format_status, what_to_sense
+from skillc_runtime.recording.question import Answer
+from skillc_runtime.recording.reasons import ParameterReason, UntriedImplementation
+from skillc_runtime.recording.story import Attempt, Call, Fact, FailedNode, Story
+from skillc_runtime.world.labelled import format_fact, format_value
 
 HOW = {"passed": "passed by the caller", "default": "the default", "inferred": "found in the world"}
 PLANNED = "bound by the planner"
@@ -43,7 +44,7 @@ def explanation(answer: Answer) -> str:
 
 def _ending(story: Story) -> str:
     if story.status:
-        return f"{status_words(story.status, story.verified)} after {story.last:.1f} s"
+        return f"{format_status(story.status, story.verified)} after {story.last:.1f} s"
     running = [call.skill for call in story.calls if call.status == "running"]
     where = f", in {' > '.join(running)}" if running else ""
     return f"the recording ends at {story.last:.1f} s, before the task does{where}"
@@ -53,13 +54,13 @@ def _rests_on(story: Story) -> list[str]:
     """Return the facts that a success rests on, and what would have to be sensed where they are only assumed."""
     if not story.known:
         return []
-    lines = [f"{each.fact}  ({known_words(each)})" for each in story.known]
-    return ["rests on:", *_indented(lines), *_indented(each.wanted for each in story.known if each.wanted)]
+    lines = [f"{format_fact(each.fact)}  ({format_evidence(each)})" for each in story.known]
+    return ["rests on:", *_indented(lines), *_indented(what_to_sense(each) for each in assumed_facts(story.known))]
 
 
 def _attempt(attempt: Attempt) -> Iterator[str]:
     if attempt.replaces:
-        yield f"planned anew: {attempt.replaces}"
+        yield f"planned again: {attempt.replaces}"
     if attempt.planner:
         quality = attempt.quality or {"proven": "proved optimal"}.get(attempt.optimal, "")
         proved = f", {quality}" if quality else ""
@@ -73,7 +74,7 @@ def _attempt(attempt: Attempt) -> Iterator[str]:
 def _arguments(call: Call) -> str:
     """Return what is not a default, on one line."""
     defaults = {each.parameter for each in call.determined if each.how == "default"}
-    return ", ".join(f"{name}: {value}" for name, value in call.bindings.items() if name not in defaults)
+    return ", ".join(f"{name}: {format_value(value)}" for name, value in call.bindings.items() if name not in defaults)
 
 
 def _line(call: Call, depth: int = 0) -> str:
@@ -110,7 +111,7 @@ def _never(call: Call) -> Iterator[str]:
     if call.status == "skipped":
         yield "  skipped: what it is for held already when its turn came"
     if call.status == "not started":
-        yield "  never started: the run ended, or was planned anew, before its turn"
+        yield "  never started: the run ended, or was planned again, before its turn"
 
 
 def _choice(call: Call) -> Iterator[str]:
@@ -131,16 +132,16 @@ def _ground(call: Call) -> str:
     return "the first in rank that fits" if _others(call) or call.untried else "the only one"
 
 
-def _others(call: Call) -> tuple[Rejected, ...]:
+def _others(call: Call) -> tuple[Rejection, ...]:
     """Return the implementations that did not do, but for the one chosen last, whose failure is the call's."""
     return tuple(each for each in call.rejected if each.implementation != call.implementation)
 
 
-def _would(untried: Untried) -> str:
+def _would(untried: UntriedImplementation) -> str:
     return f"would not fit, {untried.reason}" if untried.reason else "would fit too"
 
 
-def _refusal(rejected: Rejected) -> Iterator[str]:
+def _refusal(rejected: Rejection) -> Iterator[str]:
     yield f"{rejected.implementation}: {rejected.reason} ({rejected.source})"
     if rejected.failure is not None:
         yield from _indented(_causes(rejected.failure.causes))
@@ -149,16 +150,17 @@ def _refusal(rejected: Rejected) -> Iterator[str]:
 def _bound(call: Call, name: str) -> Iterator[str]:
     reason = next((each for each in call.determined if each.parameter == name), None)
     how = reason.how if reason is not None else "passed"
-    yield f"{name} = {call.bindings[name]}  ({PLANNED if call.planned and how == 'passed' else HOW[how]})"
+    yield f"{name} = {format_value(call.bindings[name])}  ({PLANNED if call.planned and how == 'passed' else HOW[how]})"
     if reason is not None:
         yield from _indented(_because(reason))
 
 
-def _because(reason: Determined) -> Iterator[str]:
+def _because(reason: ParameterReason) -> Iterator[str]:
     for condition in reason.conditions:
-        yield f"`{condition.text}` ({condition.source}): {'; '.join(condition.facts) or 'no fact decides it'}"
+        facts = "; ".join(map(format_fact, condition.facts))
+        yield f"`{condition.text}` ({condition.source}): {facts or 'no fact decides it'}"
     if reason.others:
-        yield f"`infer any` passed over {', '.join(reason.others)}"
+        yield f"`infer any` passed over {', '.join(other.label for other in reason.others)}"
 
 
 def _failed(call: Call) -> Iterator[str]:
@@ -182,7 +184,7 @@ def _causes(causes: Sequence[Failure]) -> Iterator[str]:
         yield from _indented(_causes(cause.causes))
 
 
-def _chain(links: Sequence[Link], known: str = "") -> Iterator[str]:
+def _chain(links: Sequence[FailedNode], known: str = "") -> Iterator[str]:
     """Lead to the innermost one, whose reason is said unless it is known."""
     for depth, link in enumerate(links):
         innermost = f": {link.message}" if link is links[-1] and link.message not in known else ""
@@ -191,7 +193,8 @@ def _chain(links: Sequence[Link], known: str = "") -> Iterator[str]:
 
 def _fact(fact: Fact) -> str:
     known = f"{fact.known}, " if fact.known else ""
-    return fact.text if fact.since is None else f"{fact.text}  ({known}since {fact.since:.1f} s, by {fact.by})"
+    text = format_fact(fact.fact)
+    return text if fact.since is None else f"{text}  ({known}since {fact.since:.1f} s, by {fact.by})"
 
 
 def _parameter(call: Call, name: str) -> Iterator[str]:

@@ -15,8 +15,8 @@ import click
 from skillc_runtime.commands import _looks
 
 if TYPE_CHECKING:
-    from skillc_runtime.report.drawing import Drawing
-    from skillc_runtime.report.result import TaskResult
+    from skillc_runtime.evaluation.report.drawing import Drawing
+    from skillc_runtime.evaluation.report.result import TaskResult
 
 SEED = 1
 """With this seed both surfaces lie more than a centimetre away from where the world model believes."""
@@ -61,7 +61,7 @@ def command(robot: str, out: Path | None, seed: int, looks: str, as_json: bool) 
 def _side_by_side(out: Path, drawings: Sequence[Drawing], quiet: bool) -> None:
     """Write the figure that compares what was wiped."""
     from skillc_runtime.commands._running import writing
-    from skillc_runtime.report.write import write_figure
+    from skillc_runtime.evaluation.report.write import write_figure
 
     with writing(out):
         written = write_figure(out, drawings)

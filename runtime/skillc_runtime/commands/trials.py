@@ -12,7 +12,7 @@ from typing import get_args
 
 import click
 
-from skillc_runtime.trials.trial import Disturbance
+from skillc_runtime.evaluation.trials.trial import Disturbance
 
 
 @click.command()
@@ -39,7 +39,7 @@ def command(
     """
     from skillc_runtime.commands import _trialling
     from skillc_runtime.commands._console import console
-    from skillc_runtime.trials.table import render
+    from skillc_runtime.evaluation.trials.table import render
 
     at_a_time = min(jobs or os.cpu_count() or 1, number)
     wanted = _trialling.Wanted(task, disturb, range(seed, seed + number), at_a_time, out, as_json)

@@ -24,11 +24,11 @@ def command(run: Path, question: str | None, as_json: bool) -> None:
     (`Pick`), or a parameter (`gripper`, `Pick.gripper`, `2.gripper`).
     """
     from skillc_runtime.commands import _recordings, _why
-    from skillc_runtime.trace.question import QuestionError, asked
+    from skillc_runtime.recording.question import QuestionError, find_answer
 
     story = _recordings.told(run)
     try:
-        answer = asked(story, question) if question is not None else None
+        answer = find_answer(story, question) if question is not None else None
     except QuestionError as error:
         raise click.UsageError(str(error)) from error
     if as_json:

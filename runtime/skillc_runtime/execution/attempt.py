@@ -14,11 +14,12 @@ from skillc_runtime.execution.success_facts import Claim
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.planning.plan import describe_quality
 from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.recording.events import Listener, Note, PlanMade, PlanStep
+from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.listeners import Listeners
+from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.robots.cell import Cell
-from skillc_runtime.trace.events import Listener, Note, PlanMade, PlanStep
-from skillc_runtime.trace.failure import Failure
-from skillc_runtime.trace.listeners import Listeners
-from skillc_runtime.trace.outcome import Outcome
+from skillc_runtime.world.labelled import label
 from skillc_runtime.world.state import WorldState
 
 TICK_S = 0.01
@@ -133,17 +134,19 @@ def _emit_plan(prepared: PreparedTask, context: RunContext) -> None:
         return
     solved, skills = prepared.planned.solved, context.library.skills
     steps = tuple(
-        PlanStep(skill=step.skill, arguments=step.arguments, source=skills[step.skill].source)
+        PlanStep(
+            skill=step.skill,
+            arguments={name: label(iri, context.library.vocabulary) for name, iri in step.arguments.items()},
+            source=skills[step.skill].source,
+        )
         for step in solved.plan.steps
     )
-    short = context.library.vocabulary.short
     event = PlanMade(
         time=context.cell.now,
         planner=solved.planner,
         optimal=solved.optimal,
         cost=solved.plan.duration_s,
         steps=steps,
-        names={iri: short(iri) for step in steps for iri in step.arguments.values()},
         quality=describe_quality(solved.optimal, solved.left_out, solved.at_least_s),
     )
     Listeners(context.listeners)(event)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TypeAlias, assert_never
+from typing import TypeAlias
 
 from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.vocabulary import local_name
-from skillc_runtime.trace.known import KnownFact
+from skillc_runtime.recording.known import KnownFact
 from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.facts import Fact, Related, Typed, Valued, fact_text
 from skillc_runtime.world.grounds import Ground, grounds
+from skillc_runtime.world.labelled import label_fact
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
@@ -32,25 +31,7 @@ def collect_success_facts(claims: Iterable[Claim], world: WorldModel) -> tuple[K
 
 
 def _make_known_fact(ground: Ground, state: WorldState) -> KnownFact:
-    text, established = fact_text(ground.fact, state), ground.established
+    fact, established = label_fact(ground.fact, state), ground.established
     if established is None or established.evidence is None:
-        return KnownFact(fact=text, known="given")
-    wanted = _describe_missing_measurement(ground.fact, established.origin, state) if ground.assumed else ""
-    return KnownFact(fact=text, known=established.evidence, by=established.origin, wanted=wanted)
-
-
-def _describe_missing_measurement(fact: Fact, origin: str, state: WorldState) -> str:
-    """Say what would have to be sensed for an assumed fact to be known."""
-    short, after = state.vocabulary.short, f" after {origin}" if origin else ""
-    match fact:
-        case Related(subject, relation, object_, holds):
-            there = "holds" if holds else "does not hold"
-            name = local_name(relation)
-            return f"a device would have to sense{after} that `{short(subject)} {name} {short(object_)}` {there}"
-        case Valued(individual, property_):
-            return f"a device would have to measure {short(property_)} of {short(individual)}{after}"
-        case Typed(individual, cls, holds):
-            article = "a" if holds else "no"
-            return f"a device would have to recognise{after} that {short(individual)} is {article} {short(cls)}"
-        case _:
-            assert_never(fact)
+        return KnownFact(fact=fact, known="given")
+    return KnownFact(fact=fact, known=established.evidence, by=established.origin)

@@ -22,10 +22,10 @@ from skillc_runtime.execution.plans.progress import measure_progress
 from skillc_runtime.execution.success_facts import collect_success_facts
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.trace.events import FORMAT, Listener, Replanned, TaskEnded, TaskStarted
-from skillc_runtime.trace.failure import Failure
-from skillc_runtime.trace.known import KnownFact, assumed
-from skillc_runtime.trace.listeners import Listeners
+from skillc_runtime.recording.events import FORMAT, Listener, Replanned, TaskEnded, TaskStarted
+from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.known import KnownFact, assumed_facts
+from skillc_runtime.recording.listeners import Listeners
 from skillc_runtime.world.conditions import evaluate
 
 MAX_ATTEMPTS = 4
@@ -98,7 +98,7 @@ def _success_facts(last: AttemptResult, cell: SteppedCell) -> tuple[KnownFact, .
 
 
 def _is_verified(status: Status, facts: tuple[KnownFact, ...]) -> bool | None:
-    return None if status is not Status.SUCCESS else not assumed(facts)
+    return None if status is not Status.SUCCESS else not assumed_facts(facts)
 
 
 def _next_attempt(attempts: Sequence[AttemptResult], context: RunContext) -> PreparedTask | NotStarted | None:

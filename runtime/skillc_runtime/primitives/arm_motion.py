@@ -8,6 +8,7 @@ from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.primitives.place_description import describe_place
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.robots.feasible import Infeasible
+from skillc_runtime.world.labelled import Quantity
 
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
@@ -65,7 +66,11 @@ class ArmMotion(Primitive):
     def limits(self, speed: float) -> MotionLimits:
         """Return the limits of a tool motion at a speed in m/s; SkillFailure if the arm allows less."""
         if speed > self.arm.gains.speed_limit:
-            raise SkillFailure(f"{speed:g} m/s is faster than the {self.arm.gains.speed_limit:g} m/s the arm allows")
+            raise SkillFailure(
+                "{speed} is faster than the {limit} the arm allows",
+                speed=Quantity(speed, "m/s"),
+                limit=Quantity(self.arm.gains.speed_limit, "m/s"),
+            )
         return MotionLimits(speed, self.arm.gains.acceleration_limit, jerk=self.arm.gains.jerk_limit)
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.world.changes import SetProperty
+from skillc_runtime.world.labelled import Quantity, label
 from skillc_runtime.world.terms import IS_ON, PRESSED_WITH
 
 if TYPE_CHECKING:
@@ -18,6 +19,8 @@ PRESS_HOLD_S = 0.2
 
 class AwaitSwitch(Primitive):
     """Waits up to `patience` s until the button that the arm presses has switched; writes that and the force in N."""
+
+    highlights = (("ends", "button", "pressed"),)
 
     def __init__(self, cell: Cell, *, arm: str, button: str, patience: float) -> None:
         super().__init__(cell)
@@ -41,8 +44,12 @@ class AwaitSwitch(Primitive):
             self._note()
             return Status.SUCCESS
         if self._switched_at is None and self.cell.now - self._began > self._patience:
-            name = self.cell.world.snapshot().vocabulary.short(self._button)
-            raise SkillFailure(f"{name} has not switched within {self._patience:g} s, pressed with {self._force:.1f} N")
+            raise SkillFailure(
+                "{button} has not switched within {patience}, pressed with {force:.1f}",
+                button=label(self._button, self.cell.world.snapshot().vocabulary),
+                patience=Quantity(self._patience, "s"),
+                force=Quantity(self._force, "N"),
+            )
         return Status.RUNNING
 
     @property

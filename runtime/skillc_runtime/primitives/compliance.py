@@ -13,6 +13,7 @@ from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.primitives.surface_location import write_surface_pose
 from skillc_runtime.robots.contact import FALL_SHARE, Approach, Pressed, advance, go_on
+from skillc_runtime.world.labelled import Quantity
 
 if TYPE_CHECKING:
     from skillc_runtime.robots.arm import ArmState
@@ -66,6 +67,8 @@ class Push(Primitive):
     Fails when nothing is met within `travel` m; stops the arm when, later, contact is lost and it sinks by as much.
     """
 
+    activity = "press"
+
     def __init__(
         self, cell: Cell, *, arm: str, along: Array, force: float, travel: float, approach: float = APPROACH_M_S
     ) -> None:
@@ -85,7 +88,11 @@ class Push(Primitive):
                 "the arm must yield along the direction in which it shall push; use it within Compliance"
             )
         if self._force > self.arm.gains.force_limit:
-            raise SkillFailure(f"{self._force:g} N is more than the {self.arm.gains.force_limit:g} N the arm allows")
+            raise SkillFailure(
+                "{force} is more than the {limit} the arm allows",
+                force=Quantity(self._force, "N"),
+                limit=Quantity(self.arm.gains.force_limit, "N"),
+            )
         self._axis = self.arm.in_base(self._along)
         self._approach()
         self.arm.watch(self._observe)

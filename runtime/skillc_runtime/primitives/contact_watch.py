@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.world.changes import SetProperty
+from skillc_runtime.world.labelled import Quantity, label
 from skillc_runtime.world.terms import CONTACT_SHARE
 from skillc_runtime.world.working import least_contact, least_force_n
 
@@ -46,7 +47,7 @@ class KeepContact(Primitive):
             self._lost_s -= self._lost.popleft()[1]
         if self._lost_s > (1 - self._share) * self._over:
             self._note()
-            raise SkillFailure(self._describe_loss())
+            raise self._failure()
         return Status.RUNNING
 
     def halt(self, reason: str) -> None:
@@ -59,9 +60,13 @@ class KeepContact(Primitive):
             [SetProperty(self._surface, CONTACT_SHARE, self._contacts / self._samples)], "KeepContact", "sensed"
         )
 
-    def _describe_loss(self) -> str:
-        name = self.cell.world.snapshot().vocabulary.short(self._surface)
-        return (
-            f"contact with {name} was lost for {self._lost_s:.1f} s of the last {self._over:g} s: the arm "
-            f"measured less than {self._least_n:g} N; it must measure more for {self._share:.0%} of the time"
+    def _failure(self) -> SkillFailure:
+        return SkillFailure(
+            "contact with {surface} was lost for {lost:.1f} of the last {over}: the arm measured less than {least}; "
+            "it must measure more for {share:.0%} of the time",
+            surface=label(self._surface, self.cell.world.snapshot().vocabulary),
+            lost=Quantity(self._lost_s, "s"),
+            over=Quantity(self._over, "s"),
+            least=Quantity(self._least_n, "N"),
+            share=Quantity(self._share),
         )

@@ -8,6 +8,7 @@ from skillc_runtime.robots.cell import Cell
 from skillc_runtime.robots.tools import working_face
 from skillc_runtime.world.changes import AddRelation, RemoveRelation
 from skillc_runtime.world.frames import placed, pose, size
+from skillc_runtime.world.labelled import Quantity, label
 from skillc_runtime.world.terms import CONTAIN, FRAME_ID, GRASP_WIDTH
 
 FREE_CLEARANCE_M = 0.005
@@ -31,14 +32,18 @@ class Grasp(Primitive):
     def start(self) -> None:
         """Attach the object; SkillFailure if the fingers do not touch it from both sides."""
         gripper, state = self.cell.gripper(self._gripper), self.cell.world.snapshot()
-        hand, thing = map(state.vocabulary.short, (self._gripper, self._object))
+        hand, thing = (label(each, state.vocabulary) for each in (self._gripper, self._object))
         frame = state.value(self._gripper, FRAME_ID)
         if not isinstance(frame, str):
-            raise SkillFailure(f"{hand} has no skiros:FrameId in the world model, so no pose can be relative to it")
+            raise SkillFailure(
+                "{gripper} has no skiros:FrameId in the world model, so no pose can be relative to it", gripper=hand
+            )
         if not gripper.touches(self._object):
             raise SkillFailure(
-                f"the fingers of {hand} do not touch {thing} from both sides: "
-                f"they stand {1000 * gripper.opening_m:.0f} mm open"
+                "the fingers of {gripper} do not touch {object} from both sides: they stand {opening:.0f mm} open",
+                gripper=hand,
+                object=thing,
+                opening=Quantity(gripper.opening_m, "m"),
             )
         self._frame = frame
         self._in_hand = pose(state, self._grasp).inverse() @ pose(state, self._object)
@@ -79,10 +84,12 @@ class Release(Primitive):
         if self._gripper.moving:
             return Status.RUNNING
         if not self._freed:
-            short = self.cell.world.snapshot().vocabulary.short
+            words = self.cell.world.snapshot().vocabulary
             raise SkillFailure(
-                f"the fingers of {short(self._hand)} came to rest {1000 * self._gripper.opening_m:.0f} mm open: "
-                f"{short(self._object)} is not free"
+                "the fingers of {gripper} came to rest {opening:.0f mm} open: {object} is not free",
+                gripper=label(self._hand, words),
+                opening=Quantity(self._gripper.opening_m, "m"),
+                object=label(self._object, words),
             )
         return Status.SUCCESS
 

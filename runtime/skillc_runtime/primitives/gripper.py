@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.robots.cell import Cell
+from skillc_runtime.world.labelled import Iri, Quantity, label
 from skillc_runtime.world.sheet import SheetError, sheet_of
 
 TOLERANCE_M = 0.003
@@ -21,10 +22,16 @@ class ParallelGripper(Primitive):
         """Start moving; SkillFailure if the fingers cannot open so far."""
         if self._opening > self._gripper.max_opening_m + TOLERANCE_M:
             raise SkillFailure(
-                f"{self._name} opens to {1000 * self._gripper.max_opening_m:.0f} mm, "
-                f"not to {1000 * self._opening:.0f} mm"
+                "{gripper} opens to {widest:.0f mm}, not to {wanted:.0f mm}",
+                gripper=self._label,
+                widest=Quantity(self._gripper.max_opening_m, "m"),
+                wanted=Quantity(self._opening, "m"),
             )
         self._gripper.move(*self.command())
+
+    @property
+    def _label(self) -> Iri:
+        return label(self._name, self.cell.world.snapshot().vocabulary)
 
     def command(self) -> tuple[float, float]:
         """Return the commanded opening in m and force in N."""
@@ -37,8 +44,10 @@ class ParallelGripper(Primitive):
         opening = self._gripper.opening_m
         if opening < self._opening - TOLERANCE_M:
             raise SkillFailure(
-                f"{self._name} is {1000 * opening:.0f} mm open, not {1000 * self._opening:.0f} mm: "
-                "something is in the way"
+                "{gripper} is {opening:.0f mm} open, not {wanted:.0f mm}: something is in the way",
+                gripper=self._label,
+                opening=Quantity(opening, "m"),
+                wanted=Quantity(self._opening, "m"),
             )
         return Status.SUCCESS
 

@@ -10,6 +10,7 @@ from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.world.changes import SetProperty
 from skillc_runtime.world.frames import placed
+from skillc_runtime.world.labelled import Quantity, label
 from skillc_runtime.world.terms import IS_TAUGHT
 
 if TYPE_CHECKING:
@@ -24,6 +25,8 @@ STANDSTILL_M_S = 0.005
 
 class AwaitGuidance(Primitive):
     """Waits up to `patience` s until the tool was guided and then stood still for `still` s; writes its pose."""
+
+    highlights = (("ends", "pose", "shown"),)
 
     def __init__(self, cell: Cell, *, arm: str, pose: str, still: float, patience: float) -> None:
         super().__init__(cell)
@@ -48,9 +51,10 @@ class AwaitGuidance(Primitive):
             self.cell.world.commit(taught, "AwaitGuidance", "sensed")
             return Status.SUCCESS
         if now - self._began > self._patience:
-            name = self.cell.world.snapshot().vocabulary.short(self._name)
             raise SkillFailure(
-                f"nobody guided the tool of {name} to a pose within {self._patience:g} s: "
-                f"it is {away * 1e3:.0f} mm from its start"
+                "nobody guided the tool of {arm} to a pose within {patience}: it is {away:.0f mm} from its start",
+                arm=label(self._name, self.cell.world.snapshot().vocabulary),
+                patience=Quantity(self._patience, "s"),
+                away=Quantity(away, "m"),
             )
         return Status.RUNNING

@@ -11,6 +11,7 @@ from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.world.changes import SetProperty
 from skillc_runtime.world.frames import pose
+from skillc_runtime.world.labelled import Quantity, label
 from skillc_runtime.world.sheet import SheetError, number
 from skillc_runtime.world.terms import DEPTH, INSERTED_DEPTH, IS_SEATED
 
@@ -27,6 +28,8 @@ of the opening is not known better than that."""
 
 class SinkBelow(Primitive):
     """Waits up to `patience` s until the tool is `depth` m below a target, against the unit direction `along` (3,)."""
+
+    activity = "search"
 
     def __init__(self, cell: Cell, *, arm: str, target: Pose, along: Array, depth: float, patience: float) -> None:
         super().__init__(cell)
@@ -47,14 +50,18 @@ class SinkBelow(Primitive):
             return Status.SUCCESS
         if self.cell.now - self._began > self._patience:
             raise SkillFailure(
-                f"nothing gave way within {self._patience:g} s: the tool sank {self._deepest * 1e3:.1f} mm "
-                f"below the target, not {self._depth * 1e3:g} mm"
+                "nothing gave way within {patience}: the tool sank {sank:.1f mm} below the target, not {wanted:g mm}",
+                patience=Quantity(self._patience, "s"),
+                sank=Quantity(self._deepest, "m"),
+                wanted=Quantity(self._depth, "m"),
             )
         return Status.RUNNING
 
 
 class Seat(Primitive):
     """Waits up to `patience` s until a pushed peg rests in a socket; writes its depth and if it is at the bottom."""
+
+    highlights = (("begins", "socket", "found"), ("ends", "socket", "filled"))
 
     def __init__(self, cell: Cell, *, arm: str, object: str, socket: str, patience: float) -> None:
         super().__init__(cell)
@@ -88,10 +95,14 @@ class Seat(Primitive):
         noted = [SetProperty(self._peg, INSERTED_DEPTH, depth), SetProperty(self._peg, IS_SEATED, seated)]
         self.cell.world.commit(noted, "Seat", "sensed")
         if not seated:
-            short = self.cell.world.snapshot().vocabulary.short
-            rest = "rests" if resting else f"still moves after {self._patience:g} s,"
+            words = self.cell.world.snapshot().vocabulary
+            rest = "rests" if resting else "still moves after {patience},"
             raise SkillFailure(
-                f"{short(self._peg)} {rest} {depth * 1e3:.1f} mm deep in {short(self._socket)}, "
-                f"which is {self._bottom * 1e3:.1f} mm deep"
+                f"{{object}} {rest} {{depth:.1f mm}} deep in {{socket}}, which is {{hole:.1f mm}} deep",
+                object=label(self._peg, words),
+                socket=label(self._socket, words),
+                patience=Quantity(self._patience, "s"),
+                depth=Quantity(depth, "m"),
+                hole=Quantity(self._bottom, "m"),
             )
         return Status.SUCCESS

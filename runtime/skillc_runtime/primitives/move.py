@@ -14,6 +14,7 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.collision_free_motion import move_collision_free
 from skillc_runtime.primitives.primitive import SkillFailure
+from skillc_runtime.world.labelled import Quantity, Vector
 from skillc_runtime.world.sheet import SheetError, sheet_of
 from skillc_runtime.world.terms import HAS_POSTURE, HAS_SHEET, POSTURE_NAME
 
@@ -42,10 +43,12 @@ class MoveJoints(ArmMotion):
         seed = _find_posture(self.cell.world.snapshot(), self._individual, HOME)
         q = self.arm.inverse_kinematics(self._target, seed)
         if q is None:
-            place = ", ".join(f"{part:.3f}" for part in self._target.position)
-            far = np.linalg.norm(self._target.position - self.arm.pose.position)
+            x, y, z = self._target.position.tolist()
+            far = float(np.linalg.norm(self._target.position - self.arm.pose.position))
             raise SkillFailure(
-                f"the arm cannot reach ({place}) m in this orientation, {far:.2f} m from where its tool is"
+                "the arm cannot reach {target:.3f} in this orientation, {far:.2f} from where its tool is",
+                target=Vector((x, y, z), "m"),
+                far=Quantity(far, "m"),
             )
         move_collision_free(self.cell, self._individual, chain([q], self._others(seed)), self._pace)
 

@@ -13,6 +13,7 @@ from skillc_runtime.motion.reference import Overlay
 from skillc_runtime.primitives.arm_motion import infeasible_motion
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.robots.feasible import Infeasible
+from skillc_runtime.world.labelled import Quantity
 
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
@@ -40,8 +41,9 @@ class AddedMotion(Primitive):
         """Fade in; SkillFailure if the motion is faster than the arm allows."""
         if self._speed > self.arm.gains.speed_limit:
             raise SkillFailure(
-                f"{self._name} runs with {self._speed:.2f} m/s, "
-                f"faster than the {self.arm.gains.speed_limit:g} m/s the arm allows"
+                f"{self._name} runs with {{speed:.2f}}, faster than the {{limit}} the arm allows",
+                speed=Quantity(self._speed, "m/s"),
+                limit=Quantity(self.arm.gains.speed_limit, "m/s"),
             )
         try:
             self._handle = self.arm.add_overlay(self._overlay, self._axes, FADE_TIME_S)

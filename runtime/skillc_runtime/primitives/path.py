@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 class FollowPath(ArmMotion):
     """Moves the tool through all poses of `path` at `speed` m/s; corners are blended by at most `blend` m."""
 
+    activity = "follow-path"
+
     def __init__(self, cell: Cell, *, arm: str, path: Sequence[Pose], speed: float, blend: float) -> None:
         super().__init__(cell, arm)
         self._poses, self._speed, self._blend = path, speed, blend

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from enum import Enum
 from types import MappingProxyType
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
+
+from skillc_runtime.world.labelled import LabelledValue, make_recordable
 
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell
@@ -21,8 +23,24 @@ class Status(Enum):
     HALTED = "halted"
 
 
+Activity: TypeAlias = Literal["", "press", "follow-path", "search"]
+"""`press`: a tool is pressed on something, with `force` N; `follow-path`: it is led along a path; `search`: it is moved
+about until something gives way. Empty for anything else."""
+
+Phase: TypeAlias = Literal["begins", "ends"]
+"""When a primitive begins, or when it ends well."""
+
+
 class SkillFailure(Exception):
-    """A primitive cannot do what it was called for; the message says why, with numbers."""
+    """A primitive cannot do what it was called for; the message says why, with numbers.
+
+    The values that are named in it, as in `SkillFailure("it sank {depth:.1f mm}", depth=Quantity(0.02, "m"))`, are put
+    into the message and recorded beside it.
+    """
+
+    def __init__(self, message: str, **values: LabelledValue) -> None:
+        super().__init__(message.format(**values) if values else message)
+        self.values = {name: make_recordable(value) for name, value in values.items()}
 
 
 class Primitive:
@@ -32,10 +50,15 @@ class Primitive:
     Individuals are passed as IRIs, quantities in SI units, unset optional parameters as None. Any method may raise
     SkillFailure; raised by `start` it means that another implementation may be tried.
 
+    `activity` says what it does, for measures and disturbances. `highlights` are the moments worth a picture: of
+    which parameter, and the word for what is seen then.
+
     `text_names` declares texts that name something, so that a misspelt one is reported before anything runs: for a
     parameter, the parameter to start from, the relations to follow and the property with the names, as IRIs.
     """
 
+    activity: ClassVar[Activity] = ""
+    highlights: ClassVar[tuple[tuple[Phase, str, str], ...]] = ()
     text_names: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType({})
 
     def __init__(self, cell: Cell) -> None:

@@ -13,8 +13,9 @@ from skillc_runtime.robots.cell import Cell
 from skillc_runtime.robots.gripper import Gripper
 from skillc_runtime.world.changes import RemoveRelation
 from skillc_runtime.world.evidence import Established
-from skillc_runtime.world.facts import Related, fact_text
+from skillc_runtime.world.facts import Related
 from skillc_runtime.world.frames import FrameError, pose
+from skillc_runtime.world.labelled import format_fact, label_fact
 from skillc_runtime.world.sheet import SheetError, number, sheet_of
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.terms import ARRIVAL_TOLERANCE, AT, CONTAIN, END_EFFECTOR, MOBILE_ROBOT
@@ -62,7 +63,7 @@ class DeviceWatch:
         known = self._cell.world.known(fact)
         change = RemoveRelation(fact.subject, fact.relation, fact.object)
         self._cell.world.commit([change], said, "reported")
-        return f"{said}, but the world model said `{fact_text(fact, state)}` ({how_known(known)})"
+        return f"{said}, but the world model said `{format_fact(label_fact(fact, state))}` ({how_known(known)})"
 
 
 def how_known(known: Established | None) -> str:

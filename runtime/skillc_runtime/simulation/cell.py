@@ -22,7 +22,7 @@ from skillc_runtime.simulation.facts import SceneFacts, SurfaceFacts, read_scene
 from skillc_runtime.simulation.gripper import SimulatedGripper
 from skillc_runtime.simulation.inspection import SimulatedCamera
 from skillc_runtime.simulation.observer import ToolObserver
-from skillc_runtime.simulation.person import people
+from skillc_runtime.simulation.person import make_people
 from skillc_runtime.simulation.recorder import Recording
 from skillc_runtime.simulation.variation import Variation, draw
 from skillc_runtime.world.changes import SetProperty
@@ -71,7 +71,7 @@ class SimulatedCell:
         self._camera = SimulatedCamera(self.coverage)
         self.watchdog = Watchdog()
         self._buttons = buttons(facts.fixtures, self.variation.fixtures, names, self.data)
-        self.people = people(facts, self.variation, self._drivers, self.data)
+        self.people = make_people(facts, self.variation, self._drivers, self.data)
         idle = [SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(self._drivers)]
         world.commit(idle, "start of the cell", "reported")
 
@@ -124,9 +124,9 @@ class SimulatedCell:
         """Return what was recorded of a tool, by IRI, while it was held; KeyError where the cell has no such tool."""
         return self._observers[tool].recorder.recording()
 
-    def strongest_force(self, tool: str) -> float:
+    def peak_force(self, tool: str) -> float:
         """Return the greatest force in N on a tool, by IRI, while it was held; KeyError where there is no such tool."""
-        return self._observers[tool].strongest.newton
+        return self._observers[tool].peak_force.newton
 
     def advance(self, seconds: float) -> None:
         """Let time pass: controllers, devices and physics, step by step. ControlError when a controller gives up."""

@@ -13,7 +13,7 @@ from skillc_runtime.motion.pose import Array, Pose, rotation_of
 from skillc_runtime.simulation.coverage import CoverageMap
 from skillc_runtime.simulation.dwell import LaneDwell, lane_dwell
 from skillc_runtime.simulation.highpass import highpass
-from skillc_runtime.simulation.recorder import Recording, joined
+from skillc_runtime.simulation.recorder import Recording, join_recordings
 
 LOST_N = 0.5
 """Normal force below which contact counts as lost."""
@@ -26,7 +26,7 @@ COVERAGE_PERIOD_S = 0.01
 
 
 @dataclass(frozen=True, slots=True)
-class Wiped:
+class WipingSetup:
     """What was wiped, with what: the surface's true frame in the world and layout, the tool's size (2,) m, force N.
 
     `least_n` is the least force with which a tool does something to the surface.
@@ -68,7 +68,7 @@ class WipingMetrics:
     duration_s: float
 
 
-def wiping_metrics(recording: Recording, strokes: Sequence[Stroke], wiped: Wiped) -> WipingMetrics:
+def measure_wiping(recording: Recording, strokes: Sequence[Stroke], wiped: WipingSetup) -> WipingMetrics:
     """Judge the wiping in all strokes of a recording that begins before the first contact.
 
     ValueError when nothing was recorded in them.
@@ -77,10 +77,10 @@ def wiping_metrics(recording: Recording, strokes: Sequence[Stroke], wiped: Wiped
     if not windows:
         times = ", ".join(f"{start:g} to {end:g} s" for start, end in strokes)
         raise ValueError(f"nothing was recorded from {times}")
-    window, touching = joined(windows), recording.without(strokes)
+    window, touching = join_recordings(windows), recording.without(strokes)
     tilt = _tilt_deg(window, wiped.surface)
     return WipingMetrics(
-        coverage=coverage(window, wiped).fraction,
+        coverage=measure_coverage(window, wiped).fraction,
         force_command_n=wiped.force_command_n,
         force_mean_n=float(window.force.mean()),
         force_rmse_n=_rms(window.force - wiped.force_command_n),
@@ -95,7 +95,7 @@ def wiping_metrics(recording: Recording, strokes: Sequence[Stroke], wiped: Wiped
     )
 
 
-def coverage(window: Recording, wiped: Wiped) -> CoverageMap:
+def measure_coverage(window: Recording, wiped: WipingSetup) -> CoverageMap:
     """Return the contact time of every cell of the surface, sampled at 100 Hz or more."""
     result = CoverageMap(wiped.surface, wiped.layout, wiped.least_n)
     stride = max(1, int(COVERAGE_PERIOD_S / _step(window) + 1e-6))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import sqrt
 from typing import Any
 
 import numpy as np
@@ -11,9 +12,8 @@ from skillc_runtime.motion.pose import Array, rotation_of
 from skillc_runtime.robots.driver import ArmDriver
 from skillc_runtime.simulation.coverage import CoverageMap
 from skillc_runtime.simulation.facts import ToolFacts
-from skillc_runtime.simulation.names import face_sensor, pressing_sensor
+from skillc_runtime.simulation.names import contact_sensor, face_sensor, pressing_sensor
 from skillc_runtime.simulation.recorder import Recorder
-from skillc_runtime.simulation.strongest import StrongestForce
 
 STEPS_PER_UPDATE = 10
 """Coverage and reference are looked at every so many steps: at 100 Hz with steps of 1 ms."""
@@ -33,12 +33,12 @@ class ToolObserver:
         self._reach = float(np.hypot(*self._extent)) / 2
         self._seconds = STEPS_PER_UPDATE * model.opt.timestep
         self._steps = 0
-        self.recorder, self.strongest = Recorder(self._truth), StrongestForce(name, model, data)
+        self.recorder, self.peak_force = Recorder(self._truth), PeakForce(name, model, data)
 
     def sample(self, time: float, driver: ArmDriver) -> None:
         """Take in one step that began at `time` s, in which `driver` moved the tool."""
         self.recorder.sample(time)
-        self.strongest.sample()
+        self.peak_force.sample()
         if self._steps % STEPS_PER_UPDATE == 0:
             self.recorder.sample_reference(time, driver.reference, driver.path, self._cover())
         self._steps += 1
@@ -52,6 +52,28 @@ class ToolObserver:
             if force_n >= surface.least_n and surface.near(self._truth[1:4], self._reach):
                 surface.add(self._truth[1:4], rotation_of(self._truth[4:8]), self._extent, self._seconds)
         return greatest
+
+
+class PeakForce:
+    """The greatest length so far of the sum of contact forces on one tool that is held, N.
+
+    The fingers that hold it are not among them: a weld keeps it, and their contacts do not count meanwhile.
+    """
+
+    def __init__(self, tool: str, model: Any, data: Any) -> None:
+        """Look at a tool of that name in the model."""
+        first = int(model.sensor(contact_sensor(tool)).adr[0])
+        self._force = data.sensordata[first : first + 3]
+        self._square = 0.0
+
+    @property
+    def newton(self) -> float:
+        """The greatest force so far in N."""
+        return sqrt(self._square)
+
+    def sample(self) -> None:
+        """Take in one step."""
+        self._square = max(self._square, float(self._force.dot(self._force)))
 
 
 def _pressing(

@@ -64,7 +64,7 @@ class SimulatedPerson:
         self.let_go = self._there_since is not None and now - self._there_since >= THERE_S
 
 
-def people(
+def make_people(
     scene: SceneFacts, variation: Variation, drivers: Mapping[str, ArmDriver], data: Any
 ) -> tuple[SimulatedPerson, ...]:
     """Return those who come and lead an arm that has a gripper to take hold of."""

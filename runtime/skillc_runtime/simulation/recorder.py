@@ -93,7 +93,7 @@ class Recording:
         return Recording(self.rows[wanted])
 
 
-def joined(stretches: Sequence[Recording]) -> Recording:
+def join_recordings(stretches: Sequence[Recording]) -> Recording:
     """Return the rows of several stretches one after the other."""
     return stretches[0] if len(stretches) == 1 else Recording(np.concatenate([each.rows for each in stretches]))
 

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias, assert_never
+from typing import TypeAlias
 
-from skillc_compiler.library.format_condition import format_class, format_property, format_relation
 from skillc_runtime.world.expressions import EvaluationError, property_of
 from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value, show_stated
+from skillc_runtime.world.values import Value
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,21 +38,6 @@ class Typed:
 
 
 Fact: TypeAlias = Related | Valued | Typed
-
-
-def fact_text(fact: Fact, state: WorldState) -> str:
-    """Return a fact in the words of the language, as `not lab:Gripper-1 contain lab:Eraser-1`."""
-    short = state.vocabulary.short
-    match fact:
-        case Related(subject, relation, object_, holds):
-            return format_relation(short(subject), relation, short(object_), holds)
-        case Valued(individual, property_):
-            value = value_at(state, individual, property_)
-            return format_property(short(individual), property_, show_stated(value))
-        case Typed(individual, cls, holds):
-            return format_class(short(individual), short(cls), holds)
-        case _:
-            assert_never(fact)
 
 
 def value_at(state: WorldState, individual: str, property_: str) -> Value | None:

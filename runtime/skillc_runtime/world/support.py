@@ -1,4 +1,4 @@
-"""The facts that decide a condition, whether it holds or not, in the words of the language."""
+"""The facts that decide a condition, whether it holds or not."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from skillc_compiler.library.conditions import (
     Same,
     Variable,
 )
-from skillc_compiler.library.format_condition import format_class, format_property, format_relation
 from skillc_compiler.library.reading import children
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.expressions import EvaluationError, iri_of, property_of
+from skillc_runtime.world.labelled import ClassFact, IdentityFact, LabelledFact, label, property_fact, relation_fact
 from skillc_runtime.world.quantifiers import candidates
 from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value, show_stated
+from skillc_runtime.world.values import Value
 
 LISTED = 4
 """Of facts about anybody, no more than so many are named."""
@@ -37,8 +37,8 @@ LISTED = 4
 _Names: TypeAlias = Mapping[str, Value]
 
 
-def facts_of(conditions: Iterable[Condition], state: WorldState, bindings: _Names) -> tuple[str, ...]:
-    """Return the facts that the conditions read, each once, as `lab:Store contain lab:Eraser-1` or `not ..`.
+def facts_of(conditions: Iterable[Condition], state: WorldState, bindings: _Names) -> tuple[LabelledFact, ...]:
+    """Return the facts that the conditions read, true and false ones, each once.
 
     Names that are not bound stand for anybody. What cannot be decided is left out.
     """
@@ -46,8 +46,8 @@ def facts_of(conditions: Iterable[Condition], state: WorldState, bindings: _Name
     return tuple(dict.fromkeys(found))
 
 
-def _facts(item: msgspec.Struct, state: WorldState, bindings: _Names) -> Iterator[str]:
-    short = state.vocabulary.short
+def _facts(item: msgspec.Struct, state: WorldState, bindings: _Names) -> Iterator[LabelledFact]:
+    words = state.vocabulary
     match item:
         case Holds(subject, relation, object_):
             with suppress(EvaluationError):
@@ -58,26 +58,26 @@ def _facts(item: msgspec.Struct, state: WorldState, bindings: _Names) -> Iterato
         case IsA(subject, cls):
             iri = iri_of(subject, bindings)
             if iri is not None:
-                yield format_class(short(iri), short(cls), state.is_a(iri, cls))
+                yield ClassFact(label(iri, words), label(cls, words), state.is_a(iri, cls))
         case Same(left, right):
             one, other = iri_of(left, bindings), iri_of(right, bindings)
             if one is not None and other is not None:
-                yield f"{short(one)} {'==' if one == other else '!='} {short(other)}"
+                yield IdentityFact(label(one, words), label(other, words), one == other)
         case Or(parts):
             for alternative in _true(parts, state, bindings) or parts:
                 yield from _facts(alternative, state, bindings)
         case Exists() | Forall():
-            for individual in _telling(item, state, bindings):
+            for individual in _deciding(item, state, bindings):
                 yield from _facts(item.body, state, {**bindings, item.variable: individual})
         case _:
             for part in children(item):
                 yield from _facts(part, state, bindings)
 
 
-def _related(subject: str | None, relation: str, object_: str | None, state: WorldState) -> Iterator[str]:
-    short = state.vocabulary.short
+def _related(subject: str | None, relation: str, object_: str | None, state: WorldState) -> Iterator[LabelledFact]:
+    words = state.vocabulary
     if subject is not None and object_ is not None:
-        yield format_relation(short(subject), relation, short(object_), state.holds(subject, relation, object_))
+        yield relation_fact(subject, relation, object_, state.holds(subject, relation, object_), words)
         return
     if subject is not None:
         pairs = [(subject, each) for each in sorted(state.objects(subject, relation))]
@@ -85,19 +85,17 @@ def _related(subject: str | None, relation: str, object_: str | None, state: Wor
         pairs = [(each, object_) for each in sorted(state.subjects(relation, object_))]
     else:
         pairs = nsmallest(LISTED, state.pairs(relation))
-    yield from (format_relation(short(start), relation, short(end)) for start, end in pairs[:LISTED])
+    yield from (relation_fact(start, relation, end, True, words) for start, end in pairs[:LISTED])
     if not pairs:
-        start, end = (short(each) if each else "_" for each in (subject, object_))
-        yield format_relation(start, relation, end, holds=False)
+        yield relation_fact(subject, relation, object_, False, words)
 
 
-def _value(individual: str, property_: str, state: WorldState) -> Iterator[str]:
+def _value(individual: str, property_: str, state: WorldState) -> Iterator[LabelledFact]:
     with suppress(EvaluationError):
-        value = show_stated(property_of(state, individual, property_))
-        yield format_property(state.vocabulary.short(individual), property_, value)
+        yield property_fact(individual, property_, property_of(state, individual, property_), state.vocabulary)
 
 
-def _telling(condition: Exists | Forall, state: WorldState, bindings: _Names) -> list[str]:
+def _deciding(condition: Exists | Forall, state: WorldState, bindings: _Names) -> list[str]:
     """Return the first individuals that decide a quantified condition, any of the class where none does alone."""
     wanted = isinstance(condition, Exists)
     try:

@@ -10,7 +10,7 @@ from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.execution.plans.plan_body import achieved_condition
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.validation import PlanError, apply_effects, apply_step, check_goal_reached
-from skillc_runtime.trace.outcome import Outcome
+from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.expressions import EvaluationError
 from skillc_runtime.world.model import WorldError

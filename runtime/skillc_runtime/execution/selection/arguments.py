@@ -14,7 +14,7 @@ from skillc_compiler.library.vocabulary import (
     local_name,
 )
 from skillc_compiler.library.words import type_text
-from skillc_runtime.execution.selection.formatting import format_value
+from skillc_runtime.world.labelled import format_value, label_value
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.typed import is_of
 from skillc_runtime.world.values import Value
@@ -32,17 +32,19 @@ def check_value(parameter: Parameter, value: Value, state: WorldState) -> str | 
 
 
 def _check_range(parameter: Parameter, value: float, vocabulary: Vocabulary) -> str | None:
-    text = format_value(value, parameter.type, vocabulary)
+    def text(number: float) -> str:
+        return format_value(label_value(number, parameter.type, vocabulary))
+
     if parameter.low is not None and value < parameter.low:
-        return f"{text} is below {format_value(parameter.low, parameter.type, vocabulary)}, the minimum"
+        return f"{text(value)} is below {text(parameter.low)}, the minimum"
     if parameter.high is not None and value > parameter.high:
-        return f"{text} is above {format_value(parameter.high, parameter.type, vocabulary)}, the maximum"
+        return f"{text(value)} is above {text(parameter.high)}, the maximum"
     return None
 
 
 def _describe_value(value: Value, type_: ValueType, state: WorldState) -> str:
     """Describe a value: an individual by its most specific classes."""
-    text = format_value(value, type_, state.vocabulary)
+    text = format_value(label_value(value, type_, state.vocabulary))
     if isinstance(type_, DirectionType) and is_vector(value):
         return f"not {text}, whose length is {np.linalg.norm(value):g}"
     if not (isinstance(type_, ClassType) and isinstance(value, str)):

@@ -9,12 +9,12 @@ from dataclasses import dataclass, field
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Implementation, Parameter, Post, Requirement
 from skillc_runtime.execution.selection.arguments import check_value
-from skillc_runtime.execution.selection.formatting import format_bindings
 from skillc_runtime.execution.selection.inferred_parameters import InferredParameters, infer_parameters
-from skillc_runtime.trace.failure import Rejected, Stage
+from skillc_runtime.recording.failure import Rejection, Stage
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.explain import explain
 from skillc_runtime.world.expressions import value_of
+from skillc_runtime.world.labelled import format_value, label_bindings
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
 
@@ -35,7 +35,7 @@ class BoundImplementation:
 
 def bind_implementation(
     implementation: Implementation, arguments: Mapping[str, Value], state: WorldState
-) -> BoundImplementation | Rejected:
+) -> BoundImplementation | Rejection:
     """Bind the parameters: arguments, defaults, inference; then check types, ranges and preconditions.
 
     EvaluationError if a default or a condition cannot be evaluated.
@@ -61,12 +61,12 @@ def check_requirements(
     stage: Stage,
     bindings: Mapping[str, Value],
     state: WorldState,
-) -> Rejected | None:
+) -> Rejection | None:
     """Reject an implementation for the first requirement that does not hold; None if all hold."""
     for requirement in requirements:
         if not evaluate(requirement.condition, state, bindings):
             reason = describe_unmet_condition(implementation, requirement, stage, bindings, state)
-            return Rejected(implementation=implementation.name, stage=stage, reason=reason, source=requirement.source)
+            return Rejection(implementation=implementation.name, stage=stage, reason=reason, source=requirement.source)
     return None
 
 
@@ -80,8 +80,8 @@ def describe_unmet_condition(
     """Describe a condition that does not hold, the values of its variables, and what holds instead."""
     name = f"{requirement.label}: {requirement.text}" if requirement.label else requirement.text
     mentioned = [p for p in implementation.parameters if _mentions(requirement.text, p.name)]
-    values = format_bindings(bindings, mentioned, state.vocabulary)
-    where = " for " + ", ".join(f"{key} = {value}" for key, value in values.items()) if values else ""
+    values = label_bindings(bindings, mentioned, state.vocabulary)
+    where = " for " + ", ".join(f"{key} = {format_value(value)}" for key, value in values.items()) if values else ""
     instead = explain(requirement.condition, state, bindings, state.vocabulary)
     return f"{stage} `{name}` does not hold{where}: {instead}"
 
@@ -92,7 +92,7 @@ def bind_arguments(
     passed: Set[str],
     state: WorldState,
     bindings: dict[str, Value],
-) -> Rejected | None:
+) -> Rejection | None:
     """Check the arguments and bind them; `passed` includes those whose values are not known yet."""
     known = {parameter.name for parameter in implementation.parameters if parameter.direction != "out"}
     unknown = [name for name in passed if name not in known]
@@ -124,7 +124,7 @@ def bind_defaults(
 
 def _check_defaults(
     implementation: Implementation, arguments: Mapping[str, Value], state: WorldState, bindings: Mapping[str, Value]
-) -> Rejected | None:
+) -> Rejection | None:
     """Check what was not passed: a computed default may be out of range."""
     for parameter in implementation.parameters:
         if parameter.name in bindings and parameter.name not in arguments:
@@ -134,9 +134,9 @@ def _check_defaults(
     return None
 
 
-def _reject(implementation: Implementation, reason: str, parameter: Parameter | None = None) -> Rejected:
+def _reject(implementation: Implementation, reason: str, parameter: Parameter | None = None) -> Rejection:
     source = parameter.source if parameter is not None else implementation.source
-    return Rejected(implementation=implementation.name, stage="argument", reason=reason, source=source)
+    return Rejection(implementation=implementation.name, stage="argument", reason=reason, source=source)
 
 
 def _mentions(text: str, name: str) -> bool:

@@ -7,13 +7,14 @@ from collections.abc import Iterator, Mapping, Set
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Implementation, Parameter, Requirement
 from skillc_runtime.execution.selection.binding import BoundImplementation
-from skillc_runtime.trace.reasons import Deciding, Determined
+from skillc_runtime.recording.reasons import DecidingCondition, ParameterReason
+from skillc_runtime.world.labelled import label
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.support import facts_of
 from skillc_runtime.world.values import Value
 
 
-def explain_bindings(bound: BoundImplementation, passed: Set[str], state: WorldState) -> tuple[Determined, ...]:
+def explain_bindings(bound: BoundImplementation, passed: Set[str], state: WorldState) -> tuple[ParameterReason, ...]:
     """Return the reason for the value of each parameter that is not just an argument, in the order of the parameters.
 
     Parameters to infer are included even if they were passed, since the same conditions apply to them.
@@ -21,28 +22,28 @@ def explain_bindings(bound: BoundImplementation, passed: Set[str], state: WorldS
     return tuple(_explain_each(bound, passed, state))
 
 
-def _explain_each(bound: BoundImplementation, passed: Set[str], state: WorldState) -> Iterator[Determined]:
-    implementation, bindings, short = bound.implementation, bound.bindings, state.vocabulary.short
+def _explain_each(bound: BoundImplementation, passed: Set[str], state: WorldState) -> Iterator[ParameterReason]:
+    implementation, bindings, words = bound.implementation, bound.bindings, state.vocabulary
     for parameter in implementation.parameters:
         name, inferred = parameter.name, parameter.direction == "infer"
         if name not in bindings or (name in passed and not inferred):
             continue
-        yield Determined(
+        yield ParameterReason(
             parameter=name,
             how="passed" if name in passed else "inferred" if inferred else "default",
             conditions=_deciding_conditions(implementation, parameter, bindings, state) if inferred else (),
-            others=tuple(short(other) for other in bound.alternatives.get(name, ())),
+            others=tuple(label(other, words) for other in bound.alternatives.get(name, ())),
         )
 
 
 def _deciding_conditions(
     implementation: Implementation, parameter: Parameter, bindings: Mapping[str, Value], state: WorldState
-) -> tuple[Deciding, ...]:
+) -> tuple[DecidingCondition, ...]:
     """Return the preconditions that mention a parameter."""
     about = [each for each in implementation.pre if parameter.name in free_variables(each.condition)]
     return tuple(_make_deciding(each, bindings, state) for each in about)
 
 
-def _make_deciding(requirement: Requirement, bindings: Mapping[str, Value], state: WorldState) -> Deciding:
+def _make_deciding(requirement: Requirement, bindings: Mapping[str, Value], state: WorldState) -> DecidingCondition:
     facts = facts_of([requirement.condition], state, bindings)
-    return Deciding(text=requirement.text, source=requirement.source, facts=facts)
+    return DecidingCondition(text=requirement.text, source=requirement.source, facts=facts)

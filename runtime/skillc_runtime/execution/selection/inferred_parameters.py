@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Implementation, Parameter, Requirement
 from skillc_compiler.library.vocabulary import ClassType, Vocabulary
-from skillc_runtime.trace.failure import Rejected
+from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.explain import explain
 from skillc_runtime.world.inference import Ambiguous, Binding, Found, NoneFound, infer
@@ -31,7 +31,7 @@ class InferredParameters:
 
 def infer_parameters(
     implementation: Implementation, bindings: Mapping[str, Value], state: WorldState
-) -> InferredParameters | Rejected:
+) -> InferredParameters | Rejection:
     """Infer the parameters that were not passed from all preconditions."""
     wanted = _parameters_to_infer(implementation, bindings.keys())
     match infer(wanted, implementation.pre, bindings, state):
@@ -51,7 +51,7 @@ def infer_fixed_parameters(
     bindings: dict[str, Value],
     passed: Set[str],
     state: WorldState,
-) -> dict[str, Value] | Rejected:
+) -> dict[str, Value] | Rejection:
     """Return the bindings with those inferred parameters for which the requirements leave one individual.
 
     No skill changes whether `requirements` hold. A rejection says which of them no individual can meet.
@@ -124,17 +124,17 @@ def _make_notes(found: Binding, others: Sequence[Binding], vocabulary: Vocabular
 
 def _reject(
     implementation: Implementation, wanted: Sequence[Parameter], requirement: Requirement | None, reason: str
-) -> Rejected:
+) -> Rejection:
     about = f"no answer for `{requirement.text}`: " if requirement is not None else ""
     source = requirement.source if requirement is not None else wanted[0].source
-    return Rejected(
+    return Rejection(
         implementation=implementation.name, stage="inference" if wanted else "pre", reason=about + reason, source=source
     )
 
 
 def _reject_none_found(
     implementation: Implementation, wanted: Sequence[Parameter], none: NoneFound, vocabulary: Vocabulary
-) -> Rejected:
+) -> Rejection:
     """Reject with the requirement that left no answer and, if that says more, the nearest misses."""
     near = [miss for miss in none.nearest if miss.reason != none.reason]
     near.sort(key=lambda miss: miss.requirement is not none.requirement)
@@ -151,11 +151,11 @@ def _format_near_miss(miss: NearMiss, shown: Requirement | None, vocabulary: Voc
 
 def _reject_ambiguous(
     implementation: Implementation, wanted: Sequence[Parameter], answers: Sequence[Binding], vocabulary: Vocabulary
-) -> Rejected:
+) -> Rejection:
     open_ = [p for p in wanted if len({answer[p.name] for answer in answers}) > 1 and not p.any_]
     each = [f"`{p.name}` may be {_format_candidates(p.name, answers, vocabulary)}" for p in open_]
     reason = f"{'; '.join(each)}: pass it, or accept any with `infer any {open_[0].name}`"
-    return Rejected(implementation=implementation.name, stage="inference", reason=reason, source=open_[0].source)
+    return Rejection(implementation=implementation.name, stage="inference", reason=reason, source=open_[0].source)
 
 
 def _format_candidates(name: str, answers: Sequence[Binding], vocabulary: Vocabulary) -> str:

@@ -18,7 +18,7 @@ from skillc_runtime.execution.selection.python_targets import PrimitiveError, im
 from skillc_runtime.execution.selection.select import explain_none_selected, ranked_implementations
 from skillc_runtime.execution.selection.static_values import StaticValues, check_functions, compute_static_values
 from skillc_runtime.execution.selection.text_names import UnknownName, find_unknown_names
-from skillc_runtime.trace.failure import Rejected
+from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
@@ -38,7 +38,7 @@ class Refusal:
     message: str
     source: Position
     within: tuple[str, ...] = ()
-    rejected: tuple[Rejected, ...] = ()
+    rejected: tuple[Rejection, ...] = ()
     unknown_names: Mapping[Origin, UnknownName] = field(default_factory=dict)
 
     def __str__(self) -> str:
@@ -125,11 +125,11 @@ class _Preflight:
         if arguments.undefined:
             return self._refuse_undefined(call.skill, arguments, call.source, scope.within)
         passed = frozenset(call.arguments)
-        rejected: list[Rejected] = []
+        rejected: list[Rejection] = []
         unknown: dict[Origin, UnknownName] = {}
         for implementation in ranked_implementations(self._library, call.skill, call.implementation):
             bindings = self._bind(implementation, arguments.values, passed)
-            if isinstance(bindings, Rejected):
+            if isinstance(bindings, Rejection):
                 rejected.append(bindings)
                 continue
             origins = _track_origins(call, implementation, scope)
@@ -141,17 +141,17 @@ class _Preflight:
         message = explain_none_selected(call.skill, rejected)
         return (Refusal(call.skill, message, call.source, scope.within, tuple(rejected), unknown),)
 
-    def _reject_names(self, implementation: Implementation, texts: Mapping[str, UnknownName]) -> Rejected:
+    def _reject_names(self, implementation: Implementation, texts: Mapping[str, UnknownName]) -> Rejection:
         reason = "; ".join(
             f"`{name}` names nothing: {text.message(self._state.vocabulary)}" for name, text in texts.items()
         )
-        return Rejected(
+        return Rejection(
             implementation=implementation.name, stage="argument", reason=reason, source=implementation.source
         )
 
     def _bind(
         self, implementation: Implementation, arguments: Mapping[str, Value], passed: frozenset[str]
-    ) -> dict[str, Value] | Rejected:
+    ) -> dict[str, Value] | Rejection:
         """Return the known parameters, or why the implementation can never run with these arguments."""
         bindings: dict[str, Value] = {}
         rejected = bind_arguments(implementation, arguments, passed, self._state, bindings)
@@ -161,7 +161,7 @@ class _Preflight:
             try:
                 import_matching_primitive(implementation.body.python, implementation.parameters)
             except PrimitiveError as error:
-                return Rejected(
+                return Rejection(
                     implementation=implementation.name, stage="start", reason=str(error), source=implementation.source
                 )
         rejected = self._bind_defaults(implementation, bindings, passed)
@@ -169,13 +169,13 @@ class _Preflight:
             return rejected
         fixed = [pre for pre in implementation.pre if is_fixed(pre.condition, self._changing, self._state.vocabulary)]
         inferred = infer_fixed_parameters(implementation, tuple(fixed), bindings, passed, self._state)
-        if isinstance(inferred, Rejected):
+        if isinstance(inferred, Rejection):
             return inferred
         return self._bind_defaults(implementation, inferred, passed) or inferred
 
     def _bind_defaults(
         self, implementation: Implementation, bindings: dict[str, Value], passed: frozenset[str]
-    ) -> Rejected | None:
+    ) -> Rejection | None:
         """Bind the defaults whose values are known; reject the implementation if one is undefined."""
         for parameter in implementation.parameters:
             if parameter.default is None or parameter.name in bindings or parameter.name in passed:
@@ -183,7 +183,7 @@ class _Preflight:
             default = self._compute({parameter.name: parameter.default}, bindings)
             for name, reason in default.undefined.items():
                 reason = f"`{name}` has no value: {reason}"
-                return Rejected(
+                return Rejection(
                     implementation=implementation.name, stage="argument", reason=reason, source=parameter.source
                 )
             bindings |= default.values

@@ -6,9 +6,10 @@ import importlib
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
+from typing import get_args
 
 from skillc_compiler.library.skills import Parameter
-from skillc_runtime.primitives.primitive import Primitive
+from skillc_runtime.primitives.primitive import Activity, Phase, Primitive
 from skillc_runtime.world.foreign import EvaluationError, resolve
 
 
@@ -38,6 +39,10 @@ def import_primitive(python: str) -> type[Primitive]:
         raise PrimitiveError(f"`{python}` has no method `tick`")
     if not _is_valid_text_names(found.text_names):
         raise PrimitiveError(f"`text_names` of `{python}` is not {{parameter: (parameter, relation, .., property)}}")
+    if found.activity not in get_args(Activity):
+        raise PrimitiveError(f"`activity` of `{python}` is none of {', '.join(filter(None, get_args(Activity)))}")
+    if not _are_highlights(found.highlights):
+        raise PrimitiveError(f"`highlights` of `{python}` is not ((begins or ends, parameter, word), ..)")
     for name, values in METHOD_ARGUMENTS.items():
         problem = _check_call(getattr(found, name), None, *values)
         if problem is not None:
@@ -53,6 +58,17 @@ def _is_valid_text_names(names: object) -> bool:
         and len(chain) > 1
         and all(isinstance(part, str) for part in chain)
         for parameter, chain in names.items()
+    )
+
+
+def _are_highlights(highlights: object) -> bool:
+    """Whether this is of the form that `Primitive.highlights` has."""
+    return isinstance(highlights, tuple) and all(
+        isinstance(each, tuple)
+        and len(each) == 3
+        and all(isinstance(part, str) for part in each)
+        and each[0] in get_args(Phase)
+        for each in highlights
     )
 
 

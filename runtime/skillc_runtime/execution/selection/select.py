@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from skillc_compiler.library.skills import Implementation, SkillLibrary
 from skillc_runtime.execution.selection.binding import BoundImplementation, bind_implementation
-from skillc_runtime.trace.failure import Rejected
+from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.values import Value
 
@@ -18,14 +18,14 @@ class SelectedImplementation:
 
     implementation: Implementation
     bindings: dict[str, Value]
-    rejected: tuple[Rejected, ...]
+    rejected: tuple[Rejection, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class NoneSelected:
     """All implementations were rejected."""
 
-    rejected: tuple[Rejected, ...]
+    rejected: tuple[Rejection, ...]
 
 
 def ranked_implementations(library: SkillLibrary, skill: str, fixed: str | None) -> tuple[Implementation, ...]:
@@ -42,17 +42,17 @@ def select_implementation(
     library: SkillLibrary, skill: str, arguments: Mapping[str, Value], state: WorldState, fixed: str | None = None
 ) -> SelectedImplementation | NoneSelected:
     """Return the selection of a call in this state, without starting anything."""
-    rejected: list[Rejected] = []
+    rejected: list[Rejection] = []
     for implementation in ranked_implementations(library, skill, fixed):
         match bind_implementation(implementation, arguments, state):
             case BoundImplementation(bindings=bindings):
                 return SelectedImplementation(implementation, bindings, tuple(rejected))
-            case Rejected() as rejection:
+            case Rejection() as rejection:
                 rejected.append(rejection)
     return NoneSelected(tuple(rejected))
 
 
-def explain_none_selected(skill: str, rejected: Sequence[Rejected]) -> str:
+def explain_none_selected(skill: str, rejected: Sequence[Rejection]) -> str:
     """Explain why no implementation can run: with one reason if all have the same, else with the reason of each."""
     reasons = {rejection.reason for rejection in rejected}
     if not rejected:

@@ -18,7 +18,7 @@ from skillc_runtime.execution.tree.node import Node
 from skillc_runtime.execution.tree.primitive_node import PrimitiveNode
 from skillc_runtime.execution.tree.sensing import drop_sensed_changes, explain_not_sensed
 from skillc_runtime.execution.tree.verify_monitor import find_violation, monitored_properties
-from skillc_runtime.trace.failure import Failure, FailureKind, Rejected, Stage
+from skillc_runtime.recording.failure import Failure, FailureKind, Rejection, Stage
 from skillc_runtime.world.changes import Change
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.effects import changes_of
@@ -156,7 +156,7 @@ def activate(
     holder: object,
     scope: LexicalScope,
     build: BuildNode,
-) -> Activation | Rejected:
+) -> Activation | Rejection:
     """Check the holds, acquire the locks, compute the lets, build the body; after a rejection nothing is locked.
 
     EvaluationError from a hold or a let.
@@ -181,7 +181,7 @@ def activate(
 
 def _acquire_locks(
     context: TreeContext, skill: Skill, bound: BoundImplementation, holder: object, scope: LexicalScope
-) -> Rejected | None:
+) -> Rejection | None:
     devices = [str(bound.bindings[name]) for name in skill.uses if name in bound.bindings]
     locked = context.locks.acquire(devices, holder, scope.calls)
     if locked is None:
@@ -222,5 +222,5 @@ def _undo_posts(
         context.write_assumed(inverse, f"{skill} undone")
 
 
-def _reject(implementation: Implementation, stage: Stage, reason: str) -> Rejected:
-    return Rejected(implementation=implementation.name, stage=stage, reason=reason, source=implementation.source)
+def _reject(implementation: Implementation, stage: Stage, reason: str) -> Rejection:
+    return Rejection(implementation=implementation.name, stage=stage, reason=reason, source=implementation.source)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar
 
+from msgspec import structs
+
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Variable
 from skillc_compiler.library.skills import Implementation
@@ -16,16 +18,17 @@ from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.errors import describe_exception
 from skillc_runtime.execution.tree.event_factory import (
     collect_facts_at_failure,
-    make_attempted,
-    make_implementation_chosen,
+    make_choice_event,
+    make_failure_context,
 )
 from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
 from skillc_runtime.execution.tree.node import RUNNING, SUCCESS, Node
 from skillc_runtime.execution.tree.primitive_node import PrimitiveNode
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.trace.failure import Failure, Rejected, as_failure
-from skillc_runtime.trace.reasons import Attempted
+from skillc_runtime.recording.failure import Failure, Rejection, as_failure
+from skillc_runtime.recording.reasons import FailedCallContext
 from skillc_runtime.world.expressions import value_of
+from skillc_runtime.world.labelled import LabelledFact
 
 _STAGES = ("argument", "inference", "pre", "hold", "lock", "start", "run")
 
@@ -56,9 +59,9 @@ class CallNode(Node):
         self.node = node
         self.skill = context.library.skills[node.skill]
         self.activation: Activation | None = None
-        self.rejected: list[Rejected] = []
+        self.rejected: list[Rejection] = []
         self._arguments: Frame = {}
-        self._facts: tuple[str, ...] | None = None
+        self._facts: tuple[LabelledFact, ...] | None = None
         self._scope = scope
         self._build = build
 
@@ -128,7 +131,7 @@ class CallNode(Node):
     def _try_next(self, implementations: Iterator[Implementation]) -> Status:
         for implementation in implementations:
             activation = self._activate(implementation)
-            if isinstance(activation, Rejected):
+            if isinstance(activation, Rejection):
                 self.rejected.append(activation)
                 if activation.stage not in ("run", "lock"):
                     self._remember_failure(activation.implementation, activation.reason)
@@ -138,13 +141,13 @@ class CallNode(Node):
                 return status
         return self.fail(self._combine_rejections())
 
-    def _activate(self, implementation: Implementation) -> Activation | Rejected:
+    def _activate(self, implementation: Implementation) -> Activation | Rejection:
         try:
             repeated = self._reject_repeated(implementation)
             if repeated is not None:
                 return repeated
             bound = bind_implementation(implementation, self._arguments, self.context.state)
-            if isinstance(bound, Rejected):
+            if isinstance(bound, Rejection):
                 return bound
             for note in bound.notes:
                 self.context.note(note, self.id, self.source)
@@ -186,13 +189,13 @@ class CallNode(Node):
         self._facts = None
         return self._try_next(self._remaining)
 
-    def _reject_repeated(self, implementation: Implementation) -> Rejected | None:
+    def _reject_repeated(self, implementation: Implementation) -> Rejection | None:
         """Reject an implementation that failed in an earlier attempt and can only fail again."""
         failures, name = self._scope.failures, implementation.name
         reason = failures and failures.reason_to_skip(self.skill.name, self._arguments, name, self.context.state)
         if not reason:
             return None
-        return Rejected(implementation=name, stage="run", reason=reason, source=implementation.source)
+        return Rejection(implementation=name, stage="run", reason=reason, source=implementation.source)
 
     def _remember_failure(self, implementation: str, reason: str) -> None:
         """Remember a failure for later attempts."""
@@ -220,8 +223,8 @@ class CallNode(Node):
         message = explain_none_selected(self.skill.name, self.rejected)
         return Failure(kind=kind, message=message, source=self.source, skill=self.skill.name, causes=causes)
 
-    def _reject(self, implementation: Implementation, failure: Failure, ran: bool = False) -> Rejected:
-        return Rejected(
+    def _reject(self, implementation: Implementation, failure: Failure, ran: bool = False) -> Rejection:
+        return Rejection(
             implementation=implementation.name,
             stage="run" if ran else "start",
             reason=failure.message,
@@ -235,17 +238,11 @@ class CallNode(Node):
             return Failure(kind="body", message=f"{self.name} failed", source=self.source, skill=self.skill.name)
         if failure.skill:
             return failure
-        return Failure(
-            kind=failure.kind,
-            message=failure.message,
-            source=failure.source,
-            skill=self.skill.name,
-            causes=failure.causes,
-        )
+        return structs.replace(failure, skill=self.skill.name)
 
-    def describe_call(self) -> Attempted:
+    def describe_call(self) -> FailedCallContext:
         self._record_facts()
-        return make_attempted(self.skill, self._arguments, self.rejected, self._facts or (), self.context)
+        return make_failure_context(self.skill, self._arguments, self.rejected, self._facts or (), self.context)
 
     def _record_facts(self) -> None:
         """Record the facts that the conditions read, once per failure, before undoing changes them."""
@@ -255,7 +252,5 @@ class CallNode(Node):
 
     def _emit_choice(self, activation: Activation) -> None:
         if self.context.emit is not None:
-            event = make_implementation_chosen(
-                self.id, self.node, activation, self._arguments, self.rejected, self.context
-            )
+            event = make_choice_event(self.id, self.node, activation, self._arguments, self.rejected, self.context)
             self.context.emit(event)

@@ -11,7 +11,7 @@ from skillc_runtime.execution.tree.leaf_nodes import evaluate_seconds
 from skillc_runtime.execution.tree.lexical_scope import LexicalScope
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.trace.failure import Failure
+from skillc_runtime.recording.failure import Failure
 
 _EPSILON_S = 1e-9
 

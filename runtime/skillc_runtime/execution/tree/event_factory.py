@@ -1,79 +1,103 @@
-"""The events of a call: the selected implementation with the reasons, and the context of a failure."""
+"""Makes the events of calls and of the world model: selections with their reasons, failures, changes."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from skillc_compiler.library.skills import Implementation, Skill
+from skillc_compiler.library.skills import Implementation, Primitive, Skill
 from skillc_compiler.library.tree import Call
 from skillc_runtime.execution.selection.binding import bind_implementation
 from skillc_runtime.execution.selection.binding_reasons import explain_bindings
-from skillc_runtime.execution.selection.formatting import format_bindings
+from skillc_runtime.execution.selection.python_targets import import_primitive
 from skillc_runtime.execution.selection.select import ranked_implementations
 from skillc_runtime.execution.tree.activation import Activation
 from skillc_runtime.execution.tree.context import TreeContext
-from skillc_runtime.trace.events import ImplementationChosen
-from skillc_runtime.trace.failure import Rejected
-from skillc_runtime.trace.reasons import Attempted, Untried
+from skillc_runtime.primitives.primitive import Phase
+from skillc_runtime.recording.events import Highlight, ImplementationChosen, WorldChanged
+from skillc_runtime.recording.failure import Rejection
+from skillc_runtime.recording.reasons import FailedCallContext, UntriedImplementation
 from skillc_runtime.world.expressions import EvaluationError
+from skillc_runtime.world.labelled import Iri, LabelledFact, LabelledValue, label_bindings, label_change
+from skillc_runtime.world.model import ChangeEvent
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.support import facts_of
 from skillc_runtime.world.values import Value
 
 
-def make_implementation_chosen(
+def make_choice_event(
     node: int,
     call: Call,
     activation: Activation,
     arguments: Mapping[str, Value],
-    rejected: Sequence[Rejected],
+    rejected: Sequence[Rejection],
     context: TreeContext,
 ) -> ImplementationChosen:
     """Return the event that a call starts an implementation."""
     implementation = activation.implementation
     ranked = ranked_implementations(context.library, call.skill, call.implementation)
     after = ranked[ranked.index(implementation) + 1 :]
+    bindings = label_bindings(activation.frame, implementation.parameters, context.library.vocabulary)
+    body = implementation.body
+    primitive = import_primitive(body.python) if isinstance(body, Primitive) else None
     return ImplementationChosen(
         time=context.time,
         node=node,
         skill=call.skill,
         implementation=implementation.name,
-        bindings=format_bindings(activation.frame, implementation.parameters, context.library.vocabulary),
+        bindings=bindings,
         rejected=tuple(rejected),
         determined=explain_bindings(activation.bound, arguments.keys(), context.state),
         untried=tuple(_make_untried(each, arguments, context.state) for each in after),
         fixed=call.implementation is not None,
+        activity=primitive.activity if primitive else "",
+        highlights=_highlights(primitive.highlights, bindings) if primitive else (),
         source=implementation.source,
     )
 
 
-def _make_untried(implementation: Implementation, arguments: Mapping[str, Value], state: WorldState) -> Untried:
+def _highlights(
+    declared: Sequence[tuple[Phase, str, str]], bindings: Mapping[str, LabelledValue]
+) -> tuple[Highlight, ...]:
+    """Return what there is to see of the individuals that a primitive is bound to."""
+    found = ((when, bindings.get(parameter), word) for when, parameter, word in declared)
+    return tuple(Highlight(when, what, word) for when, what, word in found if isinstance(what, Iri))
+
+
+def _make_untried(
+    implementation: Implementation, arguments: Mapping[str, Value], state: WorldState
+) -> UntriedImplementation:
     try:
         bound = bind_implementation(implementation, arguments, state)
-        reason = bound.reason if isinstance(bound, Rejected) else ""
+        reason = bound.reason if isinstance(bound, Rejection) else ""
     except EvaluationError as error:
         reason = str(error)
-    return Untried(implementation=implementation.name, source=implementation.source, reason=reason)
+    return UntriedImplementation(implementation=implementation.name, source=implementation.source, reason=reason)
 
 
-def make_attempted(
+def make_failure_context(
     skill: Skill,
     arguments: Mapping[str, Value],
-    rejected: Sequence[Rejected],
-    facts: tuple[str, ...],
+    rejected: Sequence[Rejection],
+    facts: tuple[LabelledFact, ...],
     context: TreeContext,
-) -> Attempted:
+) -> FailedCallContext:
     """Return the arguments, unset parameters, rejections and facts of a call that failed."""
-    shown = format_bindings(arguments, skill.parameters, context.library.vocabulary)
+    values = label_bindings(arguments, skill.parameters, context.library.vocabulary)
     unset = tuple(each.name for each in skill.parameters if each.direction == "infer" and each.name not in arguments)
-    return Attempted(arguments=shown, unset=unset, rejected=tuple(rejected), facts=facts)
+    return FailedCallContext(arguments=values, unset=unset, rejected=tuple(rejected), facts=facts)
 
 
 def collect_facts_at_failure(
     tried: Sequence[Implementation], running: Activation | None, arguments: Mapping[str, Value], state: WorldState
-) -> tuple[str, ...]:
+) -> tuple[LabelledFact, ...]:
     """Return the facts that the conditions of a call read: of the running implementation, else of all tried."""
     implementations = tried if running is None else (running.implementation,)
     conditions = [each.condition for one in implementations for each in (*one.pre, *one.hold)]
     conditions += [post.condition for post in (running.implementation.post if running is not None else ())]
     return facts_of(conditions, state, arguments if running is None else running.frame)
+
+
+def make_change_event(event: ChangeEvent, time: float) -> WorldChanged:
+    """Return the event of a change of the world model; `time` in seconds of the cell's clock."""
+    changes = tuple(label_change(change, event.after.vocabulary) for change in event.changes)
+    return WorldChanged(time=time, origin=event.origin, changes=changes, known=event.known)

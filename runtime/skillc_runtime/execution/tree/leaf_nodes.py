@@ -12,7 +12,7 @@ from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
 from skillc_runtime.execution.tree.node import RUNNING, Node
 from skillc_runtime.execution.tree.sensing import drop_sensed_changes
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.trace.failure import Failure
+from skillc_runtime.recording.failure import Failure
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.effects import changes_of
 from skillc_runtime.world.explain import explain

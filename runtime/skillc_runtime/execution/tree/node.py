@@ -8,9 +8,9 @@ from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.errors import describe_exception
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.trace.events import NodeEnded, NodeStarted
-from skillc_runtime.trace.failure import Failure
-from skillc_runtime.trace.reasons import Attempted
+from skillc_runtime.recording.events import NodeEnded, NodeStarted
+from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.reasons import FailedCallContext
 
 RUNNING, SUCCESS, FAILURE, HALTED = Status.RUNNING, Status.SUCCESS, Status.FAILURE, Status.HALTED
 
@@ -119,7 +119,7 @@ class Node:
         self.stop(message)
         return self.fail(Failure(kind="error", message=message, source=self.source))
 
-    def describe_call(self) -> Attempted | None:
+    def describe_call(self) -> FailedCallContext | None:
         """Return the details of a call that failed, None for other nodes; called if there are listeners."""
         return None
 

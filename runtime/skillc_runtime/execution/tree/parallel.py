@@ -8,7 +8,7 @@ from skillc_runtime.execution.tree.active_path import ActivePath
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.execution.tree.selector import combine_failures
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.trace.failure import Failure
+from skillc_runtime.recording.failure import Failure
 
 
 class ParallelNode(Node):

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
 from typing import ClassVar
 
 from skillc_compiler.library.vocabulary import Position
@@ -11,7 +12,10 @@ from skillc_runtime.execution.tree.errors import describe_exception
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.execution.tree.undo_stack import UndoStack
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.trace.failure import Failure
+from skillc_runtime.recording.failure import Failure
+from skillc_runtime.world.labelled import LabelledValue
+
+NO_VALUES: Mapping[str, LabelledValue] = MappingProxyType({})
 
 
 class PrimitiveNode(Node):
@@ -50,7 +54,7 @@ class PrimitiveNode(Node):
             self._running = False
             if self._undo is not None:
                 self._undo.discard(self.release)
-            return self.fail(Failure(kind="body", message=str(refusal), source=self.source))
+            return self.fail(self._failure(str(refusal), refusal.values))
         self.refused_to_start = False
         return self.tick()
 
@@ -61,7 +65,7 @@ class PrimitiveNode(Node):
                 return RUNNING
             return self._on_finished(status)
         except SkillFailure as failure:
-            return self._halt_and_fail(str(failure))
+            return self._halt_and_fail(str(failure), failure.values)
         except Exception as error:  # noqa: BLE001  the boundary to skill code: it reports, halts and fails
             return self.fail_with_error(error)
 
@@ -105,6 +109,9 @@ class PrimitiveNode(Node):
             return self._halt_and_fail(f"{self.name} failed without a reason")
         raise TypeError(f"{self.name} returned {status!r} from tick; it may return RUNNING or SUCCESS")
 
-    def _halt_and_fail(self, message: str) -> Status:
+    def _halt_and_fail(self, message: str, values: Mapping[str, LabelledValue] = NO_VALUES) -> Status:
         self.stop(message)
-        return self.fail(Failure(kind="body", message=message, source=self.source))
+        return self.fail(self._failure(message, values))
+
+    def _failure(self, message: str, values: Mapping[str, LabelledValue]) -> Failure:
+        return Failure(kind="body", message=message, source=self.source, values=dict(values))

@@ -12,19 +12,19 @@ from skillc_runtime.execution.tree.build import build_node
 from skillc_runtime.execution.tree.call_node import CallNode
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.errors import describe_exception
+from skillc_runtime.execution.tree.event_factory import make_change_event
 from skillc_runtime.execution.tree.lexical_scope import CallFailures, LexicalScope
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, Node
 from skillc_runtime.execution.tree.undo_stack import UndoStack
 from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.recording.events import Listener, Paused, Resumed
+from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.listeners import Listeners
+from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.robots.cell import Cell
 from skillc_runtime.robots.contradictions import DeviceWatch
 from skillc_runtime.robots.watchdog import Silence
-from skillc_runtime.trace.events import Listener, Paused, Resumed
-from skillc_runtime.trace.failure import Failure
-from skillc_runtime.trace.listeners import Listeners
-from skillc_runtime.trace.outcome import Outcome
-from skillc_runtime.trace.world import world_changed
 from skillc_runtime.world.model import ChangeEvent
 
 _ALIVE = (RUNNING, Status.IDLE)
@@ -210,7 +210,7 @@ class TreeRun:
             self._context.emit(event(time=self._context.time))
 
     def _emit_world_change(self, event: ChangeEvent) -> None:
-        self._listeners(world_changed(event, self._context.time))
+        self._listeners(make_change_event(event, self._context.time))
 
 
 def _collect_outcome(node: Node) -> Outcome:

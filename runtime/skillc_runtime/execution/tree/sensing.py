@@ -9,8 +9,8 @@ from skillc_compiler.library.skills import Post
 from skillc_runtime.execution.tree.lexical_scope import Frame
 from skillc_runtime.world.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.evidence import Established, statement
-from skillc_runtime.world.facts import fact_text
 from skillc_runtime.world.grounds import Ground, grounds
+from skillc_runtime.world.labelled import format_fact, label_fact
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.values import equal
 
@@ -57,7 +57,7 @@ def _is_sensed_since(established: Established | None, writes_before: int) -> boo
 
 def _describe_ground(ground: Ground, world: WorldModel) -> str:
     """Return a fact with its evidence, for example "`lab:A contain lab:B` was assumed by Place"."""
-    fact = fact_text(ground.fact, world.snapshot())
+    fact = format_fact(label_fact(ground.fact, world.snapshot()))
     known = ground.established
     if known is None or known.evidence is None:
         return f"`{fact}` was so before"

@@ -11,8 +11,8 @@ from skillc_compiler.library.properties import Is, Measures, Property
 from skillc_compiler.library.skills import Implementation
 from skillc_compiler.library.vocabulary import ClassType, Vocabulary
 from skillc_runtime.execution.tree.lexical_scope import Frame
+from skillc_runtime.recording.failure import Failure
 from skillc_runtime.robots.cell import Cell
-from skillc_runtime.trace.failure import Failure
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.terms import ARM_DEVICE

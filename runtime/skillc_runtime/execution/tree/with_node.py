@@ -9,7 +9,7 @@ from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.node import RUNNING, SUCCESS, Node
 from skillc_runtime.execution.tree.undo_stack import UndoStack
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.trace.failure import Failure
+from skillc_runtime.recording.failure import Failure
 
 
 class WithNode(Node):

@@ -1,0 +1,47 @@
+"""Buttons that were pressed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from skillc_runtime.evaluation.measures.evidence import RunEvidence
+from skillc_runtime.evaluation.measures.work import PressingWork, Work
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.world.sheet import number
+from skillc_runtime.world.terms import PRESS_FORCE
+
+HELD_S = 0.1
+"""What a button is held with is the greatest mean over this time."""
+
+
+def measure(evidence: RunEvidence) -> Iterator[Work]:
+    """Yield the pressing of each button that felt something."""
+    cell = evidence.cell
+    for fixture in cell.facts.fixtures:
+        if fixture.switch_travel_m is None:
+            continue
+        pressing = cell.button(fixture.individual).pressing
+        if len(pressing):
+            yield PressingWork(
+                button=cell.facts.names[fixture.individual],
+                asked_n=number(cell.world.snapshot(), fixture.individual, PRESS_FORCE),
+                held_n=held_force(pressing),
+                greatest_n=float(pressing[:, 1].max()),
+                took=evidence.duration_share(fixture.individual),
+            )
+
+
+def held_force(pressing: Array) -> float:
+    """Return the greatest mean force in N over `HELD_S` while a button had switched; 0 where it never did so long.
+
+    pressing (n, 3): s, N, and 1 where it had switched, of every step.
+    """
+    switched = pressing[pressing[:, 2] > 0]
+    if len(switched) < 2:
+        return 0.0
+    width = round(HELD_S / float(np.diff(switched[:, 0]).min()))
+    if len(switched) < width:
+        return 0.0
+    return float(np.convolve(switched[:, 1], np.ones(width) / width, mode="valid").max())

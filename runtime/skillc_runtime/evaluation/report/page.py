@@ -1,0 +1,49 @@
+"""A task's report as one self-contained HTML page."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from skillc_runtime.evaluation.report.figures import FigureFiles
+from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.evaluation.report.table import reason_of, table_rows
+from skillc_runtime.recording.known import assumed_facts, format_assumption, format_status
+from skillc_runtime.recording.outcome import Outcome
+from skillc_runtime.simulation.film import SPEED_UP, Filmed
+from skillc_runtime.world.labelled import format_value
+
+
+def render(
+    result: TaskResult, trees: list[Outcome], figure: FigureFiles | None = None, filmed: Filmed | None = None
+) -> str:
+    """Return the page; `trees` are those of all attempts, the files of `filmed` are beside it."""
+    environment = Environment(
+        loader=PackageLoader("skillc_runtime.evaluation.report", "."),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return environment.get_template("page.html.j2").render(
+        result=result,
+        status=format_status(result.status, result.verified),
+        assumed=assumed_facts(result.facts),
+        rows=table_rows(result) if result.sim_time_s else [],
+        reason_of=reason_of,
+        format_value=format_value,
+        format_assumption=format_assumption,
+        trees=trees,
+        figure=b64encode(figure.svg).decode() if figure else "",
+        filmed=filmed,
+        speed_up=SPEED_UP,
+        reason=_reason,
+    )
+
+
+def _reason(node: Outcome) -> str:
+    """Return why a node failed, unless a child says it already."""
+    if node.failure is None or any(child.failure == node.failure for child in node.children):
+        return ""
+    return node.failure.message

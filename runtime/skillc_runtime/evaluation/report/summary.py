@@ -1,0 +1,142 @@
+"""The result of a task, from what was prepared and what became of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Literal
+
+import numpy as np
+from msgspec import structs
+
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult
+from skillc_runtime.evaluation.report.wiping import Wiping, judge_wiping
+from skillc_runtime.execution.task_run import Execution
+from skillc_runtime.planning.plan import describe_quality
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.recording.events import ImplementationChosen
+from skillc_runtime.recording.outcome import Outcome
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.world.terms import COMPLIANT_CONTROLLER
+
+ENDED: Mapping[Status, Literal["success", "failure", "halted"]] = {
+    Status.SUCCESS: "success",
+    Status.FAILURE: "failure",
+    Status.HALTED: "halted",
+}
+
+
+def summarise(
+    execution: Execution[SimulatedCell],
+    choices: Mapping[int, ImplementationChosen],
+    library: SkillLibrary,
+    wipings: Sequence[Wiping],
+) -> TaskResult:
+    """Return everything that reports, tables and JSON say of a task that ran; `wipings` are those in it."""
+    cell, last = execution.cell, execution.last
+    solved = last.prepared.planned.solved if last.prepared.planned else None
+    judged = tuple(judge_wiping(wiping, cell) for wiping in wipings)
+    short = cell.world.snapshot().vocabulary.short
+    robots = sorted({short(arm.robot or arm.individual) for arm in cell.facts.arms})
+    wall = execution.wall_time_s
+    return TaskResult(
+        task=last.prepared.assignment.name,
+        status=ENDED[execution.status],
+        verified=execution.verified,
+        facts=execution.facts,
+        plan=_steps(last.tree, choices, library),
+        choices=_choices(choices, library),
+        plan_optimal=None if solved is None else solved.optimal == "proven",
+        plan_quality="" if solved is None else describe_quality(solved.optimal, solved.left_out, solved.at_least_s),
+        planner="" if solved is None else solved.planner,
+        robot=", ".join(robots),
+        controller=", ".join(_controllers(cell)),
+        sim_time_s=cell.now,
+        wall_time_s=wall,
+        real_time_factor=cell.now / wall if wall else 0.0,
+        seed=cell.variation.seed,
+        variation=_variation(cell),
+        wiping=judged[0] if judged else None,
+        wipings=judged,
+        replanned=tuple(each.reason for each in execution.attempts[:-1]),
+        failure=_told(execution),
+    )
+
+
+def _steps(tree: Outcome, choices: Mapping[int, ImplementationChosen], library: SkillLibrary) -> tuple[StepResult, ...]:
+    """Return the calls at the top of the tree in the order in which they started; those that never did come last."""
+    calls = sorted(_calls(tree), key=lambda call: (call.started is None, call.started))
+    return tuple(_step(call, choices.get(call.id), library) for call in calls)
+
+
+def _calls(tree: Outcome) -> Iterator[Outcome]:
+    """Yield the calls that no other call is around; one that was passed over has the status `skipped`."""
+    if tree.kind == "call":
+        yield tree
+    for child in () if tree.kind == "call" else tree.children:
+        passed_over = tree.kind == "if" and tree.status == "success" and child.status == "idle"
+        yield from _calls(structs.replace(child, status="skipped") if passed_over else child)
+
+
+def _step(call: Outcome, choice: ImplementationChosen | None, library: SkillLibrary) -> StepResult:
+    skill = choice.skill if choice else call.name
+    objects = {p.name for p in library.skills[skill].parameters if p.direction in ("in", "infer")}
+    bindings = choice.bindings if choice else {}
+    return StepResult(
+        skill=skill,
+        implementation=choice.implementation if choice else "",
+        arguments={name: value for name, value in bindings.items() if name in objects},
+        source=str(choice.source if choice else call.source),
+        status=call.status,
+        alternatives=len(library.skills[skill].implementations) - 1,
+        rejected=call.rejected,
+    )
+
+
+def _choices(choices: Mapping[int, ImplementationChosen], library: SkillLibrary) -> tuple[ChoiceResult, ...]:
+    """Return each choice between several implementations once."""
+    found = {
+        (choice.skill, choice.implementation): ChoiceResult(
+            skill=choice.skill, implementation=choice.implementation, rejected=choice.rejected
+        )
+        for choice in choices.values()
+        if len(library.skills[choice.skill].implementations) > 1
+    }
+    return tuple(found[key] for key in sorted(found))
+
+
+def _controllers(cell: SimulatedCell) -> list[str]:
+    state = cell.world.snapshot()
+    found = (state.value(arm.individual, COMPLIANT_CONTROLLER) for arm in cell.facts.arms)
+    return sorted({str(controller) for controller in found if controller is not None})
+
+
+def _variation(cell: SimulatedCell) -> str:
+    """Say how reality differs from what the world model believed at the start."""
+    names = cell.facts.names
+    surfaces = (
+        f"{names[one.surface]} {one.offset_m * 1e3:+.1f} mm along its normal, tilted "
+        f"{np.degrees(one.tilt_rad[0]):+.1f} and {np.degrees(one.tilt_rad[1]):+.1f} deg, friction {one.friction:.2f}"
+        for one in cell.variation.surfaces
+    )
+    fixtures = (f"{names[one.fixture]} {one.words}" for one in cell.variation.fixtures)
+    people = (f"{names[one.person]} {one.words}" for one in cell.variation.people)
+    return "; ".join((*surfaces, *fixtures, *people))
+
+
+def _told(execution: Execution[SimulatedCell]) -> str | None:
+    """Say why a task failed, with the calls that led there, outermost first; what stopped it when it was halted."""
+    failure = execution.failure
+    if failure is None or execution.status is Status.HALTED:
+        return failure.message if failure else None
+    calls = " > ".join(f"{call.name} ({call.source})" for call in _failed_calls(execution.last.tree))
+    return f"{failure.message}\n  in {calls}" if calls else failure.message
+
+
+def _failed_calls(node: Outcome) -> Iterator[Outcome]:
+    """Yield the calls from the top of the tree to the innermost one that failed."""
+    if node.kind == "call":
+        yield node
+    failed = [child for child in node.children if child.status == "failure"]
+    if failed:
+        yield from _failed_calls(failed[-1])

@@ -1,0 +1,105 @@
+"""A task's result as a table for the terminal."""
+
+from __future__ import annotations
+
+from rich.console import Group, RenderableType
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult, WipingResult
+from skillc_runtime.recording.known import assumed_facts, format_assumption, format_evidence, format_status
+from skillc_runtime.world.labelled import format_fact, format_value
+
+STYLES = {"success": "bold green", "failure": "bold red", "refused": "bold red", "halted": "bold yellow"}
+
+
+def render(result: TaskResult) -> RenderableType:
+    """Return the table of one task: plan with implementations and why, then how it went."""
+    words = format_status(result.status, result.verified)
+    title = Text.assemble((result.task, "bold"), "  ", (words, STYLES.get(words, STYLES["halted"])))
+    parts: list[RenderableType] = [title]
+    parts += [Text(format_assumption(fact), style="yellow") for fact in assumed_facts(result.facts)]
+    if result.failure:
+        parts.append(Text(result.failure, style="red"))
+    if result.plan:
+        parts.append(_plan(result))
+    if result.sim_time_s:
+        parts.append(_numbers(result))
+    return Group(*parts, "")
+
+
+def _plan(result: TaskResult) -> RenderableType:
+    """Return each step with what became of it, how it was done and why so, and below it its arguments."""
+    lines: list[RenderableType] = []
+    for number, step in enumerate(result.plan, 1):
+        arguments = ", ".join(f"{name}: {format_value(value)}" for name, value in step.arguments.items())
+        how = f"{step.implementation}: {reason_of(step)}" if step.implementation else _not_run(step)
+        lines += [
+            Text.assemble(f"{number} {step.skill:<16}", (f"{step.status:<9}", STYLES.get(step.status, "")), how),
+            Padding(Text(arguments, style="dim"), (0, 0, 0, 4)),
+        ]
+    lines += [Text(f"  {each.skill:<25}{each.implementation}: {reason_of(each)}") for each in result.choices]
+    return Group(*lines)
+
+
+def _not_run(step: StepResult) -> str:
+    return "achieved already" if step.status == "skipped" else "did not start"
+
+
+def reason_of(taken: StepResult | ChoiceResult) -> str:
+    """Say why an implementation was taken, from those that were not."""
+    if taken.rejected:
+        return "; ".join(f"not {each.implementation}: {each.reason}" for each in taken.rejected)
+    return "the only one" if isinstance(taken, StepResult) and not taken.alternatives else "the first that fits"
+
+
+def _numbers(result: TaskResult) -> Table:
+    table = Table(box=None, pad_edge=False, show_header=False)
+    table.add_column(style="dim")
+    table.add_column()
+    for name, value in table_rows(result):
+        table.add_row(name, value)
+    return table
+
+
+def table_rows(result: TaskResult) -> list[tuple[str, str]]:
+    """Return what there is to say about a run, name and value."""
+    planned = [] if result.plan_optimal is None else [("plan", _plan_words(result))]
+    return [
+        *planned,
+        *((format_fact(fact.fact), format_evidence(fact)) for fact in result.facts),
+        ("robot", f"{result.robot}, controller {result.controller}"),
+        ("reality", f"{result.variation} (seed {result.seed})"),
+        *(("planned again", why) for why in result.replanned),
+        *(row for wiping in result.wipings for row in _wiping_rows(wiping, len(result.wipings) > 1)),
+        ("time", f"{result.sim_time_s:.1f} s simulated in {result.wall_time_s:.1f} s"),
+        ("speed", f"{result.real_time_factor:.1f} x real time"),
+    ]
+
+
+def _plan_words(result: TaskResult) -> str:
+    return f"{len(result.plan)} steps by {result.planner}, {result.plan_quality}"
+
+
+def _wiping_rows(wiping: WipingResult, one_of_several: bool) -> list[tuple[str, str]]:
+    share = wiping.force_rmse_n / wiping.force_command_n
+    return [
+        *([("surface", wiping.surface)] if one_of_several else []),
+        ("coverage", f"{wiping.coverage:.1%}"),
+        ("force", f"{wiping.force_mean_n:.2f} N mean of {wiping.force_command_n:g} N"),
+        ("force RMSE", f"{wiping.force_rmse_n:.2f} N, {share:.1%}"),
+        ("contact lost", f"{wiping.contact_lost:.2%}"),
+        ("first impact", f"{wiping.first_impact_n:.1f} N"),
+        ("vibration", f"{wiping.vibration_mm_s:.2f} mm/s"),
+        ("tilt", f"{wiping.tilt_rms_deg:.2f} deg rms"),
+        ("tracking", f"{wiping.tracking_rms_mm:.1f} mm rms behind the reference, in the plane"),
+        *_dwell_rows(wiping),
+    ]
+
+
+def _dwell_rows(wiping: WipingResult) -> list[tuple[str, str]]:
+    if wiping.lane_dwell_s is None:
+        return []
+    whose = "" if wiping.lane_dwell_of == "tool" else ", of the path: an overlay hides the tool's"
+    return [("lane-end dwell", f"{wiping.lane_dwell_s:.3f} s a corner{whose}")]

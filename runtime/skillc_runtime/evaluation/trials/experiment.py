@@ -1,0 +1,121 @@
+"""One run of a task in one reality, from its seed to what is kept of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+from math import inf
+from pathlib import Path
+
+from skillc_compiler.library import codec
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.evaluation.measures import buttons, holes, poses, surfaces
+from skillc_runtime.evaluation.measures.evidence import RunEvidence
+from skillc_runtime.evaluation.measures.work import Work
+from skillc_runtime.evaluation.report.choices import Choices
+from skillc_runtime.evaluation.report.summary import summarise
+from skillc_runtime.evaluation.report.wiping import find_wipings
+from skillc_runtime.evaluation.trials.disturbance import PushDisturbance, reality
+from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
+from skillc_runtime.execution.assignment import (
+    AchieveGoal,
+    Assignment,
+    ExecuteBody,
+    NotStarted,
+    PreparedTask,
+    prepare_task,
+)
+from skillc_runtime.execution.task_run import execute_task
+from skillc_runtime.recording.events import Listener
+from skillc_runtime.recording.known import assumed_facts
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.world.frames import FrameError
+from skillc_runtime.world.labelled import format_fact
+from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.scene import load_scene
+from skillc_runtime.world.sheet import SheetError, number
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.terms import CONTACT_FORCE_LIMIT
+
+MEASURES = (surfaces.measure, buttons.measure, holes.measure, poses.measure)
+"""In the order in which trials list what was done."""
+
+
+@dataclass(frozen=True, slots=True)
+class Experiment:
+    """What is tried, as it goes from one process to another: a compiled library as JSON, its task, a scene's file."""
+
+    library: bytes
+    task: str
+    scene: Path
+    disturbance: Disturbance
+
+
+class TrialRunner:
+    """Runs trials of one experiment; everything that is the same in all of them is done once."""
+
+    def __init__(self, experiment: Experiment) -> None:
+        """Load and plan; LibraryError, SceneError or OSError where what is tried cannot be loaded."""
+        self._library = codec.loads(experiment.library, "the library")
+        self._state = load_scene(experiment.scene, self._library.vocabulary)
+        self._disturbance = experiment.disturbance
+        self._prepared = prepare_task(_assignment(experiment.task, self._library, self._state), self._library)
+
+    def run(self, seed: int) -> Trial:
+        """Run the task once."""
+        if isinstance(self._prepared, NotStarted):
+            return Trial(seed=seed, status="refused", reason=self._prepared.reason)
+        try:
+            cell = SimulatedCell(WorldModel(self._state), seed, reality=partial(reality, self._disturbance))
+        except (SheetError, FrameError) as error:
+            return Trial(seed=seed, status="refused", reason=f"the scene cannot be simulated: {error}")
+        return self._run(self._prepared, cell)
+
+    def _run(self, prepared: PreparedTask, cell: SimulatedCell) -> Trial:
+        choices, push = Choices(), PushDisturbance(cell)
+        disturbing: Sequence[Listener] = (push,) if self._disturbance == "push" else ()
+        execution = execute_task(prepared, self._library, cell, (choices, *disturbing), push.watch)
+        trees = tuple(attempt.tree for attempt in execution.attempts)
+        wipings = find_wipings(trees, choices, cell)
+        result = summarise(execution, choices, self._library, wipings)
+        judged = tuple(zip(wipings, result.wipings, strict=True))
+        return Trial(
+            seed=cell.variation.seed,
+            status=result.status,
+            reason=result.failure,
+            verified=result.verified,
+            assumed=tuple(format_fact(fact.fact) for fact in assumed_facts(result.facts)),
+            variation=result.variation,
+            works=_measure_work(RunEvidence(self._library, cell, trees, choices, judged)),
+            coverage=min((surface.fraction for surface in cell.coverage.values()), default=1.0),
+            greatest_force_n=_greatest_force(cell),
+            force_limit_n=_force_limit(cell),
+            pushed=push.pushed,
+            at_rest=cell.at_rest,
+            sim_time_s=result.sim_time_s,
+            wall_time_s=result.wall_time_s,
+        )
+
+
+def _assignment(task: str, library: SkillLibrary, state: WorldState) -> Assignment:
+    goal, body = library.tasks[task].goal, library.tasks[task].body
+    if goal is not None:
+        return Assignment(task, state, AchieveGoal(goal))
+    assert body is not None, "a task has a goal or a body"
+    return Assignment(task, state, ExecuteBody(body))
+
+
+def _measure_work(evidence: RunEvidence) -> tuple[Work, ...]:
+    return tuple(work for measure in MEASURES for work in measure(evidence))
+
+
+def _greatest_force(cell: SimulatedCell) -> float:
+    return max((cell.peak_force(tool.individual) for tool in cell.facts.tools), default=0.0)
+
+
+def _force_limit(cell: SimulatedCell) -> float | None:
+    sheets = [arm.sheet for arm in cell.facts.arms]
+    limits = [number(sheet.state, sheet.individual, CONTACT_FORCE_LIMIT, default=inf) for sheet in sheets]
+    least = min(limits, default=inf)
+    return None if least == inf else least

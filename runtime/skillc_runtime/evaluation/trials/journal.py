@@ -1,0 +1,118 @@
+"""The trials of a folder: a heading and a line for each, so that a series that was interrupted goes on."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+from collections.abc import Iterable
+from pathlib import Path
+from types import TracebackType
+from typing import BinaryIO, TypeVar
+
+import msgspec
+
+from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
+
+FILE = "trials.jsonl"
+FORMAT = 2
+
+
+class Heading(msgspec.Struct, frozen=True, kw_only=True):
+    """What all trials of a folder have in common; trials that differ in any of it cannot be compared."""
+
+    format: int = FORMAT
+    task: str
+    disturbance: Disturbance
+    skillc: str
+    library: str
+    scene: str
+
+
+Record = TypeVar("Record", Heading, Trial)
+
+
+class JournalError(ValueError):
+    """Trials cannot be added to a folder; the message says why and what to do."""
+
+
+class Journal:
+    """The file of a folder, for one writer at a time; use it in `with`. `trials` are those it has, each seed once."""
+
+    def __init__(self, folder: Path, heading: Heading) -> None:
+        """Open or begin the file. JournalError for other trials, another writer or no journal; OSError of the disk."""
+        self.path = folder / FILE
+        folder.mkdir(parents=True, exist_ok=True)
+        self._file: BinaryIO = self.path.open("a+b")
+        try:
+            self._lock()
+            self._trials = self._resume(heading)
+        except BaseException:
+            self._file.close()
+            raise
+
+    @property
+    def trials(self) -> tuple[Trial, ...]:
+        """Those there are, in order of seed."""
+        return tuple(self._trials[seed] for seed in sorted(self._trials))
+
+    def add(self, trial: Trial) -> None:
+        """Append a trial, whole and on disk when this returns."""
+        self._write(trial)
+        self._trials[trial.seed] = trial
+
+    def __enter__(self) -> Journal:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._file.close()
+
+    def _lock(self) -> None:
+        try:
+            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            raise JournalError(
+                f"another process is adding trials to {self.path.parent}; take another folder"
+            ) from error
+
+    def _resume(self, heading: Heading) -> dict[int, Trial]:
+        """Read what is there; a last line that was not written whole is cut off."""
+        self._file.seek(0)
+        content = self._file.read()
+        whole = content[: content.rfind(b"\n") + 1]
+        if len(whole) < len(content):
+            self._file.truncate(len(whole))
+        if not whole:
+            self._write(heading)
+            return {}
+        first, *lines = whole.splitlines()
+        self._compare(self._decoded(first, 1, Heading), heading)
+        trials = (self._decoded(line, number, Trial) for number, line in enumerate(lines, 2))
+        return {trial.seed: trial for trial in trials}
+
+    def _compare(self, there: Heading, here: Heading) -> None:
+        for what in Heading.__struct_fields__:
+            before, now = getattr(there, what), getattr(here, what)
+            if before != now:
+                raise JournalError(
+                    f"the trials in {self.path.parent} are of another {what}: {before}, now it is {now}; "
+                    "take another folder, or remove this one"
+                )
+
+    def _decoded(self, line: bytes, number: int, kind: type[Record]) -> Record:
+        try:
+            return msgspec.json.decode(line, type=kind)
+        except msgspec.DecodeError as error:
+            raise JournalError(f"{self.path}, line {number}, is no record of trials: {error}") from error
+
+    def _write(self, record: Heading | Trial) -> None:
+        self._file.write(msgspec.json.encode(record) + b"\n")
+        self._file.flush()
+        os.fsync(self._file.fileno())
+
+
+def missing(seeds: Iterable[int], trials: Iterable[Trial]) -> tuple[int, ...]:
+    """Return the seeds that have no trial yet."""
+    done = {trial.seed for trial in trials}
+    return tuple(seed for seed in seeds if seed not in done)

@@ -1,0 +1,138 @@
+"""What good work is: the metrics of each kind of it and the targets that each trial, or half of them, must meet."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, Generic, Literal, TypeVar, assert_never
+
+from skillc_runtime.evaluation.measures.work import (
+    InsertingWork,
+    PolishingWork,
+    PressingWork,
+    TeachingWork,
+    WipingWork,
+    Work,
+)
+from skillc_runtime.evaluation.report.result import WipingResult
+from skillc_runtime.evaluation.trials.trial import Trial
+
+Result = TypeVar("Result", contravariant=True)
+
+
+@dataclass(frozen=True, slots=True)
+class Metric(Generic[Result]):
+    """A number of one piece of work, in `unit`; None where it was not measured.
+
+    It shall be `sense` the `target` in every trial, and the median of all trials the `median_target`, if there is one.
+    """
+
+    name: str
+    unit: str
+    of: Callable[[Result], float | None]
+    sense: Literal["at least", "at most"]
+    target: float | None = None
+    median_target: float | None = None
+
+    def met(self, value: float) -> bool:
+        """Tell whether a value is as good as the target."""
+        if self.target is None:
+            return True
+        return value >= self.target if self.sense == "at least" else value <= self.target
+
+    @property
+    def wanted(self) -> str:
+        """The target in words."""
+        if self.target is None:
+            return "no target"
+        return f"{self.sense} {self.target:g} {self.unit}"
+
+
+WIPING: tuple[Metric[WipingResult], ...] = (
+    Metric("coverage", "%", lambda w: 100 * w.coverage, "at least", 100.0),
+    Metric("mean force error", "%", lambda w: 100 * abs(w.force_mean_n / w.force_command_n - 1), "at most", 2.0),
+    Metric("force RMSE", "% of F", lambda w: 100 * w.force_rmse_n / w.force_command_n, "at most", 10.0, 5.0),
+    Metric("contact lost", "%", lambda w: 100 * w.contact_lost, "at most", 0.0),
+    Metric("first impact", "x F", lambda w: w.first_impact_n / w.force_command_n, "at most", 2.0),
+    Metric("vibration", "mm/s", lambda w: w.vibration_mm_s, "at most", 1.0),
+    Metric("tilt", "deg rms", lambda w: w.tilt_rms_deg, "at most", 0.5),
+    Metric("tracking", "mm rms", lambda w: w.tracking_rms_mm, "at most"),
+    Metric("lane-end dwell", "s", lambda w: w.lane_dwell_s, "at most", 0.02),
+)
+
+POLISHING: tuple[Metric[PolishingWork], ...] = (
+    Metric("rubbed long enough", "%", lambda w: 100 * w.share, "at least", 99.0),
+    Metric("swing kept", "%", lambda w: _percent(w.swing_m, w.swing_asked_m), "at least", 90.0),
+)
+
+PRESSING: tuple[Metric[PressingWork], ...] = (
+    Metric("held force", "% of F", lambda w: 100 * w.held_n / w.asked_n, "at least", 95.0),
+    Metric("greatest force", "% of F", lambda w: 100 * w.greatest_n / w.asked_n, "at most", 120.0),
+    Metric("time", "% of the skill's", lambda w: _percent(w.took, 1.0), "at most", 100.0),
+)
+
+INSERTING: tuple[Metric[InsertingWork], ...] = (
+    Metric("depth", "% of the hole", lambda w: 100 * w.depth_m / w.hole_m, "at least", 98.0),
+    Metric("greatest force", "N", lambda w: w.greatest_n, "at most", 40.0),
+    Metric("time", "% of the skill's", lambda w: _percent(w.took, 1.0), "at most", 100.0),
+)
+
+TEACHING: tuple[Metric[TeachingWork], ...] = (
+    Metric("off the place", "mm", lambda w: 1e3 * w.off_m, "at most", 5.0),
+    Metric("greatest force of the person", "N", lambda w: w.greatest_n, "at most", 25.0),
+    Metric("mean force of the person", "N", lambda w: w.mean_n, "at most", 10.0),
+    Metric("time", "% of the skill's", lambda w: _percent(w.took, 1.0), "at most", 100.0),
+)
+
+METRICS: Mapping[str, tuple[Metric[Any], ...]] = {
+    "wiping": WIPING,
+    "polishing": (*POLISHING, *WIPING),
+    "pressing": PRESSING,
+    "inserting": INSERTING,
+    "teaching": TEACHING,
+}
+"""All metrics of each kind of work."""
+
+
+@dataclass(frozen=True, slots=True)
+class MetricValue:
+    """A metric of one piece of work in one trial; `subject` is what was worked on."""
+
+    metric: Metric[Any]
+    subject: str
+    value: float
+
+
+def metric_values(trial: Trial) -> Iterator[MetricValue]:
+    """Yield everything that was measured in a trial."""
+    for work in trial.works:
+        yield from work_values(work)
+
+
+def work_values(work: Work) -> Iterator[MetricValue]:
+    """Yield everything that was measured of a piece of work."""
+    match work:
+        case WipingWork(how=how):
+            yield from _values(WIPING, how, how.surface)
+        case PolishingWork(how=how):
+            yield from _values(POLISHING, work, how.surface)
+            yield from _values(WIPING, how, how.surface)
+        case PressingWork(button=button):
+            yield from _values(PRESSING, work, button)
+        case InsertingWork(socket=socket):
+            yield from _values(INSERTING, work, socket)
+        case TeachingWork(pose=pose):
+            yield from _values(TEACHING, work, pose)
+        case _:
+            assert_never(work)
+
+
+def _values(metrics: tuple[Metric[Result], ...], result: Result, subject: str) -> Iterator[MetricValue]:
+    for metric in metrics:
+        value = metric.of(result)
+        if value is not None:
+            yield MetricValue(metric, subject, value)
+
+
+def _percent(part: float | None, whole: float | None) -> float | None:
+    return None if part is None or whole is None else 100 * part / whole

@@ -1,0 +1,66 @@
+"""Why a node failed, and why an implementation was not taken."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+import msgspec
+
+from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.world.labelled import LabelledValue
+
+FailureKind: TypeAlias = Literal[
+    "pre", "hold", "verify", "post", "inference", "lock", "timeout", "body", "plan", "contradiction", "error", "halted"
+]
+Stage: TypeAlias = Literal["argument", "inference", "pre", "hold", "lock", "start", "run"]
+
+_KIND_OF_STAGE: dict[Stage, FailureKind] = {
+    "argument": "pre",
+    "inference": "inference",
+    "pre": "pre",
+    "hold": "hold",
+    "lock": "lock",
+    "start": "body",
+    "run": "body",
+}
+
+
+class Failure(msgspec.Struct, frozen=True, kw_only=True):
+    """Why a node failed, in the author's words; `source` is the line responsible, `skill` the innermost skill.
+
+    `values` are those that a primitive put into the message, by name. `causes` are the failures this one sums up: those
+    of all alternatives that were tried.
+    """
+
+    kind: FailureKind
+    message: str
+    source: Position | None = None
+    skill: str = ""
+    values: dict[str, LabelledValue] = {}
+    causes: tuple[Failure, ...] = ()
+
+    @property
+    def breaks_hold(self) -> bool:
+        """Whether a hold or `verify` line broke, here or in a cause: such a failure is never turned into success."""
+        return self.kind in ("hold", "verify") or any(cause.breaks_hold for cause in self.causes)
+
+
+class Rejection(msgspec.Struct, frozen=True, kw_only=True):
+    """An implementation that was not taken, the stage at which it fell out, and why.
+
+    `failure` is the failure itself where the implementation had started.
+    """
+
+    implementation: str
+    stage: Stage
+    reason: str
+    source: Position
+    failure: Failure | None = None
+
+
+def as_failure(rejected: Rejection, skill: str) -> Failure:
+    """Return the failure that a rejection means for the call that had no other implementation."""
+    if rejected.failure is not None:
+        return rejected.failure
+    kind = _KIND_OF_STAGE[rejected.stage]
+    return Failure(kind=kind, message=rejected.reason, source=rejected.source, skill=skill)

@@ -1,0 +1,57 @@
+"""What the success of a task rests on: facts, each with how it is known."""
+
+from __future__ import annotations
+
+from typing import Literal, assert_never
+
+import msgspec
+from msgspec import structs
+
+from skillc_runtime.world.labelled import ClassFact, IdentityFact, LabelledFact, PropertyFact, RelationFact, format_fact
+
+UNVERIFIED = "finished, not verified"
+"""How a task ended that did all it was to do, where something that this rests on is only assumed."""
+
+
+class KnownFact(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """A fact and how it is known: `given` before the run, or by what `by` names."""
+
+    fact: LabelledFact
+    known: Literal["sensed", "reported", "assumed", "given"]
+    by: str = ""
+
+
+def assumed_facts(facts: tuple[KnownFact, ...]) -> tuple[KnownFact, ...]:
+    """Return those that nothing looked at."""
+    return tuple(fact for fact in facts if fact.known == "assumed")
+
+
+def format_evidence(fact: KnownFact) -> str:
+    """Return how a fact is known, as `assumed by Place`."""
+    return f"{fact.known} by {fact.by}" if fact.by else fact.known
+
+
+def format_status(status: str, verified: bool | None) -> str:
+    """Return how a task ended, in words: a success that rests on an assumption is not called one."""
+    return UNVERIFIED if verified is False else status
+
+
+def format_assumption(known: KnownFact) -> str:
+    """Say that a fact is only assumed, and what would have to be sensed."""
+    return f"{format_fact(known.fact)} is only assumed: {what_to_sense(known)}"
+
+
+def what_to_sense(known: KnownFact) -> str:
+    """Say what would have to be sensed for a fact to be more than assumed."""
+    after = f" after {known.by}" if known.by else ""
+    match known.fact:
+        case PropertyFact(individual, property_):
+            return f"a device would have to measure {property_.label} of {individual.label}{after}"
+        case ClassFact(individual, cls, holds):
+            what = "a" if holds else "no"
+            return f"a device would have to recognise{after} that {individual.label} is {what} {cls.label}"
+        case RelationFact() | IdentityFact() as fact:
+            said = format_fact(structs.replace(fact, holds=True))
+            return f"a device would have to sense{after} that `{said}` {'holds' if fact.holds else 'does not hold'}"
+        case _:
+            assert_never(known.fact)

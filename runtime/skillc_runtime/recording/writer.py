@@ -1,0 +1,52 @@
+"""Events as JSON Lines in a file: one line an event, on disk as it happens."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import TracebackType
+
+import msgspec
+
+from skillc_runtime.recording.events import Event
+
+
+class TraceWriter:
+    """A listener that appends every event to a file and flushes it; use it in `with`.
+
+    A disk that fails never stops the robot: the writer stops writing and keeps the reason in `problem`.
+    """
+
+    def __init__(self, path: Path) -> None:
+        """Open the file, empty; OSError when that is not possible."""
+        self.path = path
+        self.problem: str | None = None
+        self._encoder = msgspec.json.Encoder()
+        self._file = path.open("wb")
+
+    def __call__(self, event: Event) -> None:
+        if self.problem is not None or self._file.closed:
+            return
+        try:
+            self._file.write(self._encoder.encode(event) + b"\n")
+            self._file.flush()
+        except OSError as error:
+            self._give_up(error)
+
+    def close(self) -> None:
+        """Close the file; a second time does nothing."""
+        try:
+            self._file.close()
+        except OSError as error:
+            self._give_up(error)
+
+    def __enter__(self) -> TraceWriter:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def _give_up(self, error: OSError) -> None:
+        if self.problem is None:
+            self.problem = f"{self.path} is incomplete: {error.strerror or error}"

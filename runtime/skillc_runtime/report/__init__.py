@@ -1,1 +1,0 @@
-"""What a task did, for people: figures, a page, a table."""

@@ -1,1 +1,0 @@
-"""How good each kind of work was, judged by what the simulator knows; which kind it is, the world model says."""
