@@ -13,9 +13,9 @@ from skillc_compiler.goals import parse_call, parse_goal
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, prepare
 from skillc_runtime.commands import _library
+from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Primitive, Status
-from skillc_runtime.robots.watchdog import Watchdog
 from skillc_runtime.task import Execution, execute
 from skillc_runtime.trace.events import Event
 from skillc_runtime.world.changes import AddIndividual, AddRelation, SetProperty
@@ -99,7 +99,7 @@ class Bench:
     world: WorldModel
     meanwhile: dict[float, Callable[[Bench], object]] = field(default_factory=dict)
     now: float = 0.0
-    watchdog: Watchdog = field(default_factory=Watchdog)
+    watchdog: HeartbeatWatchdog = field(default_factory=HeartbeatWatchdog)
     hand: Hand = field(default_factory=Hand)
     wheels: Base = field(default_factory=Base)
 

@@ -12,8 +12,8 @@ from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare
 from skillc_runtime.commands import _library
+from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.robots.watchdog import Watchdog
 from skillc_runtime.task import Execution, execute
 from skillc_runtime.trace.events import Event
 from skillc_runtime.world.changes import AddIndividual, AddRelation
@@ -66,7 +66,7 @@ class Depot:
     fails: Callable[[str, int], bool] = lambda step, number: False
     now: float = 0.0
     at_rest: bool = True
-    watchdog: Watchdog = field(default_factory=Watchdog)
+    watchdog: HeartbeatWatchdog = field(default_factory=HeartbeatWatchdog)
     log: list[str] = field(default_factory=list)
 
     def secure(self) -> tuple[str, ...]:

@@ -15,12 +15,12 @@ from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Compare, Individual, Literal, PropertyOf
 from skillc_runtime import primitives
 from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach
+from skillc_runtime.devices.cell import Cell
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.compliance import ReleaseAxis
 from skillc_runtime.primitives.overlay import AddedMotion
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.robots.cell import Cell
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import execute
 from skillc_runtime.trace.events import Event, NodeEnded, Note, TaskEnded
@@ -122,13 +122,13 @@ class Pushing(Primitive):
         self.arm, self._along = cell.arm(arm), along
 
     def start(self) -> None:
-        self.arm.push(self._along, 10.0)
+        self.arm.compliance.push(self._along, 10.0)
 
     def tick(self) -> Status:
         return Status.SUCCESS
 
     def release(self) -> None:
-        self.arm.push_off()
+        self.arm.compliance.push_off()
 
 
 class Breaking(Primitive):

@@ -85,8 +85,8 @@ def test_a_peg_finds_its_hole_and_stands_at_its_bottom(seed: int) -> None:
 
     def watch(cell: SimulatedCell) -> None:
         arm = cell.arm(LAB + "Panda-1")
-        if arm.commanded_wrench.any():
-            sinking.append(-float(arm.velocity[2]))
+        if arm.compliance.commanded_wrench.any():
+            sinking.append(-float(arm.measured.velocity[2]))
 
     done = run("insert_peg", seed, watch=watch)
     assert done.succeeded, done.why
@@ -129,7 +129,7 @@ def test_a_person_leads_the_tool_with_little_force_to_the_pose_that_is_taught(se
         force = float(np.linalg.norm(cell.data.body("lab:Robotiq-1/palm").xfrc_applied[:3]))
         if force > 0.0:
             forces.append(force)
-            path.append(cell.arm(LAB + "Iiwa-1").pose.position)
+            path.append(cell.arm(LAB + "Iiwa-1").measured.pose.position)
 
     done = run("teach_pose", seed, watch=watch)
     assert done.succeeded, done.why

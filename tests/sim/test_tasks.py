@@ -51,8 +51,12 @@ def start(name: str, seed: int) -> tuple[Prepared, SimulatedCell]:
 def at_rest(execution: Execution, arm: str) -> bool:
     """Whether an arm neither moves nor is asked to push, and is stiff along every axis."""
     driver = execution.cell.arm(arm)
-    pushes = abs(driver.commanded_wrench).max() > 0.1
-    return not pushes and bool((driver.commanded_stiffness[:3] > 0).all()) and abs(driver.velocity).max() < 0.02
+    pushes = abs(driver.compliance.commanded_wrench).max() > 0.1
+    return (
+        not pushes
+        and bool((driver.compliance.commanded_stiffness[:3] > 0).all())
+        and abs(driver.measured.velocity).max() < 0.02
+    )
 
 
 @pytest.mark.parametrize("seed", [0, 7])
@@ -80,7 +84,7 @@ def test_interrupted_while_wiping_it_lets_go_and_is_stiff_again(name: str) -> No
 
     def interrupted() -> bool:
         if wiping() and cell.now > choices[max(choices)].time + 1.0:
-            pushed.append(abs(cell.arm(ARMS[name]).commanded_wrench).max() > 1.0)
+            pushed.append(abs(cell.arm(ARMS[name]).compliance.commanded_wrench).max() > 1.0)
             return True
         return False
 

@@ -12,8 +12,8 @@ from skillc_runtime.avoidance.contacts import Contacts
 from skillc_runtime.avoidance.outfit import outfit
 from skillc_runtime.avoidance.scenery import scenery
 from skillc_runtime.simulation import starts
-from skillc_runtime.simulation.chance import chance_of
 from skillc_runtime.simulation.facts import ArmFacts, read_scene
+from skillc_runtime.simulation.random_sources import rng_for
 from skillc_runtime.simulation.starts import draw_start
 from skillc_runtime.world.documents import Document
 from skillc_runtime.world.scene import sheets, world_of
@@ -28,7 +28,7 @@ def looking(arm: ArmFacts) -> Contacts:
 
 
 def first_draw(arm: ArmFacts, seed: int) -> tuple[float, ...]:
-    off = chance_of(arm.individual, seed).uniform(-1.0, 1.0, arm.home.size) * arm.posture_range_rad
+    off = rng_for(arm.individual, seed).uniform(-1.0, 1.0, arm.home.size) * arm.posture_range_rad
     return tuple(off.tolist())
 
 

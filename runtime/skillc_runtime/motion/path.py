@@ -15,12 +15,12 @@ from math import sqrt
 import numpy as np
 
 from skillc_runtime.motion.arc import Arc
+from skillc_runtime.motion.numerics.compiled import Matrix, OutMatrix, compiled, part
+from skillc_runtime.motion.numerics.linear import cross, product, rotation_by, times
 from skillc_runtime.motion.piece import COLUMNS, motion_at
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Reference, at_rest
 from skillc_runtime.motion.segments import MotionLimits, Segment, segment
-from skillc_runtime.numerics.compiled import Matrix, OutMatrix, compiled, part
-from skillc_runtime.numerics.linear import cross, product, rotation_by, times
 
 START, END = COLUMNS, COLUMNS + 1
 """When a piece starts and ends; the columns after those of the piece itself."""

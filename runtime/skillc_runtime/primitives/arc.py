@@ -12,7 +12,7 @@ from skillc_runtime.primitives.primitive import SkillFailure
 from skillc_runtime.primitives.whereabouts import whereabouts
 
 if TYPE_CHECKING:
-    from skillc_runtime.robots.cell import Cell
+    from skillc_runtime.devices.cell import Cell
 
 
 class MoveArc(ArmMotion):
@@ -24,11 +24,11 @@ class MoveArc(ArmMotion):
 
     def go(self) -> None:
         """Plan the arc from where the reference rests, and go; SkillFailure where the places make no circle."""
-        start, limits = self.arm.anchor, self.limits(self._speed)
+        start, limits = self.arm.motion.stopping_pose(), self.limits(self._speed)
         try:
             piece = arc_through(start, self._via.position, self._target, limits)
         except ValueError as why:
             state = self.cell.world.snapshot()
             places = (whereabouts(state, pose.position) for pose in (start, self._via, self._target))
             raise SkillFailure("{}: start at {}; via at {}; target at {}".format(why, *places)) from why
-        self.arm.move_along(joined([start, self._target], [piece], limits))
+        self.arm.motion.move_along(joined([start, self._target], [piece], limits))

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from skillc_runtime.devices.arm_driver import Infeasible
 from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.primitives.whereabouts import whereabouts
-from skillc_runtime.robots.feasible import Infeasible
 
 if TYPE_CHECKING:
-    from skillc_runtime.robots.cell import Cell
-    from skillc_runtime.robots.driver import ArmDriver
+    from skillc_runtime.devices.arm_driver import ArmDriver
+    from skillc_runtime.devices.cell import Cell
 
 PATIENCE_S = 1.5
 """How long after its reference an arm may come to rest."""
@@ -40,43 +40,45 @@ class ArmMotion(Primitive):
     def tick(self) -> Status:
         """Return SUCCESS once the arm is there."""
         raise_fault(self.arm)
-        if not self.arm.done:
+        if not self.arm.motion.done:
             return Status.RUNNING
-        behind = self.arm.behind
-        if behind is None:
+        error = self.arm.motion.tracking_error_message
+        if error is None:
             return Status.SUCCESS
         self._ended = self.cell.now if self._ended is None else self._ended
         if self.cell.now - self._ended > PATIENCE_S:
-            raise SkillFailure(behind)
+            raise SkillFailure(error)
         return Status.RUNNING
 
     def halt(self, reason: str) -> None:
         """Come to rest."""
-        self.arm.stop()
+        self.arm.motion.stop()
 
     def pause(self) -> None:
         """Slow down to a standstill."""
-        self.arm.pause()
+        self.arm.motion.pause()
 
     def resume(self) -> None:
         """Go on."""
-        self.arm.resume()
+        self.arm.motion.resume()
 
     def limits(self, speed: float) -> MotionLimits:
         """Return the limits of a motion of the tool with a speed in m/s; SkillFailure where the arm allows less."""
-        if speed > self.arm.gains.speed_limit:
-            raise SkillFailure(f"{speed:g} m/s is faster than the {self.arm.gains.speed_limit:g} m/s the arm allows")
-        return MotionLimits(speed, self.arm.gains.acceleration_limit, jerk=self.arm.gains.jerk_limit)
+        if speed > self.arm.task_limits.speed_m_s:
+            raise SkillFailure(
+                f"{speed:g} m/s is faster than the {self.arm.task_limits.speed_m_s:g} m/s the arm allows"
+            )
+        return MotionLimits(speed, self.arm.task_limits.acceleration_m_s2, jerk=self.arm.task_limits.jerk_m_s3)
 
 
 def unfit(cell: Cell, arm: ArmDriver, why: Infeasible) -> SkillFailure:
     """Return the failure that says which motion does not fit the arm, and where."""
-    place = whereabouts(cell.world.snapshot(), arm.in_world(why.place))
+    place = whereabouts(cell.world.snapshot(), arm.measured.in_world(why.place))
     return SkillFailure(f"the motion does not fit the arm: {why.problem}, at {place}")
 
 
 def raise_fault(arm: ArmDriver) -> None:
     """Fail with what made the driver stop, once."""
-    fault, arm.fault = arm.fault, None
+    fault = arm.take_fault()
     if fault is not None:
         raise SkillFailure(fault)

@@ -13,7 +13,7 @@ from skillc_runtime.world.frames import placed
 from skillc_runtime.world.terms import IS_TAUGHT
 
 if TYPE_CHECKING:
-    from skillc_runtime.robots.cell import Cell
+    from skillc_runtime.devices.cell import Cell
 
 LED_M = 0.005
 """A tool that has come this far was led, not pushed by accident."""
@@ -35,16 +35,16 @@ class AwaitGuidance(Primitive):
         """Begin to wait."""
         raise_fault(self.arm)
         self._began = self._moved_at = self.cell.now
-        self._from = self.arm.pose.position
+        self._from = self.arm.measured.pose.position
 
     def tick(self) -> Status:
         """Return SUCCESS once the tool was led somewhere and stands there."""
         raise_fault(self.arm)
-        now, away = self.cell.now, float(np.linalg.norm(self.arm.pose.position - self._from))
-        if away < LED_M or float(np.linalg.norm(self.arm.velocity[:3])) > STILL_M_S:
+        now, away = self.cell.now, float(np.linalg.norm(self.arm.measured.pose.position - self._from))
+        if away < LED_M or float(np.linalg.norm(self.arm.measured.velocity[:3])) > STILL_M_S:
             self._moved_at = now
         if now - self._moved_at >= self._still:
-            taught = [*placed(self._pose, self.arm.pose), SetProperty(self._pose, IS_TAUGHT, True)]
+            taught = [*placed(self._pose, self.arm.measured.pose), SetProperty(self._pose, IS_TAUGHT, True)]
             self.cell.world.commit(taught, "AwaitGuidance", "sensed")
             return Status.SUCCESS
         if now - self._began > self._patience:

@@ -15,7 +15,7 @@ from skillc_runtime.world.sheet import SheetError, number
 from skillc_runtime.world.terms import DEPTH, INSERTED_DEPTH, IS_SEATED
 
 if TYPE_CHECKING:
-    from skillc_runtime.robots.cell import Cell
+    from skillc_runtime.devices.cell import Cell
 
 STILL_M, STILL_S = 0.0003, 0.3
 """A tool that stays within this for that long rests; its speed is measured with too much noise to tell."""
@@ -41,7 +41,7 @@ class SinkBelow(Primitive):
     def tick(self) -> Status:
         """Return SUCCESS once the tool is deep enough."""
         raise_fault(self.arm)
-        depth = float(self._along @ (self._target - self.arm.pose.position))
+        depth = float(self._along @ (self._target - self.arm.measured.pose.position))
         self._deepest = max(self._deepest, depth)
         if depth >= self._depth:
             return Status.SUCCESS
@@ -72,18 +72,18 @@ class Seat(Primitive):
             raise SkillFailure(str(error)) from error
         self._opening = pose(state, self._socket)
         self._began = self._came_at = self.cell.now
-        self._place = self.arm.pose.position
+        self._place = self.arm.measured.pose.position
 
     def tick(self) -> Status:
         """Return SUCCESS once the peg rests at the bottom."""
         raise_fault(self.arm)
-        place = self.arm.pose.position
+        place = self.arm.measured.pose.position
         if float(np.linalg.norm(place - self._place)) > STILL_M:
             self._place, self._came_at = place, self.cell.now
         resting = self.cell.now - self._came_at >= STILL_S
         if not resting and self.cell.now - self._began <= self._patience:
             return Status.RUNNING
-        depth = -float(self._opening.inverse().at(self.arm.pose.position)[2])
+        depth = -float(self._opening.inverse().at(self.arm.measured.pose.position)[2])
         seated = resting and abs(depth - self._bottom) <= (1 - SEATED_SHARE) * self._bottom
         noted = [SetProperty(self._peg, INSERTED_DEPTH, depth), SetProperty(self._peg, IS_SEATED, seated)]
         self.cell.world.commit(noted, "Seat", "sensed")

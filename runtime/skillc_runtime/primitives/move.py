@@ -18,7 +18,7 @@ from skillc_runtime.primitives.primitive import SkillFailure
 from skillc_runtime.world.terms import HAS_POSTURE, HAS_SHEET, POSTURE_NAME
 
 if TYPE_CHECKING:
-    from skillc_runtime.robots.cell import Cell
+    from skillc_runtime.devices.cell import Cell
 
 HOME = "home"
 
@@ -39,10 +39,10 @@ class MoveJoints(ArmMotion):
     def go(self) -> None:
         """Find the posture nearest to home that puts the tool there, another where that one is not free, and go."""
         seed = posture_of(self.cell.world.snapshot(), self._individual, HOME)
-        q = self.arm.inverse_kinematics(self._target, seed)
+        q = self.arm.motion.inverse_kinematics(self._target, seed)
         if q is None:
             place = ", ".join(f"{part:.3f}" for part in self._target.position)
-            far = np.linalg.norm(self._target.position - self.arm.pose.position)
+            far = np.linalg.norm(self._target.position - self.arm.measured.pose.position)
             raise SkillFailure(
                 f"the arm cannot reach ({place}) m in this orientation, {far:.2f} m from where its tool is"
             )
@@ -52,8 +52,8 @@ class MoveJoints(ArmMotion):
         """Yield other postures that put the tool there: near where the joints are, then all over their range."""
         draw, limits = np.random.default_rng(0), self.arm.limits.range
         low, high = np.maximum(limits[:, 0], home - np.pi), np.minimum(limits[:, 1], home + np.pi)
-        for seed in (self.arm.q, *(draw.uniform(low, high) for _ in range(SEEDS))):
-            q = self.arm.inverse_kinematics(self._target, seed)
+        for seed in (self.arm.measured.q, *(draw.uniform(low, high) for _ in range(SEEDS))):
+            q = self.arm.motion.inverse_kinematics(self._target, seed)
             if q is not None:
                 yield q
 
@@ -83,4 +83,4 @@ class MoveLinear(ArmMotion):
     def go(self) -> None:
         """Plan the line from where the reference rests, and go."""
         limits = self.limits(self._speed)
-        self.arm.move_along(path([self.arm.anchor, self._target], limits))
+        self.arm.motion.move_along(path([self.arm.motion.stopping_pose(), self._target], limits))

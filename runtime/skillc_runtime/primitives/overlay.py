@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from skillc_runtime.devices.arm_driver import Infeasible
 from skillc_runtime.motion.overlays import Circle, Lissajous, Spiral
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import Overlay
 from skillc_runtime.primitives.arm_motion import unfit
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.robots.feasible import Infeasible
 
 if TYPE_CHECKING:
-    from skillc_runtime.robots.cell import Cell
+    from skillc_runtime.devices.cell import Cell
 
 FADE_S = 0.5
 """In which an overlay grows, and fades."""
@@ -38,13 +38,13 @@ class AddedMotion(Primitive):
 
     def start(self) -> None:
         """Begin, growing from nothing; SkillFailure where the motion is faster than the arm allows."""
-        if self._speed > self.arm.gains.speed_limit:
+        if self._speed > self.arm.task_limits.speed_m_s:
             raise SkillFailure(
                 f"{self._name} runs with {self._speed:.2f} m/s, "
-                f"faster than the {self.arm.gains.speed_limit:g} m/s the arm allows"
+                f"faster than the {self.arm.task_limits.speed_m_s:g} m/s the arm allows"
             )
         try:
-            self._handle = self.arm.add_overlay(self._overlay, self._axes, FADE_S)
+            self._handle = self.arm.motion.add_overlay(self._overlay, self._axes, FADE_S)
         except Infeasible as why:
             raise unfit(self.cell, self.arm, why) from why
 
@@ -54,7 +54,7 @@ class AddedMotion(Primitive):
 
     def halt(self, reason: str) -> None:
         """Fade out."""
-        self.arm.remove_overlay(self._handle)
+        self.arm.motion.remove_overlay(self._handle)
 
 
 class OverlayCircle(AddedMotion):

@@ -8,8 +8,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from skillc_runtime.devices.arm import ArmLimits, ArmState, Capabilities, Command, Mode
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.robots.arm import ArmLimits, ArmState, Capabilities, Command, Mode
 from skillc_runtime.simulation import noise
 from skillc_runtime.simulation.facts import ArmFacts
 from skillc_runtime.simulation.hand import BIAS, CARRYING, SPEED, Hand, Q, load_mass, measure

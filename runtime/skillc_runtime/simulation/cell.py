@@ -7,10 +7,10 @@ from typing import Any
 
 import mujoco
 
+from skillc_runtime.control.driver import CompliantArmDriver
+from skillc_runtime.control.watchdog import HeartbeatWatchdog
+from skillc_runtime.devices.gripper import working_face
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.robots.driver import ArmDriver
-from skillc_runtime.robots.tools import working_face
-from skillc_runtime.robots.watchdog import Watchdog
 from skillc_runtime.simulation.arm import SimulatedArm
 from skillc_runtime.simulation.base import SimulatedBase
 from skillc_runtime.simulation.build import build
@@ -69,7 +69,7 @@ class SimulatedCell:
             tool.individual: ToolObserver(tool, names, self.model, self.data, self.coverage) for tool in facts.tools
         }
         self._camera = SimulatedCamera(self.coverage)
-        self.watchdog = Watchdog()
+        self.watchdog = HeartbeatWatchdog()
         self._buttons = buttons(facts.fixtures, self.variation.fixtures, names, self.data)
         self.people = people(facts, self.variation, self._drivers, self.data)
         idle = [SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(self._drivers)]
@@ -96,7 +96,7 @@ class SimulatedCell:
         """The world model."""
         return self._world
 
-    def arm(self, individual: str) -> ArmDriver:
+    def arm(self, individual: str) -> CompliantArmDriver:
         """Return an arm's driver; KeyError where the cell has no such arm."""
         return self._drivers[individual]
 
@@ -124,7 +124,7 @@ class SimulatedCell:
         """Return what was recorded of a tool, by IRI, while it was held; KeyError where the cell has no such tool."""
         return self._observers[tool].recorder.recording()
 
-    def strongest_force(self, tool: str) -> float:
+    def peak_force_n(self, tool: str) -> float:
         """Return the greatest force in N on a tool, by IRI, while it was held; KeyError where there is no such tool."""
         return self._observers[tool].strongest.newton
 
@@ -140,9 +140,8 @@ class SimulatedCell:
         """
         names, found = self.facts.names, []
         for individual, arm in self._drivers.items():
-            if arm.fault is not None:
-                found.append(f"{names[individual]} had stopped: {arm.fault}")
-                arm.fault = None
+            if (fault := arm.take_fault()) is not None:
+                found.append(f"{names[individual]} had stopped: {fault}")
             if arm.secure():
                 found.append(f"{names[individual]} was left yielding; it is held stiff again")
         self._stop_devices()
@@ -186,7 +185,7 @@ class SimulatedCell:
         mujoco.mj_step1(self.model, self.data)
         self._step += 1
 
-    def _control(self, individual: str, arm: ArmDriver, now: float) -> None:
+    def _control(self, individual: str, arm: CompliantArmDriver, now: float) -> None:
         """Do a control period of one arm; note, once, that it is broken."""
         worked = arm.broken is None
         try:
@@ -207,7 +206,7 @@ class SimulatedCell:
 
     def _lose(self, arm: str, gripper: SimulatedGripper, thing: str, why: str) -> None:
         """Stop an arm whose gripper cannot hold a thing any more, and note where that was."""
-        state, there = self._world.snapshot(), self._drivers[arm].pose
+        state, there = self._world.snapshot(), self._drivers[arm].measured.pose
         left_at = there @ working_face(size(state, thing)).inverse()
         gripper.lose()
         self._drivers[arm].abort(why)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from skillc_runtime.motion.pose import Pose, exp
-from skillc_runtime.simulation.chance import chance_of
 from skillc_runtime.simulation.fixture_facts import FixtureFacts
+from skillc_runtime.simulation.random_sources import rng_for
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +46,7 @@ class FixtureVariation:
 
 def draw_fixture(fixture: FixtureFacts, seed: int) -> FixtureVariation:
     """Draw the differences: the place on a disc across the axis and along it, the rest within ranges, all evenly."""
-    chance = chance_of(fixture.individual, seed)
+    chance = rng_for(fixture.individual, seed)
     away = fixture.place_range_m * float(np.sqrt(chance.uniform()))
     towards, along = float(chance.uniform(0.0, 2 * np.pi)), float(chance.uniform(-1.0, 1.0))
     tilt_x, tilt_y, stiffness, switch = chance.uniform(-1.0, 1.0, 4).tolist()

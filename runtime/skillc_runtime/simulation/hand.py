@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from skillc_runtime.motion.numerics.compiled import Matrix, OutMatrix, OutVector, Vector, compiled, part
+from skillc_runtime.motion.numerics.linear import cross, product, times, transposed_times
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.numerics.compiled import Matrix, OutMatrix, OutVector, Vector, compiled, part
-from skillc_runtime.numerics.linear import cross, product, times, transposed_times
 
 TOOL = 6
 """The row of the tool centre point."""

@@ -8,9 +8,9 @@ from typing import ClassVar, NoReturn
 
 import numpy as np
 
+from skillc_runtime.devices.arm import Command, JointPosition, JointVelocity, Mode, ModeRefused, Torque
+from skillc_runtime.motion.numerics.compiled import OutVector, Vector, compiled
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.numerics.compiled import OutVector, Vector, compiled
-from skillc_runtime.robots.arm import Command, JointPosition, JointVelocity, Mode, ModeRefused, Torque
 
 SILENCE_S = 0.05
 """An arm that is not commanded for so long holds still by itself."""

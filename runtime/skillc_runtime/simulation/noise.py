@@ -7,8 +7,8 @@ from typing import Final
 import numpy as np
 
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.simulation.chance import chance_of
 from skillc_runtime.simulation.facts import ArmFacts
+from skillc_runtime.simulation.random_sources import rng_for
 
 BLOCK: Final = 1000
 """Rows drawn at once: a single draw costs as much as a hundred of them."""
@@ -35,10 +35,10 @@ class Noise:
 def of_joints(arm: ArmFacts, seed: int) -> Noise | None:
     """Return the noise of an arm's joint speeds (nv,) rad/s; None where there is none."""
     deviation = np.full(arm.home.size, arm.joint_speed_noise)
-    return Noise(deviation, chance_of(arm.individual, seed, 1)) if deviation.any() else None
+    return Noise(deviation, rng_for(arm.individual, seed, 1)) if deviation.any() else None
 
 
 def of_wrist(arm: ArmFacts, seed: int) -> Noise | None:
     """Return the noise of an arm's wrist (9,): force N, torque N m, acceleration; None where there is none."""
     deviation = np.repeat([arm.force_noise_n, arm.torque_noise_n_m, 0.0], 3)
-    return Noise(deviation, chance_of(arm.individual, seed, 2)) if deviation.any() else None
+    return Noise(deviation, rng_for(arm.individual, seed, 2)) if deviation.any() else None

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.motion.pose import Array, rotation_of
-from skillc_runtime.robots.driver import ArmDriver
 from skillc_runtime.simulation.coverage import CoverageMap
 from skillc_runtime.simulation.facts import ToolFacts
 from skillc_runtime.simulation.names import face_sensor, pressing_sensor
+from skillc_runtime.simulation.peak_force import PeakForce
 from skillc_runtime.simulation.recorder import Recorder
-from skillc_runtime.simulation.strongest import StrongestForce
 
 STEPS_PER_UPDATE = 10
 """Coverage and reference are looked at every so many steps: at 100 Hz with steps of 1 ms."""
@@ -33,14 +33,14 @@ class ToolObserver:
         self._reach = float(np.hypot(*self._extent)) / 2
         self._seconds = STEPS_PER_UPDATE * model.opt.timestep
         self._steps = 0
-        self.recorder, self.strongest = Recorder(self._truth), StrongestForce(name, model, data)
+        self.recorder, self.strongest = Recorder(self._truth), PeakForce(name, model, data)
 
     def sample(self, time: float, driver: ArmDriver) -> None:
         """Take in one step that began at `time` s, in which `driver` moved the tool."""
         self.recorder.sample(time)
         self.strongest.sample()
         if self._steps % STEPS_PER_UPDATE == 0:
-            self.recorder.sample_reference(time, driver.reference, driver.path, self._cover())
+            self.recorder.sample_reference(time, driver.motion.reference, driver.motion.path, self._cover())
         self._steps += 1
 
     def _cover(self) -> float:

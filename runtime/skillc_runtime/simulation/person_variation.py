@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from skillc_runtime.simulation.chance import chance_of
 from skillc_runtime.simulation.person_facts import PersonFacts
+from skillc_runtime.simulation.random_sources import rng_for
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,7 @@ class PersonVariation:
 
 def draw_person(person: PersonFacts, seed: int) -> PersonVariation:
     """Draw the differences, evenly within the ranges of the facts."""
-    chance = chance_of(person.individual, seed)
+    chance = rng_for(person.individual, seed)
     x, y, z = (person.range_m * chance.uniform(-1.0, 1.0, 3)).tolist()
     strength = person.strength_n + person.strength_range_n * float(chance.uniform(-1.0, 1.0))
     return PersonVariation(person.individual, (x, y, z), strength)

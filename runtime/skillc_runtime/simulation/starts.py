@@ -9,8 +9,8 @@ from skillc_runtime.avoidance.contacts import Contacts
 from skillc_runtime.avoidance.outfit import outfit
 from skillc_runtime.avoidance.scenery import scenery
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.simulation.chance import chance_of
 from skillc_runtime.simulation.facts import ArmFacts
+from skillc_runtime.simulation.random_sources import rng_for
 
 MOST_DRAWS = 100
 """So often a start is drawn at most until nothing is touched; otherwise the arm starts at home."""
@@ -32,7 +32,7 @@ def draw_start(arm: ArmFacts, seed: int) -> tuple[float, ...]:
 
 
 def _draws(arm: ArmFacts, seed: int) -> Iterator[Array]:
-    chance = chance_of(arm.individual, seed)
+    chance = rng_for(arm.individual, seed)
     for _ in range(MOST_DRAWS):
         yield chance.uniform(-1.0, 1.0, arm.home.size) * arm.posture_range_rad
 

@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose, exp
-from skillc_runtime.simulation.chance import chance_of
 from skillc_runtime.simulation.facts import ArmFacts, SceneFacts, SurfaceFacts, ToolFacts
 from skillc_runtime.simulation.fixture_variation import FixtureVariation, draw_fixture
 from skillc_runtime.simulation.person_variation import PersonVariation, draw_person
+from skillc_runtime.simulation.random_sources import rng_for
 from skillc_runtime.simulation.starts import draw_start
 
 OBSTACLE_M = (0.03, 0.03, 0.012)
@@ -110,7 +110,7 @@ def with_obstacles(variation: Variation, scene: SceneFacts) -> Variation:
 
 
 def _draw(surface: SurfaceFacts, seed: int) -> SurfaceVariation:
-    chance = chance_of(surface.individual, seed)
+    chance = rng_for(surface.individual, seed)
     offset, tilt_x, tilt_y = chance.uniform(-1.0, 1.0, 3)
     return SurfaceVariation(
         surface=surface.individual,
@@ -121,10 +121,10 @@ def _draw(surface: SurfaceFacts, seed: int) -> SurfaceVariation:
 
 
 def _pad(tool: ToolFacts, seed: int) -> float:
-    return float(chance_of(tool.individual, seed).uniform(-1.0, 1.0)) * tool.stiffness_range
+    return float(rng_for(tool.individual, seed).uniform(-1.0, 1.0)) * tool.stiffness_range
 
 
 def _obstacle(surface: SurfaceFacts, seed: int) -> Obstacle:
-    share = chance_of(surface.individual, seed, 1).uniform(-OBSTACLE_SHARE / 2, OBSTACLE_SHARE / 2, 2)
+    share = rng_for(surface.individual, seed, 1).uniform(-OBSTACLE_SHARE / 2, OBSTACLE_SHARE / 2, 2)
     x, y = (share * surface.size[:2]).tolist()
     return Obstacle((x, y))

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Position
-from skillc_runtime.robots.cell import Cell
+from skillc_runtime.devices.cell import Cell
 from skillc_runtime.trace.events import Listener, Note
 from skillc_runtime.tree.locks import Locks
 from skillc_runtime.world.changes import Change

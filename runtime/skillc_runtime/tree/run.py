@@ -6,11 +6,10 @@ from collections.abc import Iterator, Sequence
 
 from skillc_compiler.library import tree
 from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.devices.cell import Cell, WatchdogTimeout
 from skillc_runtime.plans.failures import Failures
+from skillc_runtime.primitives.fact_monitor import FactMonitor
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.robots.cell import Cell
-from skillc_runtime.robots.contradictions import DeviceWatch
-from skillc_runtime.robots.watchdog import Silence
 from skillc_runtime.trace.events import Listener, Paused, Resumed
 from skillc_runtime.trace.failure import Failure
 from skillc_runtime.trace.listeners import Listeners
@@ -61,7 +60,7 @@ class Run:
         self._root = build(body, self._context, Enclosing(self._undo, failures=failures))
         self._strand = Strand(self._root)
         self._paused_at: float | None = None
-        self._devices = DeviceWatch(cell)
+        self._devices = FactMonitor(cell)
         self.status = Status.IDLE
         self.failure: Failure | None = None
 
@@ -131,7 +130,7 @@ class Run:
             return
         unlisten = self._context.cell.world.listen(self._tell_world)
         try:
-            contradiction = self._devices.contradiction()
+            contradiction = self._devices.withdraw_contradicted()
         finally:
             unlisten()
         if contradiction is not None:
@@ -163,11 +162,11 @@ class Run:
     def _beat(self) -> None:
         cell = self._context.cell
         if not cell.watchdog.beat(self, cell.now):
-            raise Silence("the tree was not ticked for too long, so everything was stopped")
+            raise WatchdogTimeout("the tree was not ticked for too long, so everything was stopped")
 
     def _contradiction(self) -> str | None:
         """Withdraw what a device contradicts; return that in words."""
-        found = self._devices.contradiction()
+        found = self._devices.withdraw_contradicted()
         if found is not None:
             self._context.refresh()
         return found
@@ -184,7 +183,7 @@ class Run:
         """Give a sign of life while paused."""
         try:
             self._beat()
-        except Silence as silence:
+        except WatchdogTimeout as silence:
             self.abort(silence)
         return self.status
 

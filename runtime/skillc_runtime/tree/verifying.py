@@ -10,7 +10,7 @@ from skillc_compiler.library.conditions import Compare, Literal
 from skillc_compiler.library.properties import Is, Measures, Property
 from skillc_compiler.library.skills import Implementation
 from skillc_compiler.library.vocabulary import ClassType, Vocabulary
-from skillc_runtime.robots.cell import Cell
+from skillc_runtime.devices.cell import Cell
 from skillc_runtime.trace.failure import Failure
 from skillc_runtime.tree.enclosing import Frame
 from skillc_runtime.world.conditions import evaluate
@@ -50,7 +50,7 @@ def _happened(
             return "" if evaluate(condition, state, frame) else None
         case Measures(operator=operator, limit=limit):
             for arm in _arms(implementation, vocabulary, frame):
-                force_n = float(np.linalg.norm(cell.arm(arm).wrench[:3]))
+                force_n = float(np.linalg.norm(cell.arm(arm).measured.wrench[:3]))
                 if evaluate(Compare(Literal(force_n), operator, limit), state, frame):
                     return f": {vocabulary.short(arm)} feels {force_n:.1f} N"
     return None

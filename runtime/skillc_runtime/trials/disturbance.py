@@ -7,9 +7,9 @@ from typing import assert_never
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.report.wiping import PATH_SKILL
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.chance import chance_of
 from skillc_runtime.simulation.facts import ArmFacts, SceneFacts
 from skillc_runtime.simulation.names import part
+from skillc_runtime.simulation.random_sources import rng_for
 from skillc_runtime.simulation.variation import Variation, deserted, draw, with_obstacles
 from skillc_runtime.trace.events import Event, ImplementationChosen
 from skillc_runtime.trials.trial import Disturbance
@@ -63,7 +63,7 @@ class Person:
             self.pushed |= pushes
 
     def _decided(self, arm: ArmFacts, now: float) -> tuple[float, Array]:
-        chance = chance_of(arm.individual, self._cell.variation.seed, 3)
+        chance = rng_for(arm.individual, self._cell.variation.seed, 3)
         direction = chance.standard_normal(3)
         return now + float(chance.uniform(*PUSH_AFTER_S)), PUSH_N * direction / float((direction @ direction) ** 0.5)
 

@@ -1,0 +1,65 @@
+"""Keeping the posture of a redundant arm without moving its tool.
+
+tau_0 = k (q_n - q) - d dq;  (J J^T + lam^2 I) y = J tau_0;  tau_null = tau_0 - J^T y
+A share lam^2 / (s_i^2 + lam^2) of tau_0 reaches the tool along singular direction i, so lam stays tiny until the arm
+comes near a singularity, where s_i falls and the solution would grow.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+
+from skillc_runtime.devices.arm import ArmState
+from skillc_runtime.motion.numerics.compiled import Matrix, OutVector, Vector, compiled
+from skillc_runtime.motion.numerics.linear import cholesky, cholesky_solve, product, times, transposed_times
+from skillc_runtime.motion.pose import Array
+
+REGULARISATION = 1e-6
+"""lam^2 away from singularities."""
+
+SINGULAR_BELOW, SINGULAR_REGULARISATION = 5e-3, 1e-2
+"""Manipulability sqrt(det J J^T) below which lam^2 rises, and what it rises to."""
+
+
+class Nullspace:
+    """Pulls towards `rest` (nv,) with `stiffness` N m/rad, damped as for unit inertia, N m s/rad."""
+
+    def __init__(self, stiffness: float, joints: int) -> None:
+        self.rest = np.zeros(joints)
+        self.manipulability = np.inf
+        self.stiffness, self.damping = stiffness, 2 * sqrt(stiffness)
+
+    def torque(self, state: ArmState) -> Array:
+        """Return tau_null (nv,) in N m."""
+        tau, lam = np.empty_like(self.rest), self.regularisation
+        self.manipulability = posture_torque(
+            tau, state.q, state.dq, state.jacobian, self.rest, self.stiffness, self.damping, lam
+        )
+        return tau
+
+    @property
+    def regularisation(self) -> float:
+        """lam^2 for the manipulability seen last."""
+        near = max(0.0, 1 - self.manipulability / SINGULAR_BELOW)
+        return REGULARISATION + SINGULAR_REGULARISATION * near * near
+
+
+@compiled
+def posture_torque(
+    tau: OutVector, q: Vector, dq: Vector, J: Matrix, rest: Vector, stiffness: float, damping: float, lam_square: float
+) -> float:
+    """Compute tau_null (nv,) in N m; return the manipulability, the product of the Cholesky factor's diagonal."""
+    for j in range(tau.size):
+        tau[j] = stiffness * (rest[j] - q[j]) - damping * dq[j]
+    gram, wrench, y, part = np.empty((6, 6)), np.empty(6), np.empty(6), np.empty(tau.size)
+    product(J, J.T, gram)
+    for i in range(6):
+        gram[i, i] += lam_square
+    cholesky(gram)
+    times(J, tau, wrench)
+    cholesky_solve(gram, wrench, y)
+    transposed_times(J, y, part)
+    tau -= part
+    return float(gram[0, 0] * gram[1, 1] * gram[2, 2] * gram[3, 3] * gram[4, 4] * gram[5, 5])
