@@ -47,7 +47,7 @@ def noted(bench):
 
 def test_no_reference_makes_the_tool_work_harder_than_skills_may_ask():
     bench, chance, worked = Bench("iiwa14"), np.random.default_rng(1), []
-    limit = GAINS["iiwa14"].force_limit * GAINS["iiwa14"].speed_limit
+    limit = GAINS["iiwa14"].limits.force_n * GAINS["iiwa14"].limits.speed_m_s
     for _ in range(200):
         bench.data.qvel[:] = chance.normal(0, 1.0, 7)
         state = bench.state_at_rest()
@@ -70,7 +70,7 @@ def test_no_reference_makes_springs_and_dampers_pull_harder_than_skills_may_ask(
         reference, compliance = drawn(chance, "iiwa14", state)
         law.command(state, reference, compliance, 0.001)
         pulled.append(np.linalg.norm(law._task.rows[EXERTED, :3] - compliance.wrench[:3]))
-    assert max(pulled) == pytest.approx(GAINS["iiwa14"].force_limit)
+    assert max(pulled) == pytest.approx(GAINS["iiwa14"].limits.force_n)
     assert min(pulled) < 0.9 * max(pulled), "what is less is left alone"
 
 

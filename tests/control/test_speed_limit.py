@@ -76,10 +76,10 @@ def test_no_joint_is_told_to_be_too_fast_or_to_leave_its_range() -> None:
     chance, arm = np.random.default_rng(3), Follower(0.002, 1.05)
     reached = 0.0
     for _ in range(6):
-        goal = chance.choice([-1.5, 1.5], arm.measured.q.size) * END
+        goal = chance.choice([-1.5, 1.5], arm.q.size) * END
         for _ in range(1500):
-            arm.step(arm.measured.q + np.clip(goal - arm.measured.q, -0.01, 0.01))
-        reached = max(reached, np.abs(arm.measured.q).max())
+            arm.step(arm.q + np.clip(goal - arm.q, -0.01, 0.01))
+        reached = max(reached, np.abs(arm.q).max())
     assert np.abs(arm.speeds).max() <= FASTEST + 1e-12
     assert 0.9 * END < reached < END + 1.05 * FASTEST * LAG
 
@@ -88,8 +88,8 @@ def test_joints_that_do_not_move_are_given_up() -> None:
     arm = Follower(0.002, 0.0)
     with pytest.raises(ControlError, match=r"0\.\d\d rad away .* blocked"):
         for step in range(1000):
-            arm.step(np.full_like(arm.measured.q, 0.002 * step))
-    assert np.array_equal(arm.limit.q, arm.measured.q)
+            arm.step(np.full_like(arm.q, 0.002 * step))
+    assert np.array_equal(arm.limit.q, arm.q)
     arm.step(arm.limit.q)
     assert not arm.speeds[-1].any()
 
@@ -97,8 +97,8 @@ def test_joints_that_do_not_move_are_given_up() -> None:
 def test_holding_at_once_means_where_joints_come_to_rest() -> None:
     arm = Follower(0.001)
     arm.swing(0.5)
-    held = arm.limit.held(at(arm.like, arm.measured.q, arm.dq)).copy()
+    held = arm.limit.held(at(arm.like, arm.q, arm.dq)).copy()
     for _ in range(1000):
         arm.step(held)
-    assert np.abs(arm.measured.q - held).max() < 1e-3
+    assert np.abs(arm.q - held).max() < 1e-3
     assert np.abs(arm.speeds[-1000:]).max() < 0.05

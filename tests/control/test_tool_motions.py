@@ -28,7 +28,7 @@ def cell(robot):
 def planned(cell, motion):
     """Start a motion; return what its reference is to be at 500 times, the arm's base being the world."""
     found, driver = [], cell.bench.driver
-    driver.move_along = found.append
+    driver.motion.move_along = found.append
     motion.start()
     del driver.motion.move_along
     (trajectory,) = found
@@ -126,7 +126,7 @@ def test_an_overlay_that_the_arm_cannot_do_is_refused_before_it_moves(cell):
     q, limits = cell.arm(ARM).measured.q, cell.bench.limits
     with pytest.raises(SkillFailure, match=r"a circle of 50 mm at 3 Hz runs with 0\.94 m/s, faster than the 0\.5 m/s"):
         cell.run(OverlayCircle(cell, arm=ARM, plane=UP, radius=0.05, rate=3.0))
-    cell.bench.driver.limits = replace(limits, velocity=np.full_like(limits.velocity, 0.05))
+    cell.bench.driver._task.limits = replace(limits, velocity=np.full_like(limits.velocity, 0.05))
     with pytest.raises(
         SkillFailure, match=r"joint \w+ would have to turn with 0\.\d+ rad/s, faster than the 0\.05 rad/s"
     ):
@@ -144,7 +144,7 @@ def test_what_does_not_fit_names_the_joint_and_the_place_on_the_surface():
     driver, start = cell.bench.driver, cell.arm(ARM).measured.pose
     ranges = driver.limits.range.copy()
     ranges[0] = HOMES["ur5e"][0] - 0.1, HOMES["ur5e"][0] + 0.1
-    driver.limits = replace(driver.limits, range=ranges)
+    driver._task.limits = replace(driver.limits, range=ranges)
     sideways = moved_by(start, 0.0, 0.3, 0.0)
     with pytest.raises(SkillFailure) as alone:
         cell.run(MoveLinear(cell, arm=ARM, target=sideways, speed=0.1))

@@ -106,7 +106,7 @@ def scene_for(kind: type[Primitive], number: int) -> str:
 
 def arguments(scene: str, cell: Cell) -> dict[str, object]:
     """Return what the parameters of primitives may be in a scene, by their names."""
-    tool = cell.arm(things(scene)["arm"]).anchor
+    tool = cell.arm(things(scene)["arm"]).motion.stopping_pose()
     raised = Pose(tool.position + np.array([0.0, 0.0, 0.05]), tool.rotation)
     beside = Pose(tool.position + np.array([0.02, 0.0, 0.025]), tool.rotation)
     poses = {"via": beside, "target": raised, "path": [raised, tool]}

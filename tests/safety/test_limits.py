@@ -109,7 +109,7 @@ def test_an_overlay_that_is_too_fast_is_refused() -> None:
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_a_tool_that_leaves_its_workspace_is_stopped_and_may_come_back(scene: str) -> None:
-    start = cell(scene).arm(ARM[scene]).pose
+    start = cell(scene).arm(ARM[scene]).measured.pose
     there = cell_with(scene, workspace(scene, start))
     arm = there.arm(ARM[scene])
     with pytest.raises(SkillFailure, match=r"the tool is \d+ mm outside the arm's workspace"):

@@ -176,7 +176,7 @@ def test_arms_start_and_pads_yield_within_the_ranges_of_the_facts(scene: str) ->
     assert (off.max(axis=0) > 0.9 * arm.posture_range_rad).all() and off.max() <= arm.posture_range_rad
     assert stiffer.min() < -0.9 * tool.stiffness_range and 0.9 * tool.stiffness_range < stiffer.max()
     assert np.abs(stiffer).max() <= tool.stiffness_range
-    np.testing.assert_array_equal(cell(scene, 5).arm(arm.individual).q, draw(facts, 5).start(arm))
+    np.testing.assert_array_equal(cell(scene, 5).arm(arm.individual).measured.q, draw(facts, 5).start(arm))
 
 
 @pytest.mark.parametrize("scene", SCENES)
