@@ -19,12 +19,12 @@ from skillc_runtime.devices.arm import command_values
 from skillc_runtime.motion.arc import arc_through
 from skillc_runtime.motion.overlays import Circle, Lissajous
 from skillc_runtime.motion.path import joined, path
-from skillc_runtime.motion.pose import exp
+from skillc_runtime.motion.pose import Pose, exp
 from skillc_runtime.motion.reference import Compliance, Reference
 from skillc_runtime.motion.reference_generator import ReferenceGenerator
 from skillc_runtime.motion.segments import MotionLimits, segment
 from skillc_runtime.simulation.coverage import add_dose
-from skillc_runtime.simulation.hand import Hand, load_mass, measure
+from skillc_runtime.simulation.hand import ArmSensing, Hand, load_mass, measure
 from skillc_runtime.simulation.motors import drive
 from skillc_runtime.simulation.wrist import low_pass
 
@@ -127,10 +127,12 @@ def measurements(count: int) -> list[list[float]]:
         link, base = exp(chance.uniform(-3, 3, 3)), exp(chance.uniform(-3, 3, 3))
         axes, (centre, position, origin, weight) = chance.uniform(-1, 1, (7, 6)), chance.uniform(-1, 1, (4, 3))
         low_pass(readings, *chance.uniform(-20, 20, (2, 9)), 0.3)
-        measure(
-            joints, hand.in_base, J, wrench, *chance.uniform(-1, 1, (4, 7)), hand.on_link, axes, centre, position, link,
-            origin, base, weight, chance.uniform(-1, 1, (6, 9)), readings,
+        q, dq, bias, noise = chance.uniform(-1, 1, (4, 7))
+        sensing = ArmSensing(
+            joints, hand.in_base, J, wrench, q, dq, bias, hand.on_link, axes, centre, Pose(position, link),
+            Pose(origin, base), weight, chance.uniform(-1, 1, (6, 9)), readings,
         )  # fmt: skip
+        measure(sensing, noise)
         dose, tool, (place, origin) = np.zeros((20, 30)), np.array([0.1, 0.05]), chance.uniform(-0.1, 0.1, (2, 3))
         add_dose(dose, np.linspace(-0.2, 0.2, 30), np.linspace(-0.1, 0.1, 20), origin, base, place, link, tool, 0.01)
         mass, sines = np.eye(7), Lissajous(*chance.uniform(-1, 1, (3, 3))).at(chance.uniform(0, 5))

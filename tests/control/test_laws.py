@@ -145,8 +145,8 @@ def test_the_log_error_is_the_shortest_turn(robot):
     _, state, law = fresh(robot)
     turned = exp(np.array([0.0, 0.0, 0.2])) @ state.tool.rotation
     law.command(state, at_rest(Pose(state.tool.position, turned)), stiff(robot), 0.001)
-    axes = law._task.axes
-    assert np.allclose(axes @ law._task.rows[0, 3:], log(state.tool.rotation @ turned.T))
+    axes = law._memory.task.axes
+    assert np.allclose(axes @ law._memory.task.rows[0, 3:], log(state.tool.rotation @ turned.T))
 
 
 def test_unknown_controllers_and_missing_numbers_are_named():

@@ -52,8 +52,8 @@ def test_no_reference_makes_the_tool_work_harder_than_skills_may_ask():
         bench.data.qvel[:] = chance.normal(0, 1.0, 7)
         state = bench.state_at_rest()
         law = law_of("iiwa14", bench, state)
-        law._posture.stiffness = law._posture.damping = 0.0
-        law._limit.rate, law._limit.rows[EFFORT] = np.inf, np.inf
+        law._memory = replace(law._memory, rest_stiffness=0.0, rest_damping=0.0, torque_rate=np.inf)
+        law._memory.limits[EFFORT] = np.inf
         told = law.command(state, *drawn(chance, "iiwa14", state), 0.001)
         worked.append((told.tau - state.bias) @ state.dq)
     assert max(worked) == pytest.approx(limit)
@@ -69,7 +69,7 @@ def test_no_reference_makes_springs_and_dampers_pull_harder_than_skills_may_ask(
         law = law_of("iiwa14", bench, state)
         reference, compliance = drawn(chance, "iiwa14", state)
         law.command(state, reference, compliance, 0.001)
-        pulled.append(np.linalg.norm(law._task.rows[EXERTED, :3] - compliance.wrench[:3]))
+        pulled.append(np.linalg.norm(law._memory.task.rows[EXERTED, :3] - compliance.wrench[:3]))
     assert max(pulled) == pytest.approx(GAINS["iiwa14"].limits.force_n)
     assert min(pulled) < 0.9 * max(pulled), "what is less is left alone"
 

@@ -60,9 +60,9 @@ def test_everything_is_where_it_belongs(scene: str) -> None:
 @pytest.mark.parametrize("scene", SCENES)
 def test_the_arm_holds_its_posture_and_the_eraser_lies_still(scene: str) -> None:
     built = cell(scene)
-    before = built.arm(ARM[scene]).q
+    before = built.arm(ARM[scene]).measured.q
     built.advance(0.5)
-    np.testing.assert_allclose(built.arm(ARM[scene]).q, before, atol=1e-4)
+    np.testing.assert_allclose(built.arm(ARM[scene]).measured.q, before, atol=1e-4)
     block = built.data.body(built.facts.names[ERASER] + "/block")
     np.testing.assert_allclose(block.xpos, pose(world(scene), ERASER).position, atol=2e-3)
 

@@ -8,9 +8,12 @@ Albu-Schaeffer et al. 2003, Mayr and Salt-Ducaju 2022; with velocity and acceler
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from math import sqrt
+
 import numpy as np
 
-from skillc_runtime.control.damping import design_damping
+from skillc_runtime.control.damping import BRAKE_RATE, tool_inertia
 from skillc_runtime.control.filters import Lag
 from skillc_runtime.control.gains import Gains, ImpedanceGains
 from skillc_runtime.control.limits import TorqueLimit, limit_torque
@@ -27,9 +30,11 @@ from skillc_runtime.control.task_error import (
     over,
     shorten,
     task_error,
+    task_error_of,
 )
 from skillc_runtime.devices.arm import ArmState, Torque
-from skillc_runtime.motion.numerics.compiled import Matrix, OutMatrix, OutVector, Vector, compiled, part
+from skillc_runtime.motion.numerics.arrays import OutMatrix, OutVector, Vector
+from skillc_runtime.motion.numerics.compiled import compiled, part
 from skillc_runtime.motion.numerics.linear import times, transposed_times
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
@@ -41,146 +46,182 @@ FASTEST_DECAY = 1.5
 """Share of a control period's inverse that dampers may decay with: from 2 on they overshoot, the more the longer."""
 
 
+@dataclass(frozen=True, slots=True)
+class ImpedanceMemory:
+    """What the law of one arm knows, and keeps from one control period to the next; C is the compliance frame.
+
+    task: errors and forces along C; tool (4, 3): the measured tool centre point in base, position in m, then rotation;
+    limits (5, nv): see `TorqueLimit`. inertia (6, 6): of the tool along C, kg and kg m^2; floor (6,): least damping,
+    N s/m and N m s/rad. rest (nv,): rad, posture that a redundant arm is pulled to with rest_stiffness N m/rad, damped
+    with rest_damping N m s/rad. torque_rate N m/s: greatest change of a joint torque; force_n N, power_w W: most that
+    springs, dampers and brakes exert.
+    """
+
+    task: TaskError
+    tool: OutMatrix
+    limits: OutMatrix
+    inertia: OutMatrix
+    floor: Vector
+    rest: OutVector
+    rest_stiffness: float
+    rest_damping: float
+    torque_rate: float
+    force_n: float
+    power_w: float
+
+
 class Impedance:
     """The law for one arm. All arrays are made once and reused."""
 
     def __init__(self, gains: Gains, law: ImpedanceGains, limit: TorqueLimit, joints: int) -> None:
-        self._limit = limit
-        self._force_n = gains.limits.force_n
-        self._power_w = gains.limits.force_n * gains.limits.speed_m_s
-        self._floor = np.repeat([law.damping_floor, law.rotational_damping_floor], 3)
-        self._task = TaskError(np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3))
-        self._damping = Lag(self._floor, gains.command_time)
+        stiffness = np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3)
         self._posture = Nullspace(law.nullspace_stiffness, joints)
-        self._age, self._inertia, self._seen = INERTIA_PERIOD_S, np.zeros((6, 6)), np.zeros((4, 3))
+        self._memory = ImpedanceMemory(
+            task=task_error_of(stiffness),
+            tool=np.zeros((4, 3)),
+            limits=limit.rows,
+            inertia=np.zeros((6, 6)),
+            floor=np.repeat([law.damping_floor, law.rotational_damping_floor], 3),
+            rest=self._posture.rest,
+            rest_stiffness=self._posture.stiffness,
+            rest_damping=self._posture.damping,
+            torque_rate=limit.rate,
+            force_n=gains.limits.force_n,
+            power_w=gains.limits.force_n * gains.limits.speed_m_s,
+        )
+        self._damping = Lag(self._memory.floor, gains.command_time)
+        self._age = INERTIA_PERIOD_S
 
     @property
     def tool(self) -> Pose:
         """The measured tool centre point in base, changing with every command."""
-        return Pose(self._seen[0], self._seen[1:])
+        return Pose(self._memory.tool[0], self._memory.tool[1:])
 
     @property
     def contact_wrench(self) -> Array:
-        """An estimate (6,): the opposite of what springs, dampers and push exert; exact at constant speed."""
-        exerted: Array = self._task.rows[EXERTED]
-        return (exerted.reshape(2, 3) @ -self._task.axes.T).ravel()
+        """An estimate (6,) in N and N m, base axes: the opposite of what springs, dampers and push exert.
+
+        It is exact at constant speed.
+        """
+        exerted: Array = self._memory.task.rows[EXERTED]
+        return (exerted.reshape(2, 3) @ -self._memory.task.axes.T).ravel()
 
     def reset(self, state: ArmState, q: Array, dq: Array) -> None:
-        """Start; `q` becomes the rest posture."""
-        self._seen[0], self._seen[1:] = state.tool.position, state.tool.rotation
+        """Start; `q` (nv,) in rad becomes the rest posture."""
+        self._memory.tool[0], self._memory.tool[1:] = state.tool.position, state.tool.rotation
         self._age = INERTIA_PERIOD_S
-        self._damping.value[:] = self._floor
-        self._posture.rest[:] = q
+        self._damping.value[:] = self._memory.floor
+        self._memory.rest[:] = q
 
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Torque:
-        """Return the joint torques."""
+        """Return the joint torques for the next `period` s."""
         self._renew(state, reference, compliance, period)
-        told, task, posture, limit = np.empty_like(state.q), self._task, self._posture, self._limit
+        tau, posture = np.empty_like(state.q), self._posture
         posture.manipulability = impedance_torque(
-            told, task.rows, task.axes, self._seen, limit.rows,
-            state.q, state.dq, state.bias, state.jacobian, state.tool.position, state.tool.rotation, reference.rows,
-            compliance.stiffness, compliance.wrench, compliance.frame, compliance.fastest,
-            self._inertia, self._force_n, self._power_w,
-            posture.rest, posture.stiffness, posture.damping, posture.regularisation, limit.rate * period,
-        )  # fmt: skip
-        return Torque(told)
+            tau, self._memory, state, reference, compliance, posture.regularisation, period
+        )
+        return Torque(tau)
 
     def _renew(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> None:
         """Renew inertia and damping every so often; the damping follows with the command time."""
         self._age += period
         if self._age < INERTIA_PERIOD_S:
             return
-        wanted, fastest = np.empty(6), FASTEST_DECAY / period
-        design_damping(
-            wanted, self._task.rows[BRAKING], self._inertia,
-            state.jacobian, state.mass_matrix, reference.pose.rotation, compliance.frame, compliance.stiffness,
-            self._floor, compliance.damping_ratio, fastest,
-        )  # fmt: skip
-        self._task.rows[DAMPING] = self._damping.step(wanted, self._age)
+        damping, rows = np.empty(6), self._memory.task.rows
+        design_damping(damping, self._memory, state, reference, compliance, FASTEST_DECAY / period)
+        rows[DAMPING] = self._damping.step(damping, self._age)
         self._age = 0.0
 
 
-@part
-def tool_torque(
-    tau: Array,
-    rows: Array,
-    axes: Array,
-    J: Array,
-    dq: Array,
-    stiffness: Array,
-    wrench: Array,
-    fastest: Array,
-    inertia: Array,
-    force_n: float,
-    power_w: float,
+@compiled
+def design_damping(
+    damping: OutVector,
+    memory: ImpedanceMemory,
+    state: ArmState,
+    reference: Reference,
+    compliance: Compliance,
+    fastest: float,
 ) -> None:
+    """Lam_C = (J_C M^-1 J_C^T)^-1; D_i = 2 zeta sqrt(K_i Lam_C,ii), at least the floor; B_i = rate / (Lam_C^-1)_ii.
+
+    damping (6,): D in N s/m and N m s/rad. Where Lam_C^-1 D would decay faster than `fastest` in 1/s, by its greatest
+    possible eigenvalue, D is less.
+    """
+    mobility, added, square = np.empty((6, 6)), np.empty(6), 0.0
+    inertia, floor, braking = memory.inertia, memory.floor, memory.task.rows[BRAKING]
+    tool_inertia(inertia, mobility, state.jacobian, state.mass_matrix, reference.rows[1:4], compliance.frame)
+    for i in range(6):
+        wanted = 2 * compliance.damping_ratio * sqrt(compliance.stiffness[i] * inertia[i, i])
+        added[i] = max(wanted - floor[i], 0.0)
+    for i in range(6):
+        decay = 0.0
+        for j in range(6):
+            decay += mobility[i, j] * mobility[i, j] * (floor[j] + added[j])
+        square += (floor[i] + added[i]) * decay
+    share = min(1.0, fastest / sqrt(square))
+    for i in range(6):
+        damping[i] = floor[i] + share * added[i]
+        braking[i] = BRAKE_RATE / mobility[i, i]
+
+
+@part
+def tool_torque(tau: Array, memory: ImpedanceMemory, state: ArmState, compliance: Compliance) -> None:
     """exerted (6,) = W - K sat(e) - D (J_C dq - nu_d) - B over, along C; tau (nv,) = J_C^T (exerted + Lam_C a_d).
 
-    The force of springs, dampers and brakes is at most `force_n`. Torques that would move the arm with more than
+    The force of springs, dampers and brakes is shortened to `force_n`. Torques that would move the arm with more than
     `power_w` are scaled down as a whole.
     """
+    rows, axes = memory.task.rows, memory.task.axes
     exerted, force, in_base = rows[EXERTED], np.empty(6), np.empty(6)
     for i in range(6):
-        exerted[i] = -stiffness[i] * rows[ERROR, i] - rows[DAMPING, i] * (rows[MEASURED, i] - rows[TWIST, i])
+        spring = -compliance.stiffness[i] * rows[ERROR, i]
+        exerted[i] = spring - rows[DAMPING, i] * (rows[MEASURED, i] - rows[TWIST, i])
     for i in range(3):
-        exerted[i] -= rows[BRAKING, i] * over(rows[MEASURED, i], fastest[i])
-    shorten(exerted[:3], force_n)
-    times(inertia, rows[ACCELERATION], force)
+        exerted[i] -= rows[BRAKING, i] * over(rows[MEASURED, i], compliance.fastest[i])
+    shorten(exerted[:3], memory.force_n)
+    times(memory.inertia, rows[ACCELERATION], force)
     for i in range(6):
-        exerted[i] += wrench[i]
+        exerted[i] += compliance.wrench[i]
         force[i] += exerted[i]
     times(axes, force[:3], in_base[:3])
     times(axes, force[3:], in_base[3:])
-    transposed_times(J, in_base, tau)
+    transposed_times(state.jacobian, in_base, tau)
     power = 0.0
     for j in range(tau.size):
-        power += tau[j] * dq[j]
-    if power > power_w:
-        tau *= power_w / power
+        power += tau[j] * state.dq[j]
+    if power > memory.power_w:
+        tau *= memory.power_w / power
 
 
 @compiled
 def impedance_torque(
     told: OutVector,
-    rows: OutMatrix,
-    axes: OutMatrix,
-    seen: OutMatrix,
-    limits: OutMatrix,
-    q: Vector,
-    dq: Vector,
-    bias: Vector,
-    J: Matrix,
-    tool_position: Vector,
-    tool_rotation: Matrix,
-    reference: Matrix,
-    stiffness: Vector,
-    wrench: Vector,
-    frame: Matrix,
-    fastest: Vector,
-    inertia: Matrix,
-    force_n: float,
-    power_w: float,
-    rest: Vector,
-    rest_stiffness: float,
-    rest_damping: float,
-    lam_square: float,
-    longest: float,
+    memory: ImpedanceMemory,
+    state: ArmState,
+    reference: Reference,
+    compliance: Compliance,
+    regularisation: float,
+    period: float,
 ) -> float:
-    """Compute the whole law, told (nv,); keep the tool (4, 3) in `seen`, what is exerted in `rows`.
+    """Compute the whole law for the next `period` s, told (nv,) in N m; keep tool and errors in the memory.
 
-    Return the manipulability, which only an arm with more than six joints has use for: they have a posture to keep.
+    regularisation: lam^2 of the nullspace. Return the manipulability, which only an arm with more than six joints has
+    use for: they have a posture to keep.
     """
     for i in range(3):
-        seen[0, i] = tool_position[i]
+        memory.tool[0, i] = state.tool.position[i]
         for j in range(3):
-            seen[1 + i, j] = tool_rotation[i, j]
+            memory.tool[1 + i, j] = state.tool.rotation[i, j]
+    q, dq, J = state.q, state.dq, state.jacobian
     tau, velocity, manipulability = np.empty(q.size), np.empty(6), np.inf
     times(J, dq, velocity)
-    task_error(rows, axes, tool_position, tool_rotation, reference, stiffness, frame, velocity)
-    tool_torque(tau, rows, axes, J, dq, stiffness, wrench, fastest, inertia, force_n, power_w)
+    task_error(memory.task, state.tool, reference, compliance, velocity)
+    tool_torque(tau, memory, state, compliance)
     if q.size > 6:
         keeping = np.empty(q.size)
-        manipulability = posture_torque(keeping, q, dq, J, rest, rest_stiffness, rest_damping, lam_square)
+        manipulability = posture_torque(
+            keeping, q, dq, J, memory.rest, memory.rest_stiffness, memory.rest_damping, regularisation
+        )
         tau += keeping
-    limit_torque(told, limits, tau, q, bias, longest)
+    limit_torque(told, memory.limits, tau, q, state.bias, memory.torque_rate * period)
     return manipulability

@@ -8,7 +8,8 @@ import numpy as np
 
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.devices.arm import ArmLimits, ArmState, JointPosition, JointVelocity
-from skillc_runtime.motion.numerics.compiled import OutMatrix, OutVector, Vector, compiled, part
+from skillc_runtime.motion.numerics.arrays import OutMatrix, OutVector, Vector
+from skillc_runtime.motion.numerics.compiled import compiled, part
 from skillc_runtime.motion.pose import Array
 
 RANGE_MARGIN_RAD = 0.05
@@ -18,10 +19,19 @@ GREATEST_LAG_RAD = 0.2
 """An arm with servos of its own that lags behind its command by more, over all joints, is stuck."""
 
 RAMP, LOW, HIGH, SPRING, EFFORT = range(5)
-"""Rows of `TorqueLimit.rows`: torque so far, where joints are pushed back from, how hard, and the greatest torque."""
+"""Rows of `TorqueLimit.rows`, one value a joint.
 
-TOLD, SPEED, LEAST, MOST, FASTEST, PULL, LAG, EXPECTED, DRIVEN = range(9)
-"""Rows of `JointLimit.rows`: positions and speeds commanded last, and their limits; the others are for `SpeedLimit`."""
+RAMP N m: torque so far, without bias; LOW, HIGH rad: from where joints are pushed back; SPRING N m/rad: how hard;
+EFFORT N m: the greatest torque.
+"""
+
+COMMANDED, SPEED, LEAST, MOST, FASTEST, PULL, LAG, EXPECTED, DRIVEN = range(9)
+"""Rows of `JointLimit.rows`, one value a joint.
+
+COMMANDED rad, SPEED rad/s: positions and speeds commanded last; LEAST, MOST rad, FASTEST rad/s: their limits. For
+`SpeedLimit`: PULL 1/s and LAG s, as there; EXPECTED rad: where joints should be by now; DRIVEN rad/s: the
+command.
+"""
 
 
 class TorqueLimit:
@@ -44,16 +54,19 @@ class TorqueLimit:
 
 
 class JointLimit:
-    """Limits joint positions in range and speed. Laws continue from q and dq (nv,), which were commanded last."""
+    """Limits joint positions in range and speed.
+
+    Laws continue from q and dq (nv,), rad and rad/s, which were commanded last.
+    """
 
     def __init__(self, limits: ArmLimits, q: Array) -> None:
         still = np.zeros_like(q)
         self.rows: Array = np.array([q, still, *limits.range.T, limits.velocity, still, still, q, still])
-        self.q: Array = self.rows[TOLD]
+        self.q: Array = self.rows[COMMANDED]
         self.dq: Array = self.rows[SPEED]
 
     def step(self, q: Array, state: ArmState, period: float) -> JointPosition | JointVelocity:
-        """Return what to command on the way to q (nv,), with an array of its own.
+        """Return what to command on the way to q (nv,) in rad for `period` s, with an array of its own.
 
         ControlError when the arm does not follow; it is then commanded to stay where it is.
         """
@@ -68,7 +81,7 @@ class JointLimit:
         raise ControlError(f"a joint is {lag:.2f} rad away from where it was commanded to be; is the arm blocked?")
 
     def held(self, state: ArmState) -> Array:
-        """Return the joints (nv,) at which the arm holds still when it is to do so at once."""
+        """Return the joints (nv,) in rad at which the arm holds still when it is to do so at once."""
         return self.q
 
     def _command(self) -> JointPosition | JointVelocity:
@@ -112,7 +125,10 @@ def _within(x: float, least: float, most: float) -> float:
 
 @compiled
 def limit_torque(told: OutVector, rows: OutMatrix, tau: Vector, q: Vector, bias: Vector, longest: float) -> None:
-    """Let the ramp follow tau by steps of at most `longest`; add the bias and what pushes joints back into range."""
+    """Let the ramp follow tau (nv,) by steps of at most `longest`; add the bias and what pushes joints back into range.
+
+    told, tau, bias (nv,), longest: N m; q (nv,): rad; rows: see `TorqueLimit`.
+    """
     for j in range(told.size):
         rows[RAMP, j] += _within(tau[j] - rows[RAMP, j], -longest, longest)
         back = rows[SPRING, j] * (_within(q[j], rows[LOW, j], rows[HIGH, j]) - q[j])
@@ -121,21 +137,21 @@ def limit_torque(told: OutVector, rows: OutMatrix, tau: Vector, q: Vector, bias:
 
 @compiled
 def limit_joints(rows: OutMatrix, q: Vector, measured: Vector, period: float) -> bool:
-    """Let what is told follow q within limits, for the next `period` s.
+    """Let what is commanded follow q (nv,) in rad within limits, for the next `period` s; rows: see `JointLimit`.
 
     Return False, and do nothing, when the arm, whose joints are `measured`, is too far.
     """
     square = 0.0
     for j in range(q.size):
-        lag = rows[TOLD, j] - measured[j]
+        lag = rows[COMMANDED, j] - measured[j]
         square += lag * lag
     if square > GREATEST_LAG_RAD * GREATEST_LAG_RAD:
         return False
     for j in range(q.size):
-        told, longest = rows[TOLD, j], rows[FASTEST, j] * period
+        told, longest = rows[COMMANDED, j], rows[FASTEST, j] * period
         wanted = told + _within(q[j] - told, -longest, longest)
-        rows[TOLD, j] = _within(wanted, rows[LEAST, j], rows[MOST, j])
-        rows[SPEED, j] = (rows[TOLD, j] - told) / period
+        rows[COMMANDED, j] = _within(wanted, rows[LEAST, j], rows[MOST, j])
+        rows[SPEED, j] = (rows[COMMANDED, j] - told) / period
     if rows[PULL, 0] > 0.0:
         _drive(rows, measured, period)
     return True
@@ -149,4 +165,4 @@ def _drive(rows: Array, measured: Array, period: float) -> None:
         least, most = (rows[LEAST, j] - measured[j]) / period, (rows[MOST, j] - measured[j]) / period
         rows[DRIVEN, j] = _within(_within(wanted, -fastest, fastest), min(least, 0.0), max(most, 0.0))
         share = 1.0 - exp(-period / max(rows[LAG, j], 1e-9))
-        rows[EXPECTED, j] += share * (rows[TOLD, j] - rows[SPEED, j] * period / 2 - rows[EXPECTED, j])
+        rows[EXPECTED, j] += share * (rows[COMMANDED, j] - rows[SPEED, j] * period / 2 - rows[EXPECTED, j])

@@ -2,60 +2,65 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
 
+from skillc_runtime.motion.numerics.arrays import OutMatrix
 from skillc_runtime.motion.numerics.compiled import part
 from skillc_runtime.motion.numerics.linear import product, rotation_between
-from skillc_runtime.motion.pose import Array
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.motion.reference import Compliance, Reference
 
 CLAMP_M, CLAMP_RAD = 0.05, 0.3
 """Greatest error that a spring sees, so that a wrong goal cannot produce an unbounded force."""
 
 ERROR, TWIST, ACCELERATION, MEASURED, HELD, SOFTNESS, EXERTED, DAMPING, BRAKING = range(9)
-"""Rows of `TaskError.rows`; the last three are for laws to use."""
+"""Rows of `TaskError.rows`."""
 
 
+@dataclass(frozen=True, slots=True)
 class TaskError:
-    """What `task_error` computes for an arm whose axes have `stiffness` (6,) when nobody has released them.
+    """What `task_error` computes, and what laws make of it, along the axes of the compliance frame C.
+
+    axes (3, 3): C in base. rows (9, 6), each [linear; angular]: ERROR, tool minus reference, m and rad, clamped in
+    length; TWIST, m/s and rad/s, and ACCELERATION, per s, of the reference; MEASURED: the velocity of the tool, m/s and
+    rad/s, or the wrench on it, N and N m, whichever a law gives; HELD: 1 for a stiff axis, 0 for a released one,
+    between below a tenth of the full stiffness; SOFTNESS: ten times the inverse of the full stiffness, m/N and
+    rad/(N m). For the impedance law: EXERTED, N and N m; DAMPING and BRAKING, N s/m and N m s/rad.
 
     One block of rows is one argument: what a compiled call costs beside its work grows with their number.
     """
 
-    def __init__(self, stiffness: Array) -> None:
-        self.axes, self.rows = np.eye(3), np.zeros((9, 6))
-        self.rows[SOFTNESS] = 10 / stiffness
+    axes: OutMatrix
+    rows: OutMatrix
+
+
+def task_error_of(stiffness: Array) -> TaskError:
+    """Return room for the errors of an arm whose axes have `stiffness` (6,), N/m and N m/rad, when unreleased."""
+    task = TaskError(np.eye(3), np.zeros((9, 6)))
+    task.rows[SOFTNESS] = 10 / stiffness
+    return task
 
 
 @part
-def task_error(
-    rows: Array,
-    axes: Array,
-    tool_position: Array,
-    tool_rotation: Array,
-    reference: Array,
-    stiffness: Array,
-    frame: Array,
-    measured: Array,
-) -> None:
-    """Compute error and feed-forward in the compliance frame C from tool pose, reference (8, 3) and compliance.
+def task_error(task: TaskError, tool: Pose, reference: Reference, compliance: Compliance, measured: Array) -> None:
+    """Compute axes and the first five rows of `task`; measured (6,) and tool in base.
 
-    axes (3, 3): C in base. rows: error, tool minus reference, m and rad, clamped in length; twist and acceleration of
-    the reference; `measured`, given in base; what is held: 1 for a stiff axis, 0 for a released one, between below a
-    tenth of the full stiffness. That scales the first three rows, since a released axis follows no reference.
+    HELD scales the first three rows, since a released axis follows no reference.
     """
-    rotation, in_base = reference[1:4], np.empty((8, 3))
-    product(rotation, frame, axes)
-    rotation_between(rotation, tool_rotation, in_base[1])
+    rows, axes, rotation, in_base = task.rows, task.axes, reference.rows[1:4], np.empty((8, 3))
+    product(rotation, compliance.frame, axes)
+    rotation_between(rotation, tool.rotation, in_base[1])
     for i in range(3):
-        in_base[0, i] = tool_position[i] - reference[0, i]
+        in_base[0, i] = tool.position[i] - reference.rows[0, i]
         for row in range(4):
-            in_base[2 + row, i] = reference[4 + row, i]
+            in_base[2 + row, i] = reference.rows[4 + row, i]
         in_base[6, i], in_base[7, i] = measured[i], measured[3 + i]
     product(in_base, axes, rows[:4].reshape(8, 3))
     for i in range(6):
-        rows[HELD, i] = min(stiffness[i] * rows[SOFTNESS, i], 1.0)
+        rows[HELD, i] = min(compliance.stiffness[i] * rows[SOFTNESS, i], 1.0)
         for row in range(3):
             rows[row, i] *= rows[HELD, i]
     shorten(rows[ERROR, :3], CLAMP_M)

@@ -9,11 +9,13 @@ of a circle of 15 mm, where these have 1.4 %. Without the Coriolis forces the me
 from __future__ import annotations
 
 from copy import deepcopy
+from dataclasses import dataclass
 from pathlib import Path
 
 import mujoco
 import numpy as np
 
+from skillc_runtime.motion.numerics.arrays import Matrix, OutMatrix, Vector
 from skillc_runtime.motion.pose import Array, Pose, quaternion_of
 
 LINK_MASS_KG, LINK_INERTIA = 0.01, 1e-6
@@ -44,10 +46,24 @@ def _concentrate(body: mujoco.MjsBody, mass: float, inertia: float) -> None:
     body.ipos, body.iquat = np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0])
 
 
+@dataclass(frozen=True, slots=True)
+class VirtualState:
+    """Where a virtual arm is and what it weighs, in the arm's base frame; the arrays change with the arm.
+
+    tool: the tool centre point; jacobian (6, nv): [linear m; angular rad] per rad; inertia (nv, nv): kg m^2, may be
+    overwritten; bias (nv,): N m, Coriolis and centrifugal.
+    """
+
+    tool: Pose
+    jacobian: Matrix
+    inertia: OutMatrix
+    bias: Vector
+
+
 class VirtualArm:
     """Kinematics and virtual inertia at joint positions q, in the arm's base frame. Arrays are reused.
 
-    `virtual` is what `virtual_model` makes; it is copied, since the place of the tool on the hand changes.
+    `state` is all of it. `virtual` is what `virtual_model` makes; it is copied, since the place of the tool changes.
     """
 
     def __init__(self, virtual: mujoco.MjModel) -> None:
@@ -62,16 +78,12 @@ class VirtualArm:
         self._jacp, self._jacr = self.jacobian[:3], self.jacobian[3:]
         self.inertia = np.zeros((model.nv, model.nv))
         self.bias = np.zeros(model.nv)
+        self.state = VirtualState(Pose(self._position, self._rotation), self.jacobian, self.inertia, self.bias)
 
     @property
     def tool(self) -> Pose:
-        """Where the tool centre point is; a copy."""
+        """Where the tool centre point is, in base; a copy."""
         return Pose(self._position.copy(), self._rotation.copy())
-
-    @property
-    def live_tool(self) -> Pose:
-        """Where the tool centre point is, changing with every move."""
-        return Pose(self._position, self._rotation)
 
     def joint_name(self, index: int) -> str:
         """Return what the arm's model calls a joint, counted from 0; one without a name by its number from 1."""
@@ -79,7 +91,7 @@ class VirtualArm:
         return f"the joint {name}" if name else f"joint {index + 1}"
 
     def mount(self, q: Array, tool: Pose) -> None:
-        """Place the tool centre point on the hand so that it is at `tool` for q (nv,) and move there."""
+        """Place the tool centre point on the hand so that it is at `tool`, in base, for q (nv,) rad and move there."""
         self._hang(self._flange)
         self.move(q)
         self._hang(self._flange @ self.tool.inverse() @ tool)
@@ -90,14 +102,14 @@ class VirtualArm:
         self._model.body_quat[self._body] = quaternion_of(mount.rotation)
 
     def move(self, q: Array) -> None:
-        """Take joint positions q (nv,) and update `tool` and `jacobian` (6, nv)."""
+        """Take joint positions q (nv,) in rad and update `tool` and `jacobian` (6, nv)."""
         self._qpos[:] = q
         mujoco.mj_kinematics(self._model, self._data)
         mujoco.mj_comPos(self._model, self._data)
         mujoco.mj_jacBody(self._model, self._data, self._jacp, self._jacr, self._body)
 
     def weigh(self, dq: Array) -> None:
-        """Update `inertia` (nv, nv) and, at dq (nv,), `bias` (nv,): torques of Coriolis and centrifugal forces."""
+        """Update `inertia` (nv, nv) and, at dq (nv,) rad/s, `bias` (nv,): N m of Coriolis and centrifugal forces."""
         self._data.qvel[:] = dq
         mujoco.mj_comVel(self._model, self._data)
         mujoco.mj_rne(self._model, self._data, 0, self.bias)

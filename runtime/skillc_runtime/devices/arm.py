@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, Protocol, TypeAlias, assert_never
 
+from skillc_runtime.motion.numerics.arrays import Matrix, Vector
 from skillc_runtime.motion.pose import Array, Pose
 
 
@@ -17,13 +18,13 @@ class ArmState:
     tool, N and N m, tool weight removed; zeros where the arm has no such sensor.
     """
 
-    q: Array
-    dq: Array
+    q: Vector
+    dq: Vector
     tool: Pose
-    jacobian: Array
-    mass_matrix: Array
-    bias: Array
-    wrench: Array
+    jacobian: Matrix
+    mass_matrix: Matrix
+    bias: Vector
+    wrench: Vector
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,8 @@ from math import sqrt
 import numpy as np
 
 from skillc_runtime.motion.arc import Arc
-from skillc_runtime.motion.numerics.compiled import Matrix, OutMatrix, compiled, part
+from skillc_runtime.motion.numerics.arrays import Matrix, OutMatrix
+from skillc_runtime.motion.numerics.compiled import compiled, part
 from skillc_runtime.motion.numerics.linear import cross, product, rotation_by, times
 from skillc_runtime.motion.piece import COLUMNS, motion_at
 from skillc_runtime.motion.pose import Array, Pose

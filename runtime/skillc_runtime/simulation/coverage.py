@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skillc_runtime.motion.layout import Layout
-from skillc_runtime.motion.numerics.compiled import Matrix, OutMatrix, Vector, compiled
+from skillc_runtime.motion.numerics.arrays import Matrix, OutMatrix, Vector
+from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.numerics.linear import add_under, product, times
 from skillc_runtime.motion.pose import Array, Pose
 

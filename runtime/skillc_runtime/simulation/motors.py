@@ -9,7 +9,8 @@ from typing import ClassVar, NoReturn
 import numpy as np
 
 from skillc_runtime.devices.arm import Command, JointPosition, JointVelocity, Mode, ModeRefused, Torque
-from skillc_runtime.motion.numerics.compiled import OutVector, Vector, compiled
+from skillc_runtime.motion.numerics.arrays import OutVector, Vector
+from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.pose import Array
 
 SILENCE_S = 0.05

@@ -9,26 +9,19 @@ from __future__ import annotations
 
 import os
 import sys
+from collections import namedtuple
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
+from dataclasses import fields, is_dataclass
 from functools import cache
 from hashlib import sha256
 from importlib import import_module
 from importlib.util import find_spec
 from inspect import get_annotations
 from pathlib import Path
-from typing import Annotated, Any, ParamSpec, TypeVar, get_args, get_origin
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import Any, ParamSpec, TypeVar, get_args, get_origin, get_type_hints
 
 from skillc_runtime.cache_folder import cache_folder
-
-Vector = Annotated[NDArray[np.float64], 1, "read"]
-Matrix = Annotated[NDArray[np.float64], 2, "read"]
-OutVector = Annotated[NDArray[np.float64], 1, "written"]
-OutMatrix = Annotated[NDArray[np.float64], 2, "written"]
-"""What a compiled function takes: arrays of so many dimensions that it reads, of any layout, or writes, in C order."""
 
 Parameters = ParamSpec("Parameters")
 Result = TypeVar("Result")
@@ -38,12 +31,20 @@ COMPILES: bool = os.environ.get("SKILLC_COMPILED", "1") != "0" and find_spec("nu
 
 
 def compiled(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
-    """Compile a function for the types of its annotations: those above, numbers, bool, and tuples as a result.
+    """Compile a function for the types of its annotations: those of `arrays`, numbers, bool, and tuples as a result.
 
-    Functions it calls are `compiled` or `part` themselves.
+    It may take dataclasses with fields of these types and of such dataclasses, which it only reads: what an array in a
+    field holds may be written. One that does is called from Python only. Functions it calls are `compiled` or `part`
+    themselves.
     """
     if not COMPILES:
         return function
+    if any(is_dataclass(annotation) for annotation in get_annotations(function, eval_str=True).values()):
+        return _unpacking(function)
+    return _compiled_lazily(function)
+
+
+def _compiled_lazily(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
     made: Any = import_module("numba").njit(error_model="numpy", no_cfunc_wrapper=True)(function)
     compile_for = made.compile
 
@@ -74,6 +75,43 @@ def part(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]
     )
     made: Callable[Parameters, Result] = callable_inside(function)
     return made
+
+
+def _unpacking(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
+    """Return what calls a compiled function with the fields of its dataclasses, one by one.
+
+    Numba takes named tuples, but only of arrays of one layout and all writable, or none; single arrays it converts.
+    """
+    annotations = get_annotations(function, eval_str=True)
+    returns = annotations.pop("return")
+    leaves: dict[str, Any] = {}
+    names: dict[str, Any] = {"function": part(function), "__name__": function.__module__}
+    packed = [_packed(annotation, name, leaves, names) for name, annotation in annotations.items()]
+    flat = {path.replace(".", "__"): annotation for path, annotation in leaves.items()}
+    source = (
+        f"def flat({', '.join(flat)}):\n    return function({', '.join(packed)})\n"
+        f"def call({', '.join(annotations)}):\n    return flat({', '.join(leaves)})\n"
+    )
+    exec(compile(source, function.__code__.co_filename, "exec"), names)
+    names["flat"].__qualname__ = f"{function.__qualname__}_flat"
+    names["flat"].__annotations__ = {**flat, "return": returns}
+    names["flat"] = _compiled_lazily(names["flat"])
+    call: Callable[Parameters, Result] = names["call"]
+    call.__doc__, call.__name__ = function.__doc__, function.__name__
+    return call
+
+
+def _packed(annotation: Any, path: str, leaves: dict[str, Any], names: dict[str, Any]) -> str:
+    """Return the expression that makes a parameter of single values; add these, and what makes it, to the last two."""
+    if not is_dataclass(annotation):
+        leaves[path] = annotation
+        return path.replace(".", "__")
+    assert isinstance(annotation, type)
+    hints = get_type_hints(annotation, include_extras=True)
+    parts = [(field.name, hints[field.name]) for field in fields(annotation)]
+    names[annotation.__name__] = namedtuple(annotation.__name__, [name for name, _ in parts])
+    inside = (_packed(hint, f"{path}.{each}", leaves, names) for each, hint in parts)
+    return f"{annotation.__name__}({', '.join(inside)})"
 
 
 def _type(annotation: Any) -> Any:
@@ -128,6 +166,6 @@ def _folder() -> str:
 
 def _digest() -> str:
     """Return a name for the sources of whatever may be compiled: numba itself looks at one file at a time."""
-    runtime = Path(__file__).parent.parent
-    sources = sorted(path for path in runtime.glob("*/*.py") if b"numerics.compiled" in path.read_bytes())
+    runtime = Path(__file__).parents[2]
+    sources = sorted(path for path in runtime.rglob("*.py") if b"motion.numerics" in path.read_bytes())
     return sha256(b"\0".join(path.read_bytes() for path in sources)).hexdigest()[:16]
