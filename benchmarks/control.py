@@ -81,7 +81,7 @@ def measure(scene: str) -> dict[str, float]:
         "measuring": arm.state,
         "reference": lambda: generator.sample(task.now),
         "law": lambda: law.command(state, reference, compliance, 0.001),
-        "safety": lambda: driver.validator.safety_violation(state, 0.001),
+        "safety": lambda: driver._safety.violation(state, 0.001),
         "mj_step": physics,
     }
     return dict(zip(parts, costs_us(tuple(parts.values())), strict=True))

@@ -52,7 +52,7 @@ def test_no_reference_makes_the_tool_work_harder_than_skills_may_ask():
         bench.data.qvel[:] = chance.normal(0, 1.0, 7)
         state = bench.state_at_rest()
         law = law_of("iiwa14", bench, state)
-        law._memory = replace(law._memory, rest_stiffness=0.0, rest_damping=0.0, torque_rate=np.inf)
+        law._memory = replace(law._memory, rest_stiffness=0.0, torque_rate=np.inf)
         law._memory.limits[EFFORT] = np.inf
         told = law.command(state, *drawn(chance, "iiwa14", state), 0.001)
         worked.append((told.tau - state.bias) @ state.dq)

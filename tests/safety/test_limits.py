@@ -64,7 +64,7 @@ def test_an_arm_without_sensor_feels_what_pushes_its_tool(force: tuple[float, fl
     arm = there.arm(ARM["iiwa_table"])
     arm.motion.hold_position()
     there.advance(0.05)
-    observer = arm.validator.safety.momentum_observer
+    observer = arm._safety.momentum_observer
     assert observer is not None
     assert np.linalg.norm(observer.wrench(arm.measured.state)[:3]) < 2.0
     pushed(there, "iiwa_table", force, 0.15)

@@ -49,10 +49,6 @@ class CommandValidator:
         self.safety.add_command(command, self._holding, period)
         self._arm.command(command)
 
-    def safety_violation(self, state: ArmState, period: float) -> str | None:
-        """Return which safety limit the arm violates, once per violation; to be called once every `period` s."""
-        return self.safety.violation(state, period)
-
     def holding(self) -> Command:
         """Return what keeps the arm where it was last known to be."""
         match self._arm.interface:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from math import inf
 from typing import assert_never
 
@@ -23,7 +22,7 @@ class ComplianceControl:
 
     def __init__(self, task: ArmTask, release_damping: float) -> None:
         self._task, self._release_damping = task, release_damping
-        self._pushes: tuple[ActivePush, ...] = ()
+        self.active_pushes: tuple[ActivePush, ...] = ()
 
     @property
     def commanded_stiffness(self) -> Array:
@@ -86,39 +85,42 @@ class ComplianceControl:
         """Begin to approach and then to press; what is returned tells how far it is."""
         active = ActivePush(push, self._task.measured.in_base(push.along))
         self._approach(push)
-        self._pushes = (*self._pushes, active)
+        self.active_pushes = (*self.active_pushes, active)
         return active
 
     def end_push(self, push: PushProgress) -> None:
         """Stop pushing."""
-        self._pushes = tuple(each for each in self._pushes if each is not push)
+        self._forget(push)
         self.push_off()
 
-    def evaluate_pushes(self, state: ArmState) -> Iterator[str]:
-        """Go on with all pushes, once a control period; yield why one is given up, for the arm to stop."""
-        for active in self._pushes:
-            match active.step(state, self._task.contact_wrench, self._task.period):
-                case "approach":
-                    self._approach(active.push)
-                case "press":
-                    self._press(active.push, active.push.force_n)
-                case "go on":
-                    pass
-                case GivenUp(reason=reason):
-                    self._pushes = tuple(each for each in self._pushes if each is not active)
-                    yield reason
-                case never:
-                    assert_never(never)
+    def evaluate(self, active: ActivePush, state: ArmState) -> str | None:
+        """Go on with a push, once a control period; return why it is given up, for the arm to stop, or None."""
+        match active.step(state, self._task.contact_wrench, self._task.period):
+            case "approach":
+                self._approach(active.push)
+            case "press":
+                self._press(active.push, active.push.force_n)
+            case "go on":
+                pass
+            case GivenUp(reason=reason):
+                self._forget(active)
+                return reason
+            case never:
+                assert_never(never)
+        return None
 
     def secure(self) -> bool:
         """Push no more and hold stiff, whatever skills left; tell whether they left the arm yielding."""
-        self._pushes = ()
+        self.active_pushes = ()
         compliance, left = self._task.tool.compliance, not self._task.tool.compliance.stiff
         while compliance.released:
             self.restore()
         if not compliance.stiff:
             self.restore_rotation()
         return left
+
+    def _forget(self, push: PushProgress) -> None:
+        self.active_pushes = tuple(each for each in self.active_pushes if each is not push)
 
     def _approach(self, push: GuardedPush) -> None:
         """Push no harder than takes the tool along at the speed of the approach."""

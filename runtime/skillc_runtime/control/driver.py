@@ -28,7 +28,8 @@ class CompliantArmDriver:
         self.measured = self._task.measured
         self.motion = MotionControl(self._task, setup.safety.tool_speed_m_s)
         self.compliance = ComplianceControl(self._task, setup.gains.law.release_damping)
-        self.validator = CommandValidator(setup.arm, self.measured.state, setup.safety)
+        self._validator = CommandValidator(setup.arm, self.measured.state, setup.safety)
+        self._safety = self._validator.safety
         self.fault: str | None = None
         self.broken: str | None = None
         self._seen = self._lost = 0.0
@@ -46,16 +47,21 @@ class CompliantArmDriver:
         task.now = now - self._lost
         state = self._arm.state()
         try:
-            self.validator.check(state)
+            self._validator.check(state)
             task.take_in(state)
-            if (violation := self.validator.safety_violation(state, task.period)) is not None:
+            if (violation := self._safety.violation(state, task.period)) is not None:
                 self.hold_still(violation)
-            self.validator.command(self._decide(state), task.period)
+            try:
+                command = task.command(state)
+            except ControlError as fault:
+                command = self._hold_joints(state, str(fault))
+            self._validator.command(command, task.period)
         except ControlError as fault:
             self.broken = str(fault)
             raise
-        for reason in self.compliance.evaluate_pushes(state):
-            self.abort(reason)
+        for push in self.compliance.active_pushes:
+            if (reason := self.compliance.evaluate(push, state)) is not None:
+                self.abort(reason)
 
     def take_fault(self) -> str | None:
         """Return why the arm stopped by itself, once; None while it has not."""
@@ -79,11 +85,9 @@ class CompliantArmDriver:
         self._task.tool.let_go(self._task.now)
         return self.compliance.secure()
 
-    def _decide(self, state: ArmState) -> Command:
-        try:
-            return self._task.command(state)
-        except ControlError as fault:
-            self._task.hold_joints(state)
-            self.broken = str(fault)
-            self.abort(self.broken)
-            return self.validator.holding()
+    def _hold_joints(self, state: ArmState, why: str) -> Command:
+        """Give up a law that cannot go on; return what holds the arm where it was last known to be."""
+        self._task.hold_joints(state)
+        self.broken = why
+        self.abort(why)
+        return self._validator.holding()

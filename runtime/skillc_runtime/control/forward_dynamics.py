@@ -88,7 +88,7 @@ class ForwardDynamics:
         arm, limit = self._arm, self._limit
         arm.move(limit.q)
         arm.weigh(self._memory.dq)
-        followed = virtual_motion(self._memory, arm.state, state, reference, compliance, period)
+        followed = virtual_motion(self._memory, arm.state, state.q, state.wrench, reference, compliance, period)
         return limit.followed(followed, state)
 
 
@@ -96,17 +96,19 @@ class ForwardDynamics:
 def virtual_motion(
     memory: ForwardDynamicsMemory,
     virtual: VirtualState,
-    state: ArmState,
+    measured: Vector,
+    felt: Vector,
     reference: Reference,
     compliance: Compliance,
     period: float,
 ) -> bool:
     """Compute dq (nv,), slowed down as a whole where a joint would be too fast, and what is commanded.
 
-    Return False when the arm, which is measured in `state`, does not follow.
+    measured (nv,): rad, the joints; felt (6,): N and N m, the wrench on the tool, base axes. Return False when the arm
+    does not follow.
     """
     dq, rows, axes, lag = memory.dq, memory.task.rows, memory.task.axes, memory.lag
-    task_error(memory.task, virtual.tool, reference, compliance, state.wrench)
+    task_error(memory.task, virtual.tool, reference, compliance, felt)
     push, in_base, torque, ddq = np.empty(6), np.empty(6), np.empty(dq.size), np.empty(dq.size)
     for i in range(6):
         force = rows[MEASURED, i] + compliance.wrench[i] - compliance.stiffness[i] * rows[ERROR, i]
@@ -127,4 +129,4 @@ def virtual_motion(
     for j in range(dq.size):
         dq[j] /= excess
         wanted[j] = memory.limits[COMMANDED, j] + period * dq[j]
-    return limit_joints(memory.limits, wanted, state.q, period)
+    return limit_joints(memory.limits, wanted, measured, period)

@@ -52,8 +52,8 @@ class ImpedanceMemory:
 
     task: errors and forces along C; tool (4, 3): the measured tool centre point in base, position in m, then rotation;
     limits (5, nv): see `TorqueLimit`. inertia (6, 6): of the tool along C, kg and kg m^2; floor (6,): least damping,
-    N s/m and N m s/rad. rest (nv,): rad, posture that a redundant arm is pulled to with rest_stiffness N m/rad, damped
-    with rest_damping N m s/rad. torque_rate N m/s: greatest change of a joint torque; force_n N, power_w W: most that
+    N s/m and N m s/rad. rest (nv,): rad, posture that a redundant arm is pulled to with rest_stiffness N m/rad.
+    torque_rate N m/s: greatest change of a joint torque; force_n N, power_w W: most that
     springs, dampers and brakes exert.
     """
 
@@ -64,7 +64,6 @@ class ImpedanceMemory:
     floor: Vector
     rest: OutVector
     rest_stiffness: float
-    rest_damping: float
     torque_rate: float
     force_n: float
     power_w: float
@@ -84,7 +83,6 @@ class Impedance:
             floor=np.repeat([law.damping_floor, law.rotational_damping_floor], 3),
             rest=self._posture.rest,
             rest_stiffness=self._posture.stiffness,
-            rest_damping=self._posture.damping,
             torque_rate=limit.rate,
             force_n=gains.limits.force_n,
             power_w=gains.limits.force_n * gains.limits.speed_m_s,
@@ -118,7 +116,7 @@ class Impedance:
         self._renew(state, reference, compliance, period)
         tau, posture = np.empty_like(state.q), self._posture
         posture.manipulability = impedance_torque(
-            tau, self._memory, state, reference, compliance, posture.regularisation, period
+            tau, self._memory, state, reference, compliance, posture.manipulability, period
         )
         return Torque(tau)
 
@@ -200,28 +198,26 @@ def impedance_torque(
     state: ArmState,
     reference: Reference,
     compliance: Compliance,
-    regularisation: float,
+    manipulability: float,
     period: float,
 ) -> float:
     """Compute the whole law for the next `period` s, told (nv,) in N m; keep tool and errors in the memory.
 
-    regularisation: lam^2 of the nullspace. Return the manipulability, which only an arm with more than six joints has
-    use for: they have a posture to keep.
+    manipulability: of the period before. Return that of this one, which only an arm with more than six joints has use
+    for: it has a posture to keep.
     """
     for i in range(3):
         memory.tool[0, i] = state.tool.position[i]
         for j in range(3):
             memory.tool[1 + i, j] = state.tool.rotation[i, j]
     q, dq, J = state.q, state.dq, state.jacobian
-    tau, velocity, manipulability = np.empty(q.size), np.empty(6), np.inf
+    tau, velocity = np.empty(q.size), np.empty(6)
     times(J, dq, velocity)
     task_error(memory.task, state.tool, reference, compliance, velocity)
     tool_torque(tau, memory, state, compliance)
     if q.size > 6:
         keeping = np.empty(q.size)
-        manipulability = posture_torque(
-            keeping, q, dq, J, memory.rest, memory.rest_stiffness, memory.rest_damping, regularisation
-        )
+        manipulability = posture_torque(keeping, q, dq, J, memory.rest, memory.rest_stiffness, manipulability)
         tau += keeping
     limit_torque(told, memory.limits, tau, q, state.bias, memory.torque_rate * period)
     return manipulability

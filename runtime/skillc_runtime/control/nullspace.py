@@ -25,33 +25,39 @@ SINGULAR_BELOW, SINGULAR_REGULARISATION = 5e-3, 1e-2
 
 
 class Nullspace:
-    """Pulls towards `rest` (nv,) with `stiffness` N m/rad, damped as for unit inertia, N m s/rad."""
+    """Pulls towards `rest` (nv,) in rad with `stiffness` N m/rad."""
 
     def __init__(self, stiffness: float, joints: int) -> None:
         self.rest = np.zeros(joints)
         self.manipulability = np.inf
-        self.stiffness, self.damping = stiffness, 2 * sqrt(stiffness)
+        self.stiffness = stiffness
 
     def torque(self, state: ArmState) -> Array:
         """Return tau_null (nv,) in N m."""
-        tau, lam = np.empty_like(self.rest), self.regularisation
+        tau = np.empty_like(self.rest)
         self.manipulability = posture_torque(
-            tau, state.q, state.dq, state.jacobian, self.rest, self.stiffness, self.damping, lam
+            tau, state.q, state.dq, state.jacobian, self.rest, self.stiffness, self.manipulability
         )
         return tau
 
-    @property
-    def regularisation(self) -> float:
-        """lam^2 for the manipulability seen last."""
-        near = max(0.0, 1 - self.manipulability / SINGULAR_BELOW)
-        return REGULARISATION + SINGULAR_REGULARISATION * near * near
+
+@compiled
+def regularisation(manipulability: float) -> float:
+    """Return lam^2 for the manipulability seen last."""
+    near = max(0.0, 1 - manipulability / SINGULAR_BELOW)
+    return REGULARISATION + SINGULAR_REGULARISATION * near * near
 
 
 @compiled
 def posture_torque(
-    tau: OutVector, q: Vector, dq: Vector, J: Matrix, rest: Vector, stiffness: float, damping: float, lam_square: float
+    tau: OutVector, q: Vector, dq: Vector, J: Matrix, rest: Vector, stiffness: float, manipulability: float
 ) -> float:
-    """Compute tau_null (nv,) in N m; return the manipulability, the product of the Cholesky factor's diagonal."""
+    """Compute tau_null (nv,) in N m, damped as for unit inertia, from the manipulability of the period before.
+
+    q, rest (nv,): rad; dq (nv,): rad/s; J (6, nv): base axes; stiffness: N m/rad. Return the manipulability now, the
+    product of the Cholesky factor's diagonal.
+    """
+    damping, lam_square = 2 * sqrt(stiffness), regularisation(manipulability)
     for j in range(tau.size):
         tau[j] = stiffness * (rest[j] - q[j]) - damping * dq[j]
     gram, wrench, y, part = np.empty((6, 6)), np.empty(6), np.empty(6), np.empty(tau.size)

@@ -17,7 +17,7 @@ from functools import cache
 from hashlib import sha256
 from importlib import import_module
 from importlib.util import find_spec
-from inspect import get_annotations
+from inspect import get_annotations, isfunction
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar, get_args, get_origin, get_type_hints
 
@@ -86,7 +86,7 @@ def _unpacking(function: Callable[Parameters, Result]) -> Callable[Parameters, R
     returns = annotations.pop("return")
     leaves: dict[str, Any] = {}
     names: dict[str, Any] = {"function": part(function), "__name__": function.__module__}
-    packed = [_packed(annotation, name, leaves, names) for name, annotation in annotations.items()]
+    packed = [_packed(function, annotation, name, leaves, names) for name, annotation in annotations.items()]
     flat = {path.replace(".", "__"): annotation for path, annotation in leaves.items()}
     source = (
         f"def flat({', '.join(flat)}):\n    return function({', '.join(packed)})\n"
@@ -101,17 +101,30 @@ def _unpacking(function: Callable[Parameters, Result]) -> Callable[Parameters, R
     return call
 
 
-def _packed(annotation: Any, path: str, leaves: dict[str, Any], names: dict[str, Any]) -> str:
-    """Return the expression that makes a parameter of single values; add these, and what makes it, to the last two."""
+@cache
+def _names_in(function: Any) -> set[str]:
+    """Return the names of what a function, and those it calls, read from elsewhere: fields among them."""
+    found = set(function.__code__.co_names)
+    called = (inner for name in found if isfunction(inner := function.__globals__.get(name)))
+    return found.union(*map(_names_in, called))
+
+
+def _packed(function: Any, annotation: Any, path: str, leaves: dict[str, Any], names: dict[str, Any]) -> str:
+    """Return the expression that makes a parameter of single values; add these, and what makes it, to the last two.
+
+    A field whose name the function does not use is left out: every value that is passed costs time.
+    """
     if not is_dataclass(annotation):
         leaves[path] = annotation
         return path.replace(".", "__")
     assert isinstance(annotation, type)
     hints = get_type_hints(annotation, include_extras=True)
-    parts = [(field.name, hints[field.name]) for field in fields(annotation)]
-    names[annotation.__name__] = namedtuple(annotation.__name__, [name for name, _ in parts])
-    inside = (_packed(hint, f"{path}.{each}", leaves, names) for each, hint in parts)
-    return f"{annotation.__name__}({', '.join(inside)})"
+    parts = [(field.name, hints[field.name]) for field in fields(annotation) if field.name in _names_in(function)]
+    # Numba tells named tuples apart by their names and the types of their fields alone, so no two may share a name.
+    kind = f"{function.__module__}_{function.__name__}_{annotation.__name__}".replace(".", "_")
+    names[kind] = namedtuple(kind, [name for name, _ in parts])
+    inside = (_packed(function, hint, f"{path}.{each}", leaves, names) for each, hint in parts)
+    return f"{kind}({', '.join(inside)})"
 
 
 def _type(annotation: Any) -> Any:
