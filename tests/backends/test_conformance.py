@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import get_args
 
 import numpy as np
@@ -48,6 +49,15 @@ def press(backend: Backend, force_n: float) -> Array:
     backend.driver.compliance.push(normal, force_n)
     backend.advance(0.7)
     return normal
+
+
+def test_nobody_can_change_what_was_measured(backend: Backend) -> None:
+    state = backend.arm.state()
+    arrays = [state.tool.position, state.tool.rotation, *(getattr(state, f.name) for f in fields(state))]
+    assert not any(array.flags.writeable for array in arrays if isinstance(array, np.ndarray))
+    q = backend.driver.measured.q
+    q += 1.0
+    assert np.abs(backend.driver.measured.q - q).min() > 0.9, "what skills see is a copy"
 
 
 def mean_force(backend: Backend, seconds: float = 0.1) -> float:

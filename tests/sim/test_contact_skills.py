@@ -60,7 +60,7 @@ def test_a_sheet_is_polished_with_an_even_force_and_a_swing_across_the_lanes(see
     share = done.value("Sheet-1", "polishedShare")
     assert isinstance(share, float)
     assert share >= 0.99
-    recorded = done.cell.recording(LAB + "Polisher-1")
+    recorded = done.cell.ground_truth.recording(LAB + "Polisher-1")
     swinging = recorded.between(done.cell.now - 25.0, done.cell.now - 10.0)
     assert len(swinging.time) > 10_000
     assert swinging.force.mean() == pytest.approx(15.0, rel=0.02)
@@ -100,7 +100,7 @@ def test_a_peg_finds_its_hole_and_stands_at_its_bottom(seed: int) -> None:
     measured = done.value("Peg-1", "insertedDepth")
     assert isinstance(measured, float)
     assert measured == pytest.approx(0.030, abs=0.002)
-    assert done.cell.recording(LAB + "Peg-1").force.max() < 40.0
+    assert done.cell.ground_truth.recording(LAB + "Peg-1").force.max() < 40.0
     assert at_rest(done.cell)
 
 

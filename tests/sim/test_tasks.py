@@ -115,7 +115,7 @@ def test_the_same_seed_gives_the_same_run() -> None:
     for _ in range(2):
         prepared, cell = start("clean_table", 3)
         execute(prepared, library(), cell, interrupted=lambda now=cell: now.now > 8.0)  # type: ignore[misc]
-        recordings.append(cell.recording("http://example.org/lab#Eraser-1").rows.tobytes())
+        recordings.append(cell.ground_truth.recording("http://example.org/lab#Eraser-1").rows.tobytes())
     assert recordings[0] == recordings[1]
     assert recordings[0]
 

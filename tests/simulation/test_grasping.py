@@ -195,7 +195,7 @@ def test_the_same_seed_gives_the_same_recording() -> None:
         reach_for_eraser(there, "iiwa_table")
         grasp(there, "iiwa_table")
         lift(there, "iiwa_table")
-        rows = there.recording(ERASER).rows
+        rows = there.ground_truth.recording(ERASER).rows
         assert len(rows) > 500
         return rows.tobytes()
 

@@ -13,9 +13,9 @@ from skillc_runtime.motion.pose import Array, Pose
 class ArmState:
     """What an arm measures at one instant, in the arm's base frame; reference point is the tool centre point.
 
-    q, dq (nv,): rad, rad/s. tool: tool centre point in base. jacobian (6, nv): [linear; angular]. mass_matrix (nv, nv).
-    bias (nv,): N m, gravity and Coriolis of arm, gripper and payload. wrench (6,): what the environment does to the
-    tool, N and N m, tool weight removed; zeros where the arm has no such sensor.
+    q, dq (nv,): rad, rad/s. tool: tool centre point in base. jacobian (6, nv): [linear m; angular rad] per rad.
+    mass_matrix (nv, nv): kg m^2. bias (nv,): N m, gravity and Coriolis of arm, gripper and payload. wrench (6,): what
+    the environment does to the tool, N and N m, base axes, tool weight removed; zeros where the arm has no such sensor.
     """
 
     q: Vector
@@ -113,7 +113,7 @@ class Arm(Protocol):
         ...
 
     def state(self) -> ArmState:
-        """Return the present state; its arrays may be the arm's own, valid until the next call."""
+        """Return the present state; its arrays are read-only and may be the arm's own, valid until the next call."""
         ...
 
     def command(self, command: Command) -> None:

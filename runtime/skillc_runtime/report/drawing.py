@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from skillc_runtime.devices.ground_truth import Recording, joined
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.report.wiping import Wiping, described
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.dwell import LINGERING, along_lanes
 from skillc_runtime.simulation.metrics import coverage
-from skillc_runtime.simulation.recorder import Recording, joined
 
 EVERY = 5
 """Of so many steps one is drawn."""
@@ -54,7 +54,10 @@ class Drawing:
 
 def drawing(wiping: Wiping, cell: SimulatedCell) -> Drawing:
     """Gather what is drawn of one wiping."""
-    recording, wiped = cell.recording(wiping.tool).between(wiping.began, wiping.end), described(wiping, cell)
+    recording, wiped = (
+        cell.ground_truth.recording(wiping.tool).between(wiping.began, wiping.end),
+        described(wiping, cell),
+    )
     windows, frame = [recording.between(*stroke) for stroke in wiping.strokes], wiped.surface.inverse()
     window, drawn = joined(windows), _apart(windows)
     covered = coverage(window, wiped)

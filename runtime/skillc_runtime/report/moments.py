@@ -9,10 +9,10 @@ from typing import Literal
 
 import numpy as np
 
+from skillc_runtime.devices.ground_truth import Recording
 from skillc_runtime.report.wiping import Wiping
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.film import Moment
-from skillc_runtime.simulation.recorder import Recording
 from skillc_runtime.trace.events import ImplementationChosen
 from skillc_runtime.trace.outcome import Outcome
 
@@ -60,7 +60,7 @@ def _seen(node: Outcome, choice: ImplementationChosen, cell: SimulatedCell) -> I
 
 
 def _moments(wiping: Wiping, cell: SimulatedCell) -> Iterator[Moment]:
-    name, recording = cell.world.snapshot().vocabulary.short(wiping.surface), cell.recording(wiping.tool)
+    name, recording = cell.world.snapshot().vocabulary.short(wiping.surface), cell.ground_truth.recording(wiping.tool)
     yield Moment(f"{name} grasp", float(recording.time[0]) + GRASPED_S, wiping.arm)
     yield Moment(f"{name} contact", _contact(recording.between(wiping.began, wiping.end)), wiping.arm)
     yield Moment(f"{name} corner", _corner(recording.between(wiping.start, wiping.end)), wiping.arm)

@@ -65,12 +65,14 @@ def described(wiping: Wiping, cell: SimulatedCell) -> Wiped:
     """Return what was wiped with what, as it really was."""
     surface = next(each for each in cell.facts.surfaces if each.individual == wiping.surface)
     tool = size(cell.world.snapshot(), wiping.tool)[:2]
-    return Wiped(cell.true_pose(surface), surface.layout, tool, wiping.force_n, surface.least_n)
+    return Wiped(
+        cell.ground_truth.surface_pose(surface.individual), surface.layout, tool, wiping.force_n, surface.least_n
+    )
 
 
 def judge(wiping: Wiping, cell: SimulatedCell) -> WipingResult:
     """Measure how good the wiping was."""
-    recording = cell.recording(wiping.tool).between(wiping.began, wiping.end)
+    recording = cell.ground_truth.recording(wiping.tool).between(wiping.began, wiping.end)
     metrics = wiping_metrics(recording, wiping.strokes, described(wiping, cell))
     dwell = metrics.lane_dwell
     return WipingResult(

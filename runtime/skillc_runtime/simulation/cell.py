@@ -10,6 +10,7 @@ import mujoco
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.devices.gripper import working_face
+from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.simulation.arm import SimulatedArm
 from skillc_runtime.simulation.base import SimulatedBase
@@ -18,12 +19,12 @@ from skillc_runtime.simulation.button import SimulatedButton, buttons
 from skillc_runtime.simulation.complaints import tell_complaints
 from skillc_runtime.simulation.coverage import CoverageMap
 from skillc_runtime.simulation.drivers import driver
-from skillc_runtime.simulation.facts import SceneFacts, SurfaceFacts, read_scene
+from skillc_runtime.simulation.facts import SceneFacts, read_scene
 from skillc_runtime.simulation.gripper import SimulatedGripper
+from skillc_runtime.simulation.ground_truth import SimulatedTruth
 from skillc_runtime.simulation.inspection import SimulatedCamera
 from skillc_runtime.simulation.observer import ToolObserver
 from skillc_runtime.simulation.person import people
-from skillc_runtime.simulation.recorder import Recording
 from skillc_runtime.simulation.variation import Variation, draw
 from skillc_runtime.world.changes import SetProperty
 from skillc_runtime.world.frames import placed, size
@@ -64,10 +65,12 @@ class SimulatedCell:
         self._bases = {b.individual: SimulatedBase(b, names[b.individual], self.model, self.data) for b in facts.bases}
         mujoco.mj_forward(self.model, self.data)
         self._drivers = {a.individual: driver(a, self.arms[a.individual], self.period_s) for a in facts.arms}
-        self.coverage = {s.individual: CoverageMap(self.true_pose(s), s.layout, s.least_n) for s in facts.surfaces}
+        poses = {s.individual: self.variation.of(s.individual).true_pose(s.pose) for s in facts.surfaces}
+        self.coverage = {s.individual: CoverageMap(poses[s.individual], s.layout, s.least_n) for s in facts.surfaces}
         self._observers = {
             tool.individual: ToolObserver(tool, names, self.model, self.data, self.coverage) for tool in facts.tools
         }
+        self.ground_truth: GroundTruth = SimulatedTruth(self._observers, poses)
         self._camera = SimulatedCamera(self.coverage)
         self.watchdog = HeartbeatWatchdog()
         self._buttons = buttons(facts.fixtures, self.variation.fixtures, names, self.data)
@@ -115,18 +118,6 @@ class SimulatedCell:
     def button(self, individual: str) -> SimulatedButton:
         """Return a button; KeyError where the cell has no such button."""
         return self._buttons[individual]
-
-    def true_pose(self, surface: SurfaceFacts) -> Pose:
-        """Return where a surface really is, in the world."""
-        return self.variation.of(surface.individual).true_pose(surface.pose)
-
-    def recording(self, tool: str) -> Recording:
-        """Return what was recorded of a tool, by IRI, while it was held; KeyError where the cell has no such tool."""
-        return self._observers[tool].recorder.recording()
-
-    def peak_force_n(self, tool: str) -> float:
-        """Return the greatest force in N on a tool, by IRI, while it was held; KeyError where there is no such tool."""
-        return self._observers[tool].strongest.newton
 
     def advance(self, seconds: float) -> None:
         """Let time pass: controllers, devices and physics, step by step. ControlError when a controller gives up."""

@@ -94,7 +94,7 @@ def _assignment(task: str, library: SkillLibrary, state: WorldState) -> Assignme
 
 
 def _greatest_force(cell: SimulatedCell) -> float:
-    return max((cell.peak_force_n(tool.individual) for tool in cell.facts.tools), default=0.0)
+    return max((cell.ground_truth.peak_force_n(tool.individual) for tool in cell.facts.tools), default=0.0)
 
 
 def _force_limit(cell: SimulatedCell) -> float | None:

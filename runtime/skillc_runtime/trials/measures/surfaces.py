@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from skillc_runtime.devices.ground_truth import Recording
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.report.result import WipingResult
 from skillc_runtime.report.wiping import Wiping
-from skillc_runtime.simulation.recorder import Recording
 from skillc_runtime.trials.measures.evidence import Evidence
 from skillc_runtime.trials.work import Polished, Wiped, Work
 from skillc_runtime.world.sheet import number
@@ -28,7 +28,7 @@ def measure(evidence: Evidence) -> Iterator[Work]:
 
 def _polished(evidence: Evidence, wiping: Wiping, how: WipingResult) -> Polished:
     cell = evidence.cell
-    asked, gone = swing(cell.recording(wiping.tool).between(wiping.start, wiping.end))
+    asked, gone = swing(cell.ground_truth.recording(wiping.tool).between(wiping.start, wiping.end))
     seconds = number(cell.world.snapshot(), wiping.surface, POLISH_TIME)
     swung = asked > LEAST_SWING_M
     return Polished(
