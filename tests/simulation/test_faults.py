@@ -46,7 +46,7 @@ def test_an_arm_that_reports_no_numbers_is_broken_once(scene: str) -> None:
 @pytest.mark.parametrize("scene", SCENES)
 def test_after_bad_numbers_a_yielding_arm_can_still_be_made_stiff(scene: str) -> None:
     there = cell(scene)
-    arm, link = there.arm(ARM[scene]), there.arms[ARM[scene]]._link_position
+    arm, link = there.arm(ARM[scene]), there.arms[ARM[scene]]._sensing.link.position
     arm.compliance.release(arm.measured.pose.rotation[:, 2])
     there.advance(0.1)
     before = arm.measured.pose.position
