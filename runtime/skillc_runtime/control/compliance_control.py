@@ -82,7 +82,7 @@ class ComplianceControl:
         self._task.tool.compliance.push_off()
 
     def start_push(self, push: GuardedPush) -> ActivePush:
-        """Begin to approach and then to press; what is returned tells how far it is."""
+        """Begin to approach and then to press; what is returned says how far it is."""
         active = ActivePush(push, self._task.measured.in_base(push.along))
         self._approach(push)
         self.active_pushes = (*self.active_pushes, active)

@@ -11,7 +11,7 @@ from skillc_runtime.motion.reference import Compliance, Reference
 
 
 class ControlError(Exception):
-    """A controller cannot go on safely; the message says why. The arm has been told to hold."""
+    """A controller cannot go on safely; the message says why. The arm has been commanded to hold."""
 
 
 class Controller(Protocol):
@@ -32,7 +32,7 @@ class Controller(Protocol):
         ...
 
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Command:
-        """Return what to tell the arm for the next `period` s."""
+        """Return what to command for the next `period` s."""
         ...
 
 
@@ -40,5 +40,5 @@ class JointController(Protocol):
     """A law that moves joints."""
 
     def command(self, state: ArmState, reference: JointReference, period: float) -> Command:
-        """Return what to tell the arm for the next `period` s."""
+        """Return what to command for the next `period` s."""
         ...

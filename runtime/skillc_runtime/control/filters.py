@@ -12,7 +12,7 @@ from skillc_runtime.motion.pose import Array
 class Lag:
     """A first-order low-pass x <- x + (1 - exp(-h/T)) (target - x) with time constant T in s; 0 passes everything.
 
-    `value` is updated in place, so a reference to it stays valid. What is nearer than `grain` has `arrived`.
+    `value` (n,) is updated in place, so a reference to it stays valid. What is nearer than `grain` has `arrived`.
     """
 
     def __init__(self, value: Array, time_constant: float, grain: float = 1e-6) -> None:
@@ -37,7 +37,7 @@ class Lag:
 
 
 class RateLimit:
-    """Follow a target at `rate` per s at most, one for all or one each; `value` is updated in place."""
+    """Follow a target at `rate` per s at most, one for all or one each; `value` (n,) is updated in place."""
 
     def __init__(self, value: Array, rate: float | Array) -> None:
         self.value = value.copy()

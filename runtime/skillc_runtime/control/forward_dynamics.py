@@ -21,7 +21,7 @@ from skillc_runtime.control.task_error import (
     MEASURED,
     TWIST,
     TaskError,
-    over,
+    speed_excess,
     task_error,
     task_error_of,
 )
@@ -114,7 +114,7 @@ def virtual_motion(
         force = rows[MEASURED, i] + compliance.wrench[i] - compliance.stiffness[i] * rows[ERROR, i]
         push[i] = memory.rate[i] * force + rows[TWIST, i] / lag + rows[ACCELERATION, i]
     for i in range(3):
-        push[i] -= BRAKED * over(lag * push[i], compliance.fastest[i]) / lag
+        push[i] -= BRAKED * speed_excess(lag * push[i], compliance.fastest[i]) / lag
     times(axes, push[:3], in_base[:3])
     times(axes, push[3:], in_base[3:])
     transposed_times(virtual.jacobian, in_base, torque)

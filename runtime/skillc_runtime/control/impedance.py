@@ -27,8 +27,8 @@ from skillc_runtime.control.task_error import (
     MEASURED,
     TWIST,
     TaskError,
-    over,
     shorten,
+    speed_excess,
     task_error,
     task_error_of,
 )
@@ -175,7 +175,7 @@ def tool_torque(tau: Array, memory: ImpedanceMemory, state: ArmState, compliance
         spring = -compliance.stiffness[i] * rows[ERROR, i]
         exerted[i] = spring - rows[DAMPING, i] * (rows[MEASURED, i] - rows[TWIST, i])
     for i in range(3):
-        exerted[i] -= rows[BRAKING, i] * over(rows[MEASURED, i], compliance.fastest[i])
+        exerted[i] -= rows[BRAKING, i] * speed_excess(rows[MEASURED, i], compliance.fastest[i])
     shorten(exerted[:3], memory.force_n)
     times(memory.inertia, rows[ACCELERATION], force)
     for i in range(6):
@@ -193,7 +193,7 @@ def tool_torque(tau: Array, memory: ImpedanceMemory, state: ArmState, compliance
 
 @compiled
 def impedance_torque(
-    told: OutVector,
+    tau_out: OutVector,
     memory: ImpedanceMemory,
     state: ArmState,
     reference: Reference,
@@ -201,7 +201,7 @@ def impedance_torque(
     manipulability: float,
     period: float,
 ) -> float:
-    """Compute the whole law for the next `period` s, told (nv,) in N m; keep tool and errors in the memory.
+    """Compute the whole law for the next `period` s, tau_out (nv,) in N m; keep tool and errors in the memory.
 
     manipulability: of the period before. Return that of this one, which only an arm with more than six joints has use
     for: it has a posture to keep.
@@ -219,5 +219,5 @@ def impedance_torque(
         keeping = np.empty(q.size)
         manipulability = posture_torque(keeping, q, dq, J, memory.rest, memory.rest_stiffness, manipulability)
         tau += keeping
-    limit_torque(told, memory.limits, tau, q, state.bias, memory.torque_rate * period)
+    limit_torque(tau_out, memory.limits, tau, q, state.bias, memory.torque_rate * period)
     return manipulability

@@ -50,7 +50,10 @@ def pose_error(tool: Pose, target: Pose) -> Array:
 
 
 def step_towards(J: Array, error: Array, pull: Array) -> Array:
-    """dq = J^T (J J^T + lam^2 I)^-1 (e - J p) + p, lam falling with the error; p: where the posture is pulled."""
+    """dq = J^T (J J^T + lam^2 I)^-1 (e - J p) + p, (nv,) in rad; lam falls with the error.
+
+    J (6, nv); e (6,): m and rad, along the same axes; p (nv,): rad, where the posture is pulled.
+    """
     damping = 1e-9 + 1e-2 * float(error @ error)
     gram = J @ J.T + damping * np.eye(6)
     if J.shape[1] == 6:

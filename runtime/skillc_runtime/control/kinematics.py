@@ -25,7 +25,7 @@ LOOKS, CALM = 20, 0.85
 
 
 class Kinematics:
-    """Kinematics in the arm's base frame; a state tells where the tool centre point is on the hand."""
+    """Kinematics in the arm's base frame; a state says where the tool centre point is on the hand."""
 
     def __init__(self, virtual: mujoco.MjModel) -> None:
         self._arm = VirtualArm(virtual)
@@ -75,7 +75,10 @@ class Kinematics:
         return joint_path(postures, slowest, ramp, [blend] * (len(postures) - 2))
 
     def tracking_error_message(self, wanted: Array, q: Array) -> str | None:
-        """Return which joint is farthest from where it shall be, and how far; None when all are near enough."""
+        """Return which joint is farthest from where it shall be, and how far; None when all are near enough.
+
+        wanted, q (nv,): rad.
+        """
         far = np.abs(wanted - q)
         joint = int(far.argmax())
         if far[joint] <= NEAR_JOINT_RAD:

@@ -48,9 +48,9 @@ class TorqueLimit:
 
     def step(self, tau: Array, state: ArmState, period: float) -> Array:
         """Return what to command (nv,) in N m for torques without bias. A new array."""
-        told = np.empty_like(tau)
-        limit_torque(told, self.rows, tau, state.q, state.bias, self.rate * period)
-        return told
+        tau_out = np.empty_like(tau)
+        limit_torque(tau_out, self.rows, tau, state.q, state.bias, self.rate * period)
+        return tau_out
 
 
 class JointLimit:
@@ -92,10 +92,10 @@ class JointLimit:
 
 
 class SpeedLimit(JointLimit):
-    """The same for an arm that takes speeds: dq = dq_told + pull (q_expected - q), so that no error of them adds up.
+    """The same for an arm that takes speeds: dq = dq_commanded + pull (q_expected - q), so that no error of them adds up.
 
-    Joints are expected to follow `lag` s late, lag dq_expected + q_expected = q_told; to be behind by that is no error.
-    None is told to be faster than it may, nor to leave its range within a period. pull: 1/s.
+    Joints are expected to follow `lag` s late, lag dq_expected + q_expected = q_commanded; being behind by that is no error.
+    None is commanded to be faster than it may, nor to leave its range within a period. pull: 1/s.
     """
 
     def __init__(self, limits: ArmLimits, q: Array, pull: float, lag: float) -> None:
@@ -103,7 +103,7 @@ class SpeedLimit(JointLimit):
         self.rows[PULL], self.rows[LAG] = pull, lag
 
     def held(self, state: ArmState) -> Array:
-        """Return where the joints come to rest: a pull to others would press ever harder on what is in their way."""
+        """Return where the joints come to rest, (nv,) in rad: a pull to others would press ever harder."""
         self._stay(state)
         return self.q
 
@@ -124,15 +124,15 @@ def _within(x: float, least: float, most: float) -> float:
 
 
 @compiled
-def limit_torque(told: OutVector, rows: OutMatrix, tau: Vector, q: Vector, bias: Vector, longest: float) -> None:
+def limit_torque(tau_out: OutVector, rows: OutMatrix, tau: Vector, q: Vector, bias: Vector, longest: float) -> None:
     """Let the ramp follow tau (nv,) by steps of at most `longest`; add the bias and what pushes joints back into range.
 
-    told, tau, bias (nv,), longest: N m; q (nv,): rad; rows: see `TorqueLimit`.
+    tau_out, tau, bias (nv,), longest: N m; q (nv,): rad; rows: see `TorqueLimit`.
     """
-    for j in range(told.size):
+    for j in range(tau_out.size):
         rows[RAMP, j] += _within(tau[j] - rows[RAMP, j], -longest, longest)
         back = rows[SPRING, j] * (_within(q[j], rows[LOW, j], rows[HIGH, j]) - q[j])
-        told[j] = _within(rows[RAMP, j] + back + bias[j], -rows[EFFORT, j], rows[EFFORT, j])
+        tau_out[j] = _within(rows[RAMP, j] + back + bias[j], -rows[EFFORT, j], rows[EFFORT, j])
 
 
 @compiled
@@ -148,10 +148,10 @@ def limit_joints(rows: OutMatrix, q: Vector, measured: Vector, period: float) ->
     if square > GREATEST_LAG_RAD * GREATEST_LAG_RAD:
         return False
     for j in range(q.size):
-        told, longest = rows[COMMANDED, j], rows[FASTEST, j] * period
-        wanted = told + _within(q[j] - told, -longest, longest)
+        before, longest = rows[COMMANDED, j], rows[FASTEST, j] * period
+        wanted = before + _within(q[j] - before, -longest, longest)
         rows[COMMANDED, j] = _within(wanted, rows[LEAST, j], rows[MOST, j])
-        rows[SPEED, j] = (rows[COMMANDED, j] - told) / period
+        rows[SPEED, j] = (rows[COMMANDED, j] - before) / period
     if rows[PULL, 0] > 0.0:
         _drive(rows, measured, period)
     return True
@@ -159,7 +159,7 @@ def limit_joints(rows: OutMatrix, q: Vector, measured: Vector, period: float) ->
 
 @part
 def _drive(rows: Array, measured: Array, period: float) -> None:
-    """Compute the speeds that lead joints along what is told until the end of the period."""
+    """Compute the speeds that lead joints along what is commanded until the end of the period."""
     for j in range(measured.size):
         wanted, fastest = rows[SPEED, j] + rows[PULL, j] * (rows[EXPECTED, j] - measured[j]), rows[FASTEST, j]
         least, most = (rows[LEAST, j] - measured[j]) / period, (rows[MOST, j] - measured[j]) / period

@@ -27,7 +27,7 @@ DAMPING = 1e-3
 
 
 class MomentumObserver:
-    """Estimates the wrench of the environment on the tool from what one arm was told and how it moved."""
+    """Estimates the wrench of the environment on the tool from what one arm was commanded and how it moved."""
 
     def __init__(self, state: ArmState) -> None:
         joints = state.q.size

@@ -83,7 +83,7 @@ class SafetyMonitor:
 
 @compiled
 def tool_speed(J: Matrix, dq: Vector) -> float:
-    """Return the speed of the tool in m/s."""
+    """Return the speed of the tool in m/s. J (6, nv): [linear m; angular rad] per rad; dq (nv,): rad/s."""
     twist = np.empty(6)
     times(J, dq, twist)
     return sqrt(twist[0] * twist[0] + twist[1] * twist[1] + twist[2] * twist[2])

@@ -76,7 +76,7 @@ def shorten(vector: Array, longest: float) -> None:
 
 
 @part
-def over(velocity: float, fastest: float) -> float:
-    """Return by how much a velocity is over the greatest one, whose sign says which way that holds."""
+def speed_excess(velocity: float, fastest: float) -> float:
+    """Return by how much a velocity is over the greatest one, both in m/s, whose sign says which way that holds."""
     excess = velocity - fastest
     return excess if excess * fastest > 0 else 0.0

@@ -46,7 +46,7 @@ class ToolTask:
         self.reference_generator.restart_from(self._law.tool, np.zeros(6), now)
 
     def hold(self, state: ArmState, q: Array, now: float) -> None:
-        """Hold the tool where it is, at once: whatever moved it is given up, and it pushes no more."""
+        """Hold the tool where it is, the joints at q (nv,) rad, at once: motions end, and it pushes no more."""
         self.reference_generator.drop_overlays()
         self.restart_here(state, q, now)
         self.compliance.push_off()

@@ -116,7 +116,7 @@ def _started_last(table: Array, time: float) -> int:
 
 @compiled
 def path_at(rows: OutMatrix, table: Matrix, time: float) -> None:
-    """Compute the rows of the reference at `time` s from the `table` of a path."""
+    """Compute the rows (8, 3) of the reference at `time` s from the table of a path, a row a piece, see `Path`."""
     position, rotation = rows[0], rows[1:4]
     last, motion = _started_last(table, time), np.empty((3, 6))
     motion_at(motion, table[last, :COLUMNS], time - table[last, START])

@@ -128,9 +128,10 @@ def _row(end: Array, start: Array, i: int) -> tuple[float, float, float]:
 def add_under(
     grid: Array, x: Array, y: Array, middle: Array, axes: Array, size: Array, amount: float, near: float
 ) -> None:
-    """Add to the points of a grid, columns x and rows y, that a rectangle reaches; the grid lies in the plane z = 0.
+    """Add to the points of a grid (m, n), rows y (m,) and columns x (n,), that a rectangle reaches; in m.
 
-    Its edges are the first columns of axes, all in the grid's frame; it may reach to `near` above the plane.
+    The grid lies in the plane z = 0. The rectangle has its middle (3,) and a size (2,) along the first columns of axes
+    (3, 3), all in the grid's frame; it may reach to `near` above the plane.
     """
     reach = hypot(size[0], size[1]) / 2
     for row in range(y.size):
