@@ -24,7 +24,7 @@ HOLD_RATE = 20.0
 class Joints:
     """The joints of a simulated arm, live: arrays (nv,) in rad, rad/s, N m.
 
-    control, applied: what their actuators are commanded, and torques beside theirs, both to be written. q, dq, own_bias: as
+    control, applied: commands of their actuators, and torques beside theirs, both to be written. q, dq, own_bias: as
     they are, without payload. bias: as measured last, payload included; carrying: what of it carries the payload.
     mass_matrix (nv, nv): as measured last. effort: greatest torque of the actuators.
     """
@@ -127,7 +127,7 @@ class Servos(Motors):
     """Servos that follow targets, like those of industrial arms; weight and Coriolis forces are compensated.
 
     tau = kp (target - q) - kv dq. Given positions, the targets move there evenly over the control period; given speeds,
-    they move as fast as that, but no further ahead than takes all effort. Where it takes all and the arm is commanded to
+    they move as fast as that, but no further ahead than takes all effort. Where it takes all and the arm is to
     stand still, the joint stays where it is, instead of pressing on against what is in its way.
     """
 
