@@ -94,7 +94,7 @@ class JointLimit:
 class SpeedLimit(JointLimit):
     """The same for an arm that takes speeds: dq = dq_c + pull (q_expected - q), so that no error of them adds up.
 
-    Joints are expected to follow `lag` s late, lag dq_expected + q_expected = q_c, the commanded joints; that is no error.
+    Joints are expected to follow `lag` s late, lag dq_expected + q_expected = q_c, as commanded; that is no error.
     None is commanded to be faster than it may, nor to leave its range within a period. pull: 1/s.
     """
 
