@@ -41,9 +41,9 @@ def moving(scene: str) -> tuple[SimulatedCell, str]:
     vocabulary = load([Source(path, text) for path, text in catalogue.vocabulary_files()]).value
     cell = SimulatedCell(WorldModel(load_scene(catalogue.scene(scene), vocabulary)), seed=0)
     name = next(iter(cell.arms))
-    start = cell.arm(name).anchor
+    start = cell.arm(name).motion.stopping_pose()
     goal = Pose(start.position + np.array([0.0, 0.0, 0.1]), start.rotation)
-    cell.arm(name).move_along(path([start, goal], MotionLimits(speed=0.001, acceleration=0.4)))
+    cell.arm(name).motion.move_along(path([start, goal], MotionLimits(speed=0.001, acceleration=0.4)))
     cell.advance(1.0)
     return cell, name
 
@@ -67,8 +67,9 @@ def measure(scene: str) -> dict[str, float]:
     """Return what a simulated millisecond costs in us: the whole loop, the arm's controller, its parts, the physics."""
     cell, name = moving(scene)
     driver, arm, model, data = cell.arm(name), cell.arms[name], cell.model, cell.data
-    law, guide, compliance = driver._laws.tool, driver._tool.guide, driver._tool.yielding.compliance
-    state, reference = arm.state(), driver._tool.reference
+    task = driver._task
+    law, generator, compliance = task.controllers.tool, task.tool.reference_generator, task.tool.compliance.applied
+    state, reference = arm.state(), task.tool.reference
 
     def physics() -> None:
         mujoco.mj_step2(model, data)
@@ -78,9 +79,9 @@ def measure(scene: str) -> dict[str, float]:
         "loop": lambda: cell.advance(0.001),
         "controller": lambda: driver.step(data.time),
         "measuring": arm.state,
-        "reference": lambda: guide.sample(driver._now),
+        "reference": lambda: generator.sample(task.now),
         "law": lambda: law.command(state, reference, compliance, 0.001),
-        "safety": lambda: driver._guard.breach(state, 0.001),
+        "safety": lambda: driver._safety.violation(state, 0.001),
         "mj_step": physics,
     }
     return dict(zip(parts, costs_us(tuple(parts.values())), strict=True))

@@ -45,9 +45,9 @@ def take(there: SimulatedCell, scene: str, name: str) -> TakePosture:
 def test_straight_it_would_hit(scene: str) -> None:
     there = stage(scene)
     arm = there.arm(ARM[scene])
-    arm.move_joints(aside(scene), 0.6)
+    arm.motion.move_joints(aside(scene), 0.6)
     found = [true_gap(there, scene, "Pillar")]
-    while not arm.done:
+    while not arm.motion.done:
         there.advance(0.02)
         found.append(true_gap(there, scene, "Pillar"))
     assert found[0] > 0.05 - 1e-9 and min(found) < 0.0
@@ -58,7 +58,7 @@ def test_it_goes_around(scene: str) -> None:
     pytest.importorskip("ompl", reason="the extra `motion` is not installed")
     there = stage(scene)
     assert min(gaps(there, scene, take(there, scene, "aside"))) > 0.005
-    assert there.arm(ARM[scene]).at_joints(aside(scene))
+    assert there.arm(ARM[scene]).measured.at_joints(aside(scene))
 
 
 @pytest.mark.sim
@@ -66,18 +66,18 @@ def test_a_pose_behind_it_is_reached_too() -> None:
     pytest.importorskip("ompl", reason="the extra `motion` is not installed")
     there = stage("iiwa_table")
     arm = there.arm(ARM["iiwa_table"])
-    target = arm._reach.tool_at(aside("iiwa_table"), arm._state)[0]
-    target = arm._base() @ target
+    target = arm._task.kinematics.tool_at(aside("iiwa_table"), arm.measured.state)[0]
+    target = arm.measured.base() @ target
     assert min(gaps(there, "iiwa_table", MoveJoints(there, arm=ARM["iiwa_table"], target=target, pace=0.6))) > 0.005
     there.advance(0.3)
-    assert np.abs(arm.pose.position - target.position).max() < 2e-3
+    assert np.abs(arm.measured.pose.position - target.position).max() < 2e-3
 
 
 def test_without_search_it_goes_over_a_posture_of_its_sheet(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "ompl", None)
     there = stage("iiwa_table", *posture("iiwa_table", "upright", UPRIGHT))
     assert min(gaps(there, "iiwa_table", take(there, "iiwa_table", "aside"))) > 0.005
-    assert there.arm(ARM["iiwa_table"]).at_joints(aside("iiwa_table"))
+    assert there.arm(ARM["iiwa_table"]).measured.at_joints(aside("iiwa_table"))
 
 
 @pytest.mark.parametrize("scene", SCENES)
@@ -85,8 +85,8 @@ def test_where_no_way_is_known_nothing_moves(scene: str, monkeypatch: pytest.Mon
     monkeypatch.setitem(sys.modules, "ompl", None)
     monkeypatch.setattr(ways, "DRAWN", 0)
     there = stage(scene)
-    q = there.arm(ARM[scene]).q
+    q = there.arm(ARM[scene]).measured.q
     with pytest.raises(SkillFailure, match="would touch lab:Pillar"):
         take(there, scene, "aside").start()
     there.advance(0.2)
-    assert there.arm(ARM[scene]).at_joints(q)
+    assert there.arm(ARM[scene]).measured.at_joints(q)

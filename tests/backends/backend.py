@@ -12,9 +12,9 @@ from typing import Protocol
 import numpy as np
 
 from simulation.cells import ARM, world
+from skillc_runtime.control.driver import CompliantArmDriver
+from skillc_runtime.devices.arm import Arm
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.robots.arm import Arm
-from skillc_runtime.robots.driver import ArmDriver
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.names import part
 from skillc_runtime.world.changes import SetProperty
@@ -29,7 +29,7 @@ class Backend(Protocol):
     """One arm with its driver, which holds it still at first, free to move 10 cm; and a wall to put before it."""
 
     arm: Arm
-    driver: ArmDriver
+    driver: CompliantArmDriver
 
     def advance(self, seconds: float) -> None:
         """Let time pass; the driver is stepped."""

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import get_args
 
 import numpy as np
 import pytest
 
 from backends.backend import BACKENDS, Backend
+from skillc_runtime.devices.arm import JointPosition, JointVelocity, Mode, ModeRefused, Torque
 from skillc_runtime.motion.path import path
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.segments import MotionLimits
-from skillc_runtime.robots.arm import JointPosition, JointVelocity, Mode, ModeRefused, Torque
 
 LIMITS = MotionLimits(speed=0.2, acceleration=0.5)
 COMMANDS = {"torque": Torque, "position": JointPosition, "velocity": JointVelocity}
@@ -26,28 +27,37 @@ def _backends() -> list[object]:
 @pytest.fixture(params=_backends())
 def backend(request: pytest.FixtureRequest) -> Backend:
     made = BACKENDS[request.param]()
-    made.driver.hold_position()
+    made.driver.motion.hold_position()
     made.advance(0.02)
     return made
 
 
 def beside(backend: Backend, *way: float) -> Pose:
-    anchor = backend.driver.anchor
+    anchor = backend.driver.motion.stopping_pose()
     return Pose(anchor.position + np.array(way), anchor.rotation)
 
 
 def go(backend: Backend, target: Pose, seconds: float) -> None:
-    backend.driver.move_along(path([backend.driver.anchor, target], LIMITS))
+    backend.driver.motion.move_along(path([backend.driver.motion.stopping_pose(), target], LIMITS))
     backend.advance(seconds)
 
 
 def press(backend: Backend, force_n: float) -> Array:
     """Press against a wall 2 mm before the tool; return the direction out of it."""
     normal = backend.put_wall(0.002)
-    backend.driver.release(normal)
-    backend.driver.push(normal, force_n)
+    backend.driver.compliance.release(normal)
+    backend.driver.compliance.push(normal, force_n)
     backend.advance(0.7)
     return normal
+
+
+def test_nobody_can_change_what_was_measured(backend: Backend) -> None:
+    state = backend.arm.state()
+    arrays = [state.tool.position, state.tool.rotation, *(getattr(state, f.name) for f in fields(state))]
+    assert not any(array.flags.writeable for array in arrays if isinstance(array, np.ndarray))
+    q = backend.driver.measured.q
+    q += 1.0
+    assert np.abs(backend.driver.measured.q - q).min() > 0.9, "what skills see is a copy"
 
 
 def mean_force(backend: Backend, seconds: float = 0.1) -> float:
@@ -75,18 +85,18 @@ def test_what_it_says_of_itself_is_consistent(backend: Backend) -> None:
 
 
 def test_a_step_of_the_pose(backend: Backend) -> None:
-    start, target = backend.driver.anchor, beside(backend, 0.0, 0.03, 0.02)
+    start, target = backend.driver.motion.stopping_pose(), beside(backend, 0.0, 0.03, 0.02)
     go(backend, target, 1.2)
-    assert backend.driver.done
-    assert backend.driver.behind is None
-    assert np.abs(backend.driver.pose.position - target.position).max() < 1e-3
-    assert np.abs(backend.driver.pose.rotation - start.rotation).max() < 1e-2
+    assert backend.driver.motion.done
+    assert backend.driver.motion.tracking_error_message is None
+    assert np.abs(backend.driver.measured.pose.position - target.position).max() < 1e-3
+    assert np.abs(backend.driver.measured.pose.rotation - start.rotation).max() < 1e-2
 
 
 def test_steps_of_the_force(backend: Backend) -> None:
     normal = press(backend, 8.0)
     assert mean_force(backend) == pytest.approx(8.0, rel=0.05)
-    backend.driver.push(normal, 16.0)
+    backend.driver.compliance.push(normal, 16.0)
     backend.advance(0.6)
     assert mean_force(backend) == pytest.approx(16.0, rel=0.05)
 
@@ -94,7 +104,7 @@ def test_steps_of_the_force(backend: Backend) -> None:
 def test_stiffness_that_changes_in_contact_does_not_make_it_jump(backend: Backend) -> None:
     press(backend, 10.0)
     before = mean_force(backend, 0.05)
-    backend.driver.restore()
+    backend.driver.compliance.restore()
     forces = []
     for _ in range(150):
         backend.advance(0.001)
@@ -102,7 +112,7 @@ def test_stiffness_that_changes_in_contact_does_not_make_it_jump(backend: Backen
     assert before == pytest.approx(10.0, rel=0.1)
     assert np.abs(np.diff([before, *forces])).max() < 1.5
     assert max(forces) < 12.0
-    assert (np.array(backend.driver.commanded_stiffness) > 0).all()
+    assert (np.array(backend.driver.compliance.commanded_stiffness) > 0).all()
 
 
 def test_what_it_cannot_do_is_refused_and_it_goes_on_as_before(backend: Backend) -> None:
@@ -118,16 +128,16 @@ def test_what_it_cannot_do_is_refused_and_it_goes_on_as_before(backend: Backend)
             with pytest.raises(TypeError, match="takes no"):
                 arm.command(wrong(np.zeros(joints)))
     with pytest.raises(ValueError, match="beyond"):
-        driver.push(-driver.pose.rotation[:, 2], 1000.0)
+        driver.compliance.push(-driver.measured.pose.rotation[:, 2], 1000.0)
     assert arm.interface == before
     target = beside(backend, 0.0, 0.0, 0.02)
     go(backend, target, 0.8)
-    assert np.abs(driver.pose.position - target.position).max() < 1e-3
+    assert np.abs(driver.measured.pose.position - target.position).max() < 1e-3
 
 
 def test_it_changes_its_mode_on_the_way_without_a_jump_and_rests_until_the_first_command(backend: Backend) -> None:
     arm, driver, before = backend.arm, backend.driver, backend.arm.interface
-    driver.move_along(path([driver.anchor, beside(backend, 0.0, 0.08, 0.0)], LIMITS))
+    driver.motion.move_along(path([driver.motion.stopping_pose(), beside(backend, 0.0, 0.08, 0.0)], LIMITS))
     for mode in (*arm.capabilities.modes, before):
         backend.advance(0.25)
         moving, speeds = arm.state().dq.copy(), []
@@ -148,16 +158,16 @@ def test_it_changes_its_mode_on_the_way_without_a_jump_and_rests_until_the_first
             backend.neglect(0.04)
             assert np.abs(arm.state().dq).max() < 0.3 * np.abs(moving).max(), "what was told before is forgotten"
     backend.advance(1.0)
-    assert driver.done
-    assert driver.behind is None
+    assert driver.motion.done
+    assert driver.motion.tracking_error_message is None
 
 
 def test_a_motion_of_the_joints_that_runs_into_something_does_not_press_ever_harder(backend: Backend) -> None:
     driver = backend.driver
     deeper = beside(backend, *(-0.04 * backend.put_wall(0.002)))
-    goal = driver.inverse_kinematics(deeper, driver.q)
+    goal = driver.motion.inverse_kinematics(deeper, driver.measured.q)
     assert goal is not None
-    driver.move_joints(goal, 0.2)
+    driver.motion.move_joints(goal, 0.2)
     forces = [0.0]
     while driver.fault is None and len(forces) < 200:
         backend.advance(0.005)
@@ -170,9 +180,9 @@ def test_a_motion_of_the_joints_that_runs_into_something_does_not_press_ever_har
 
 def test_an_arm_that_nobody_commands_holds_still_and_goes_on_without_a_jump(backend: Backend) -> None:
     driver = backend.driver
-    driver.move_along(path([driver.anchor, beside(backend, 0.0, 0.08, 0.0)], LIMITS))
+    driver.motion.move_along(path([driver.motion.stopping_pose(), beside(backend, 0.0, 0.08, 0.0)], LIMITS))
     backend.advance(0.4)
-    assert np.abs(driver.velocity[:3]).max() > 0.1
+    assert np.abs(driver.measured.velocity[:3]).max() > 0.1
     backend.neglect(0.6)
     stopped = backend.arm.state()
     assert np.abs(stopped.dq).max() < 0.02
@@ -182,20 +192,20 @@ def test_an_arm_that_nobody_commands_holds_still_and_goes_on_without_a_jump(back
     speeds = []
     for _ in range(20):
         backend.advance(0.01)
-        speeds.append(np.abs(driver.velocity[:3]).max())
-    assert max(speeds) < driver.gains.speed_limit
+        speeds.append(np.abs(driver.measured.velocity[:3]).max())
+    assert max(speeds) < driver.task_limits.speed_m_s
 
 
 def test_it_stops_at_once(backend: Backend) -> None:
     driver = backend.driver
-    driver.move_along(path([driver.anchor, beside(backend, 0.0, 0.08, 0.0)], LIMITS))
+    driver.motion.move_along(path([driver.motion.stopping_pose(), beside(backend, 0.0, 0.08, 0.0)], LIMITS))
     backend.advance(0.4)
-    where = driver.pose.position
+    where = driver.measured.pose.position
     driver.hold_still("enough")
     backend.advance(0.6)
     assert driver.fault == "enough"
-    assert np.abs(driver.velocity[:3]).max() < 0.01
-    assert np.linalg.norm(driver.pose.position - where) < 0.02
+    assert np.abs(driver.measured.velocity[:3]).max() < 0.01
+    assert np.linalg.norm(driver.measured.pose.position - where) < 0.02
 
 
 def test_it_lets_go_when_it_stops_in_contact(backend: Backend) -> None:
@@ -205,5 +215,5 @@ def test_it_lets_go_when_it_stops_in_contact(backend: Backend) -> None:
     backend.driver.secure()
     backend.advance(0.6)
     assert mean_force(backend, 0.05) < 10.0 / 3
-    assert not backend.driver.commanded_wrench.any()
-    assert backend.driver.commanded_stiffness.all()
+    assert not backend.driver.compliance.commanded_wrench.any()
+    assert backend.driver.compliance.commanded_stiffness.all()

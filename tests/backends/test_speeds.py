@@ -8,18 +8,18 @@ import numpy as np
 import pytest
 
 from backends.backend import MujocoBackend
-from skillc_runtime.controllers.controller import ControlError
+from skillc_runtime.control.controller import ControlError
+from skillc_runtime.devices.arm import Command, JointVelocity
 from skillc_runtime.motion.path import path
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.segments import MotionLimits
-from skillc_runtime.robots.arm import Command, JointVelocity
 
 LIMITS = MotionLimits(speed=0.2, acceleration=0.5)
 
 
 def arm_told_speeds(steps_per_command: int = 1) -> MujocoBackend:
     made = MujocoBackend("ur5e_whiteboard", "forward_dynamics_velocity", steps_per_command)
-    made.driver.hold_position()
+    made.driver.motion.hold_position()
     made.advance(0.02)
     return made
 
@@ -39,24 +39,26 @@ def told(there: MujocoBackend, changed: Callable[[Array], Array] = np.copy) -> l
 
 
 def beside(there: MujocoBackend, *way: float) -> Pose:
-    return Pose(there.driver.anchor.position + np.array(way), there.driver.anchor.rotation)
+    return Pose(
+        there.driver.motion.stopping_pose().position + np.array(way), there.driver.motion.stopping_pose().rotation
+    )
 
 
 def test_whatever_is_changed_on_the_way_no_speed_jumps() -> None:
     there = arm_told_speeds()
-    driver, home, speeds = there.driver, there.driver.q, told(there)
-    driver.move_along(path([driver.anchor, beside(there, 0.0, 0.08, 0.0)], LIMITS))
+    driver, home, speeds = there.driver, there.driver.measured.q, told(there)
+    driver.motion.move_along(path([driver.motion.stopping_pose(), beside(there, 0.0, 0.08, 0.0)], LIMITS))
     there.advance(0.3)
-    driver.move_joints(home + 0.1, 0.2)
+    driver.motion.move_joints(home + 0.1, 0.2)
     there.advance(0.2)
-    driver.hold_position()
+    driver.motion.hold_position()
     there.advance(0.1)
-    driver.release(driver.pose.rotation[:, 2])
-    driver.push(driver.pose.rotation[:, 2], 5.0)
+    driver.compliance.release(driver.measured.pose.rotation[:, 2])
+    driver.compliance.push(driver.measured.pose.rotation[:, 2], 5.0)
     there.advance(0.1)
-    driver.restore()
+    driver.compliance.restore()
     there.advance(0.1)
-    driver.move_joints(home, 0.2)
+    driver.motion.move_joints(home, 0.2)
     there.advance(0.2)
     assert len(speeds) == 1000
     assert np.abs(speeds).max() > 0.05
@@ -69,12 +71,12 @@ def wrong(dq: Array) -> Array:
 
 def test_an_arm_whose_speeds_are_wrong_does_not_drift() -> None:
     there = arm_told_speeds()
-    start, moved = there.driver.q, told(there, wrong)
-    there.driver.move_joints(start, 0.5)
+    start, moved = there.driver.measured.q, told(there, wrong)
+    there.driver.motion.move_joints(start, 0.5)
     there.advance(1.0)
-    after_one = there.driver.q
+    after_one = there.driver.measured.q
     there.advance(1.0)
-    assert np.abs(there.driver.q - after_one).max() < 2e-5
+    assert np.abs(there.driver.measured.q - after_one).max() < 2e-5
     assert np.abs(after_one - start).max() < 1.1 * 0.01 / 5.0, "the wrong speed over the tracking rate"
     assert np.abs(moved[-1] + 0.01).max() < 1e-3
 
@@ -82,17 +84,17 @@ def test_an_arm_whose_speeds_are_wrong_does_not_drift() -> None:
 def test_an_arm_whose_speeds_are_wrong_gets_to_its_goals() -> None:
     there = arm_told_speeds()
     told(there, lambda dq: 1.05 * dq)
-    goal = there.driver.q + 0.3
-    there.driver.move_joints(goal, 0.3)
+    goal = there.driver.measured.q + 0.3
+    there.driver.motion.move_joints(goal, 0.3)
     there.advance(2.0)
-    assert there.driver.done
-    assert np.abs(there.driver.q - goal).max() < 2e-3
+    assert there.driver.motion.done
+    assert np.abs(there.driver.measured.q - goal).max() < 2e-3
 
 
 def test_what_is_no_number_makes_it_hold_and_not_drift() -> None:
     there = arm_told_speeds()
     driver, state = there.driver, there.arm.state
-    driver.move_along(path([driver.anchor, beside(there, 0.0, 0.08, 0.0)], LIMITS))
+    driver.motion.move_along(path([driver.motion.stopping_pose(), beside(there, 0.0, 0.08, 0.0)], LIMITS))
     there.advance(0.3)
     speeds, joints = told(there), there.arm._q
     good, joints[:] = joints.copy(), np.nan
@@ -109,7 +111,7 @@ def test_what_is_no_number_makes_it_hold_and_not_drift() -> None:
 
 def test_an_arm_that_is_blocked_is_stopped_and_stops_pressing() -> None:
     there = arm_told_speeds()
-    there.driver.move_joints(there.driver.q + np.array([0.5, 0, 0, 0, 0, 0]), 0.3)
+    there.driver.motion.move_joints(there.driver.measured.q + np.array([0.5, 0, 0, 0, 0, 0]), 0.3)
     there.advance(0.3)
     driver, joints = there.driver, there.arm._q
     blocked = joints.copy()
@@ -128,10 +130,12 @@ def test_a_line_is_followed_alike_at_every_rate() -> None:
     places = []
     for steps in (1, 2, 4):
         there, place = arm_told_speeds(steps), []
-        there.driver.move_along(path([there.driver.anchor, beside(there, 0.0, 0.05, 0.03)], LIMITS))
+        there.driver.motion.move_along(
+            path([there.driver.motion.stopping_pose(), beside(there, 0.0, 0.05, 0.03)], LIMITS)
+        )
         for _ in range(8):
             there.advance(0.1)
-            place.append(there.driver.pose.position)
+            place.append(there.driver.measured.pose.position)
         places.append(place)
     assert np.ptp(places[0], axis=0).max() > 0.04
     for other, period in ((places[1], 0.002), (places[2], 0.004)):

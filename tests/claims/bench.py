@@ -12,12 +12,12 @@ from msgspec import structs
 from skillc_compiler.goals import parse_call, parse_goal
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.commands import _library
+from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Primitive, Status
 from skillc_runtime.recording.events import Event
-from skillc_runtime.robots.watchdog import Watchdog
 from skillc_runtime.world.changes import AddIndividual, AddRelation, SetProperty
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.state import WorldState
@@ -99,7 +99,7 @@ class Bench:
     world: WorldModel
     meanwhile: dict[float, Callable[[Bench], object]] = field(default_factory=dict)
     now: float = 0.0
-    watchdog: Watchdog = field(default_factory=Watchdog)
+    watchdog: HeartbeatWatchdog = field(default_factory=HeartbeatWatchdog)
     hand: Hand = field(default_factory=Hand)
     wheels: Base = field(default_factory=Base)
 

@@ -16,7 +16,7 @@ from skillc_runtime.motion.path import joined, path
 from skillc_runtime.motion.pose import Pose, exp, log
 from skillc_runtime.motion.profile import trapezoid
 from skillc_runtime.motion.segments import MotionLimits, segment
-from skillc_runtime.motion.smooth import Smooth, window_for
+from skillc_runtime.motion.smooth import SmoothProfile, window_for
 
 EXAMPLES = int(os.environ.get("SKILLC_MOTIONS", "15"))
 """Of each property; more, once, by the environment."""
@@ -97,7 +97,7 @@ def test_points_on_a_line_are_refused(via):
 @settings(max_examples=4 * EXAMPLES, deadline=None)
 @given(st.floats(1e-3, 3.0), st.floats(0.05, 0.5), st.floats(0.1, 2.0), st.floats(1.0, 50.0), st.floats(0.01, 0.99))
 def test_a_smooth_profile_is_its_own_derivative_and_keeps_its_limits(length, speed, acceleration, jerk, share):
-    profile = Smooth(trapezoid(length, speed, acceleration), window_for(acceleration, jerk))
+    profile = SmoothProfile(trapezoid(length, speed, acceleration), window_for(acceleration, jerk))
     time, h = share * profile.duration, 1e-6
     (s0, v0, a0), (_, v, a), (s1, v1, a1) = (profile.at(time + d) for d in (-h, 0.0, h))
     assert (s1 - s0) / (2 * h) == pytest.approx(v, abs=1e-5)

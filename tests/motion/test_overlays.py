@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from skillc_runtime.motion.overlays import Circle, Faded, Lissajous, Spiral
+from skillc_runtime.motion.overlays import Circle, FadedOverlay, Lissajous, Spiral
 
 CIRCLE = Circle(radius=0.015, rate=1.0)
 OVERLAYS = {
@@ -11,8 +11,8 @@ OVERLAYS = {
     "sine": Lissajous(np.array([0.02, 0, 0]), np.array([2.0, 0, 0]), np.array([0.3, 0, 0])),
     "lissajous": Lissajous(np.array([0.02, 0.01, 0]), np.array([2.0, 3.0, 0]), np.zeros(3)),
     "spiral": Spiral(pitch=0.01, speed=0.1, radius=0.04),
-    "fading in": Faded(CIRCLE, start=0.4, fade=0.5),
-    "fading in and out": Faded(CIRCLE, start=0.2, fade=0.6, end=0.5),
+    "fading in": FadedOverlay(CIRCLE, start=0.4, fade=0.5),
+    "fading in and out": FadedOverlay(CIRCLE, start=0.2, fade=0.6, end=0.5),
 }
 
 
@@ -34,7 +34,7 @@ def test_pure_in_time(name):
 
 
 def test_fading_starts_and_ends_with_nothing():
-    faded = Faded(CIRCLE, start=1.0, fade=0.5).ended(3.0)
+    faded = FadedOverlay(CIRCLE, start=1.0, fade=0.5).ended(3.0)
     for time in (0.0, 1.0, 3.5, 9.0):
         assert not any(part.any() for part in faded.at(time))
     assert np.allclose(faded.at(2.0)[0], CIRCLE.at(1.0)[0])

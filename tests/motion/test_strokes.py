@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from skillc_runtime.motion.lanes import OVERHANG_M, lanes
 from skillc_runtime.motion.layout import Hole, Layout, Patch
 from skillc_runtime.motion.pose import Pose, exp
-from skillc_runtime.motion.strokes import over, strokes
+from skillc_runtime.motion.strokes import strokes, strokes_over
 
 EXAMPLES = int(os.environ.get("SKILLC_MOTIONS", "10"))
 """Of each property; more, once, by the environment."""
@@ -98,11 +98,11 @@ def test_patches_are_taken_each_time_the_nearest_and_their_holes_are_left_out():
     ]
     layout = Layout(np.array([5.0, 1.0]), tuple(Patch(frame, SURFACE) for frame in frames))
     start = Pose(np.array([-1.0, 0.0, 0.0]), np.eye(3))
-    found = over(layout, TOOL, 0.2, start)
+    found = strokes_over(layout, TOOL, 0.2, start)
     assert [round(float(np.mean([p.position[0] for p in stroke]))) for stroke in found] == [0, 1, 2]
     first = strokes(SURFACE, TOOL, 0.2)[0][0]
     assert np.allclose(found[2][0].position, frames[0].at(first.position))
-    holed = over(replace(layout, holes=(Hole(np.array([1.0, 0.0]), np.array([0.04, 0.04])),)), TOOL, 0.2, start)
+    holed = strokes_over(replace(layout, holes=(Hole(np.array([1.0, 0.0]), np.array([0.04, 0.04])),)), TOOL, 0.2, start)
     assert [len(stroke) for stroke in holed][::2] == [len(stroke) for stroke in found][::2]
     assert len(holed[1]) > len(found[1])
 

@@ -11,11 +11,11 @@ from skillc_compiler.goals import parse_goal
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.commands import _library
+from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.recording.events import Event
-from skillc_runtime.robots.watchdog import Watchdog
 from skillc_runtime.world.changes import AddIndividual, AddRelation
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.state import WorldState
@@ -66,7 +66,7 @@ class Depot:
     fails: Callable[[str, int], bool] = lambda step, number: False
     now: float = 0.0
     at_rest: bool = True
-    watchdog: Watchdog = field(default_factory=Watchdog)
+    watchdog: HeartbeatWatchdog = field(default_factory=HeartbeatWatchdog)
     log: list[str] = field(default_factory=list)
 
     def secure(self) -> tuple[str, ...]:

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from random import Random
 
 from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.robots.watchdog import Watchdog
 from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.state import WorldState
@@ -24,7 +24,7 @@ class Chance:
     random: Random
     now: float = 0.0
     notes: list[str] = field(default_factory=list)
-    watchdog: Watchdog = field(default_factory=Watchdog)
+    watchdog: HeartbeatWatchdog = field(default_factory=HeartbeatWatchdog)
 
 
 class Actor(Primitive):

@@ -23,10 +23,17 @@ TOO_MUCH = Measures("force", ">", Literal(25.0))
 
 
 @dataclass
+class Measured:
+    """What an arm measures that feels a force."""
+
+    wrench: np.ndarray
+
+
+@dataclass
 class Arm:
     """An arm that feels a force."""
 
-    wrench: np.ndarray
+    measured: Measured
 
 
 @dataclass
@@ -37,7 +44,7 @@ class Cell(Stage):
 
     def arm(self, individual: str) -> Arm:
         """Return the arm."""
-        return Arm(np.array([0.0, 0.0, -self.force_n, 99.0, 0.0, 0.0]))
+        return Arm(Measured(np.array([0.0, 0.0, -self.force_n, 99.0, 0.0, 0.0])))
 
 
 def library(event: Event) -> SkillLibrary:

@@ -14,6 +14,7 @@ from simulation.cells import world
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Compare, Individual, Literal, PropertyOf
 from skillc_runtime import primitives
+from skillc_runtime.devices.cell import Cell
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask
 from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.motion.pose import Pose
@@ -22,7 +23,6 @@ from skillc_runtime.primitives.compliance import ReleaseAxis
 from skillc_runtime.primitives.overlay import AddedMotion
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.recording.events import Event, NodeEnded, Note, TaskEnded
-from skillc_runtime.robots.cell import Cell
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.terms import (
     ARM_DEVICE,
@@ -106,7 +106,7 @@ def scene_for(kind: type[Primitive], number: int) -> str:
 
 def arguments(scene: str, cell: Cell) -> dict[str, object]:
     """Return what the parameters of primitives may be in a scene, by their names."""
-    tool = cell.arm(things(scene)["arm"]).anchor
+    tool = cell.arm(things(scene)["arm"]).motion.stopping_pose()
     raised = Pose(tool.position + np.array([0.0, 0.0, 0.05]), tool.rotation)
     beside = Pose(tool.position + np.array([0.02, 0.0, 0.025]), tool.rotation)
     poses = {"via": beside, "target": raised, "path": [raised, tool]}
@@ -122,13 +122,13 @@ class Pushing(Primitive):
         self.arm, self._along = cell.arm(arm), along
 
     def start(self) -> None:
-        self.arm.push(self._along, 10.0)
+        self.arm.compliance.push(self._along, 10.0)
 
     def tick(self) -> Status:
         return Status.SUCCESS
 
     def release(self) -> None:
-        self.arm.push_off()
+        self.arm.compliance.push_off()
 
 
 class Breaking(Primitive):

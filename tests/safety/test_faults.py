@@ -37,13 +37,13 @@ def is_safe(there: SimulatedCell, scene: str) -> None:
             break
         there.advance(0.01)
     assert there.at_rest
-    assert not arm.commanded_wrench.any()
-    assert arm.commanded_stiffness.all()
+    assert not arm.compliance.commanded_wrench.any()
+    assert arm.compliance.commanded_stiffness.all()
     there.advance(0.3)
-    before = arm.pose.position
+    before = arm.measured.pose.position
     there.advance(0.05)
-    assert np.abs(arm.pose.position - before).max() < 3e-4
-    assert np.linalg.norm(arm.wrench[:3]) < 3.0
+    assert np.abs(arm.measured.pose.position - before).max() < 3e-4
+    assert np.linalg.norm(arm.measured.wrench[:3]) < 3.0
 
 
 @pytest.mark.parametrize(("name", "phase"), list(_breaks()))

@@ -7,12 +7,12 @@ import pytest
 
 from safety.test_faults import is_safe
 from simulation.cells import ARM, GRIPPER, LAB, SCENES, cell, run, world
+from skillc_runtime.control.driver import CompliantArmDriver
+from skillc_runtime.control.safety import Box
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.move import MoveLinear
 from skillc_runtime.primitives.overlay import OverlayCircle
 from skillc_runtime.primitives.primitive import SkillFailure
-from skillc_runtime.robots.driver import ArmDriver
-from skillc_runtime.robots.safety import Box
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.names import part
 from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
@@ -25,8 +25,8 @@ def cell_with(scene: str, changes: list[Change]) -> SimulatedCell:
     return SimulatedCell(WorldModel(world(scene).changed(changes)))
 
 
-def moved(arm: ArmDriver, *way: float) -> Pose:
-    return Pose(arm.anchor.position + np.array(way), arm.anchor.rotation)
+def moved(arm: CompliantArmDriver, *way: float) -> Pose:
+    return Pose(arm.motion.stopping_pose().position + np.array(way), arm.motion.stopping_pose().rotation)
 
 
 def pushed(there: SimulatedCell, scene: str, force: tuple[float, float, float], seconds: float) -> None:
@@ -44,12 +44,12 @@ def test_the_tool_stops_where_it_is_pushed_too_hard(scene: str) -> None:
     there.advance(0.05)
     pushed(there, scene, (0.0, 40.0, 0.0), 0.1)
     assert arm.fault is None
-    arm.release(np.array([0.0, 1.0, 0.0]))
-    arm.push(np.array([0.0, 1.0, 0.0]), 5.0)
+    arm.compliance.release(np.array([0.0, 1.0, 0.0]))
+    arm.compliance.push(np.array([0.0, 1.0, 0.0]), 5.0)
     pushed(there, scene, (0.0, 150.0, 0.0), 0.1)
     assert arm.fault is not None
     assert "N on the tool is beyond the 80 N" in arm.fault
-    assert not arm.commanded_wrench.any()
+    assert not arm.compliance.commanded_wrench.any()
     told = there.secure()
     assert len(told) == 2
     assert "had stopped: a force" in told[0]
@@ -62,13 +62,13 @@ def test_the_tool_stops_where_it_is_pushed_too_hard(scene: str) -> None:
 def test_an_arm_without_sensor_feels_what_pushes_its_tool(force: tuple[float, float, float]) -> None:
     there = cell("iiwa_table")
     arm = there.arm(ARM["iiwa_table"])
-    arm.hold_position()
+    arm.motion.hold_position()
     there.advance(0.05)
-    resistance = arm._guard._safety._resistance
-    assert resistance is not None
-    assert np.linalg.norm(resistance.wrench(arm._state)[:3]) < 2.0
+    observer = arm._safety.momentum_observer
+    assert observer is not None
+    assert np.linalg.norm(observer.wrench(arm.measured.state)[:3]) < 2.0
     pushed(there, "iiwa_table", force, 0.15)
-    felt = resistance.wrench(arm._state)[:3]
+    felt = observer.wrench(arm.measured.state)[:3]
     assert np.abs(felt - force).max() < 3.0
 
 
@@ -88,15 +88,15 @@ def test_joints_go_more_slowly_where_the_tool_would_be_too_fast(scene: str) -> N
     sheet = next(iter(world(scene).objects(ARM[scene], HAS_SHEET)))
     there = cell_with(scene, [SetProperty(sheet, TOOL_SPEED_LIMIT, 0.4)])
     arm, fastest = there.arm(ARM[scene]), 0.0
-    goal = arm.q + 0.4
-    arm.move_joints(goal, 1.0)
+    goal = arm.measured.q + 0.4
+    arm.motion.move_joints(goal, 1.0)
     for _ in range(400):
         there.advance(0.01)
-        fastest = max(fastest, float(np.linalg.norm(arm.velocity[:3])))
-        if arm.done:
+        fastest = max(fastest, float(np.linalg.norm(arm.measured.velocity[:3])))
+        if arm.motion.done:
             break
     assert arm.fault is None
-    assert arm.at_joints(goal)
+    assert arm.measured.at_joints(goal)
     assert 0.25 < fastest < 0.4
 
 
@@ -109,15 +109,15 @@ def test_an_overlay_that_is_too_fast_is_refused() -> None:
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_a_tool_that_leaves_its_workspace_is_stopped_and_may_come_back(scene: str) -> None:
-    start = cell(scene).arm(ARM[scene]).pose
+    start = cell(scene).arm(ARM[scene]).measured.pose
     there = cell_with(scene, workspace(scene, start))
     arm = there.arm(ARM[scene])
     with pytest.raises(SkillFailure, match=r"the tool is \d+ mm outside the arm's workspace"):
         run(there, MoveLinear(there, arm=ARM[scene], target=moved(arm, 0.0, 0.0, 0.1), speed=0.1))
     is_safe(there, scene)
-    assert 0.03 < arm.pose.position[2] - start.position[2] < 0.045
+    assert 0.03 < arm.measured.pose.position[2] - start.position[2] < 0.045
     run(there, MoveLinear(there, arm=ARM[scene], target=start, speed=0.1))
-    assert np.abs(arm.pose.position - start.position).max() < 2e-3
+    assert np.abs(arm.measured.pose.position - start.position).max() < 2e-3
 
 
 def workspace(scene: str, middle: Pose) -> list[Change]:

@@ -23,7 +23,7 @@ def test_the_scene_of_the_page_limits_the_arm(tmp_path: Path) -> None:
     scene.write_text(catalogue.scene("iiwa_table").read_text("utf-8") + facts, "utf-8")
     there = SimulatedCell(WorldModel(load_scene(scene, vocabulary())))
     arm = there.arm(ARM["iiwa_table"])
-    space = arm._guard._safety.limits.workspace
+    space = arm._safety.limits.workspace
     assert space is not None
     assert space.size == pytest.approx([1.2, 1.6, 1.0])
     assert space.outside(there.arms[ARM["iiwa_table"]].state().tool.position) == 0

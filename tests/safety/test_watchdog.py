@@ -8,13 +8,13 @@ import pytest
 from safety import faults
 from safety.test_faults import is_safe
 from simulation.cells import ARM, SCENES, cell
+from skillc_runtime.control.watchdog import PATIENCE_S, HeartbeatWatchdog
 from skillc_runtime.execution import task_run
 from skillc_runtime.execution.assignment import NotStarted
 from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Event
-from skillc_runtime.robots.watchdog import PATIENCE_S, Watchdog
 from tree.stage import call
 
 
@@ -32,7 +32,7 @@ def moving(scene: str) -> tuple[object, TreeRun, list[Event]]:
 def test_when_the_tree_falls_silent_everything_stops(scene: str) -> None:
     there, run, told = moving(scene)
     arm = there.arm(ARM[scene])
-    assert np.abs(arm.velocity[:3]).max() > 1e-3
+    assert np.abs(arm.measured.velocity[:3]).max() > 1e-3
     there.advance(PATIENCE_S + 0.1)
     assert run.status is Status.RUNNING
     assert arm.fault == "the tree is not ticked any more"
@@ -56,7 +56,7 @@ def test_a_paused_run_gives_signs_of_life_and_one_that_has_ended_needs_none() ->
 
 
 def test_each_who_falls_silent_is_told_once() -> None:
-    dog = Watchdog(patience_s=1.0)
+    dog = HeartbeatWatchdog(patience_s=1.0)
     assert dog.beat("a", 0.0)
     assert dog.beat("b", 0.5)
     assert not dog.expired(1.0)

@@ -80,8 +80,8 @@ def run(
 def at_rest(cell: SimulatedCell) -> bool:
     """Whether no arm moves or is asked to push, and each is stiff along every axis."""
     drivers = [cell.arm(arm.individual) for arm in cell.facts.arms]
-    stiff = all(bool((one.commanded_stiffness > 0).all()) for one in drivers)
-    pushing = any(bool((abs(one.commanded_wrench) > 0.1).any()) for one in drivers)
+    stiff = all(bool((one.compliance.commanded_stiffness > 0).all()) for one in drivers)
+    pushing = any(bool((abs(one.compliance.commanded_wrench) > 0.1).any()) for one in drivers)
     return bool(drivers) and cell.at_rest and stiff and not pushing
 
 

@@ -60,7 +60,7 @@ def test_a_sheet_is_polished_with_an_even_force_and_a_swing_across_the_lanes(see
     share = done.value("Sheet-1", "polishedShare")
     assert isinstance(share, float)
     assert share >= 0.99
-    recorded = done.cell.recording(LAB + "Polisher-1")
+    recorded = done.cell.ground_truth.recording(LAB + "Polisher-1")
     swinging = recorded.between(done.cell.now - 25.0, done.cell.now - 10.0)
     assert len(swinging.time) > 10_000
     assert swinging.force.mean() == pytest.approx(15.0, rel=0.02)
@@ -85,8 +85,8 @@ def test_a_peg_finds_its_hole_and_stands_at_its_bottom(seed: int) -> None:
 
     def watch(cell: SimulatedCell) -> None:
         arm = cell.arm(LAB + "Panda-1")
-        if arm.commanded_wrench.any():
-            sinking.append(-float(arm.velocity[2]))
+        if arm.compliance.commanded_wrench.any():
+            sinking.append(-float(arm.measured.velocity[2]))
 
     done = run("insert_peg", seed, watch=watch)
     assert done.succeeded, done.why
@@ -100,7 +100,7 @@ def test_a_peg_finds_its_hole_and_stands_at_its_bottom(seed: int) -> None:
     measured = done.value("Peg-1", "insertedDepth")
     assert isinstance(measured, float)
     assert measured == pytest.approx(0.030, abs=0.002)
-    assert done.cell.recording(LAB + "Peg-1").force.max() < 40.0
+    assert done.cell.ground_truth.recording(LAB + "Peg-1").force.max() < 40.0
     assert at_rest(done.cell)
 
 
@@ -129,7 +129,7 @@ def test_a_person_leads_the_tool_with_little_force_to_the_pose_that_is_taught(se
         force = float(np.linalg.norm(cell.data.body("lab:Robotiq-1/palm").xfrc_applied[:3]))
         if force > 0.0:
             forces.append(force)
-            path.append(cell.arm(LAB + "Iiwa-1").pose.position)
+            path.append(cell.arm(LAB + "Iiwa-1").measured.pose.position)
 
     done = run("teach_pose", seed, watch=watch)
     assert done.succeeded, done.why

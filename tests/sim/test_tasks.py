@@ -52,8 +52,12 @@ def start(name: str, seed: int) -> tuple[PreparedTask, SimulatedCell]:
 def at_rest(execution: Execution, arm: str) -> bool:
     """Whether an arm neither moves nor is asked to push, and is stiff along every axis."""
     driver = execution.cell.arm(arm)
-    pushes = abs(driver.commanded_wrench).max() > 0.1
-    return not pushes and bool((driver.commanded_stiffness[:3] > 0).all()) and abs(driver.velocity).max() < 0.02
+    pushes = abs(driver.compliance.commanded_wrench).max() > 0.1
+    return (
+        not pushes
+        and bool((driver.compliance.commanded_stiffness[:3] > 0).all())
+        and abs(driver.measured.velocity).max() < 0.02
+    )
 
 
 @pytest.mark.parametrize("seed", [0, 7])
@@ -81,7 +85,7 @@ def test_interrupted_while_wiping_it_lets_go_and_is_stiff_again(name: str) -> No
 
     def interrupted() -> bool:
         if wiping() and cell.now > choices[max(choices)].time + 1.0:
-            pushed.append(abs(cell.arm(ARMS[name]).commanded_wrench).max() > 1.0)
+            pushed.append(abs(cell.arm(ARMS[name]).compliance.commanded_wrench).max() > 1.0)
             return True
         return False
 
@@ -112,7 +116,7 @@ def test_the_same_seed_gives_the_same_run() -> None:
     for _ in range(2):
         prepared, cell = start("clean_table", 3)
         execute_task(prepared, library(), cell, interrupted=lambda now=cell: now.now > 8.0)  # type: ignore[misc]
-        recordings.append(cell.recording("http://example.org/lab#Eraser-1").rows.tobytes())
+        recordings.append(cell.ground_truth.recording("http://example.org/lab#Eraser-1").rows.tobytes())
     assert recordings[0] == recordings[1]
     assert recordings[0]
 

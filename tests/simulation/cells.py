@@ -88,7 +88,7 @@ def grasp(cell: SimulatedCell, scene: str) -> None:
 
 def lift(cell: SimulatedCell, scene: str) -> None:
     """Go straight up by 10 cm."""
-    target = cell.arm(ARM[scene]).anchor
+    target = cell.arm(ARM[scene]).motion.stopping_pose()
     raised = Pose(target.position + np.array([0.0, 0.0, 0.1]), target.rotation)
     run(cell, MoveLinear(cell, arm=ARM[scene], target=raised, speed=0.2))
 

@@ -14,7 +14,7 @@ def test_it_is_renewed_and_cannot_be_written(scene: str) -> None:
     arm = there.arms[ARM[scene]]
     state = arm.state()
     before = state.q.copy()
-    there.arm(ARM[scene]).move_joints(before + 0.1, 1.0)
+    there.arm(ARM[scene]).motion.move_joints(before + 0.1, 1.0)
     there.advance(0.5)
     assert arm.state() is state
     assert np.abs(state.q - before).max() > 0.01

@@ -99,10 +99,10 @@ def test_a_goal_given_while_the_base_moves_makes_it_brake_first(seconds: float, 
 
 def test_the_arm_rides_along_in_its_posture() -> None:
     there = cell("ur5e_whiteboard")
-    arm, before = there.arm(ARM["ur5e_whiteboard"]), there.arm(ARM["ur5e_whiteboard"]).q
+    arm, before = there.arm(ARM["ur5e_whiteboard"]), there.arm(ARM["ur5e_whiteboard"]).measured.q
     run(there, DriveBase(there, robot=HERON, to=LAB + "Store"))
     store = pose(there.world.snapshot(), LAB + "Store")
     np.testing.assert_allclose(there.base(HERON).pose.position, store.position, atol=1e-3)
-    np.testing.assert_allclose(arm.q, before, atol=1e-3)
-    relative = there.base(HERON).pose.inverse() @ arm.pose
+    np.testing.assert_allclose(arm.measured.q, before, atol=1e-3)
+    relative = there.base(HERON).pose.inverse() @ arm.measured.pose
     assert np.linalg.norm(relative.position[:2]) < 1.0

@@ -50,7 +50,7 @@ def test_everything_is_where_it_belongs(scene: str) -> None:
         top = built.data.body(names[piece.individual])
         np.testing.assert_allclose(top.xpos, pose(state, piece.individual).position, atol=1e-9)
     surface = built.facts.surfaces[0]
-    true, body = built.true_pose(surface), built.data.body(names[surface.individual])
+    true, body = built.ground_truth.surface_pose(surface.individual), built.data.body(names[surface.individual])
     np.testing.assert_allclose(body.xpos, true.position, atol=1e-9)
     np.testing.assert_allclose(body.xmat.reshape(3, 3), true.rotation, atol=1e-9)
     friction = built.model.geom(f"{names[surface.individual]}/box").friction[0]
@@ -60,9 +60,9 @@ def test_everything_is_where_it_belongs(scene: str) -> None:
 @pytest.mark.parametrize("scene", SCENES)
 def test_the_arm_holds_its_posture_and_the_eraser_lies_still(scene: str) -> None:
     built = cell(scene)
-    before = built.arm(ARM[scene]).q
+    before = built.arm(ARM[scene]).measured.q
     built.advance(0.5)
-    np.testing.assert_allclose(built.arm(ARM[scene]).q, before, atol=1e-4)
+    np.testing.assert_allclose(built.arm(ARM[scene]).measured.q, before, atol=1e-4)
     block = built.data.body(built.facts.names[ERASER] + "/block")
     np.testing.assert_allclose(block.xpos, pose(world(scene), ERASER).position, atol=2e-3)
 
@@ -75,7 +75,7 @@ def test_the_felt_yields_as_its_data_sheet_says() -> None:
     assert abs(joint.stiffness[0] / tool.sheet.number("padStiffness") - 1) <= tool.stiffness_range
     weight = 9.81 * built.facts.tools[0].mass_kg
     built.advance(1.0)
-    assert built.recording(ERASER).force.size == 0, "nothing is recorded of a tool that nobody holds"
+    assert built.ground_truth.recording(ERASER).force.size == 0, "nothing is recorded of a tool that nobody holds"
     touch = built.data.sensor(built.facts.names[ERASER] + "/face/touch").data[0]
     assert touch == pytest.approx(weight, rel=0.01)
 
@@ -124,7 +124,7 @@ def test_a_plain_surface_with_nothing_but_its_friction_is_simulated(tmp_path: Pa
     built = SimulatedCell(WorldModel(load_scene(scene, vocabulary())), seed=3)
     (surface,) = built.facts.surfaces
     assert (surface.friction, surface.offset_range_m, surface.tilt_range_rad) == ((0.6, 0.6), 0.0, 0.0)
-    np.testing.assert_allclose(built.true_pose(surface).position, surface.pose.position)
+    np.testing.assert_allclose(built.ground_truth.surface_pose(surface.individual).position, surface.pose.position)
 
 
 @pytest.mark.parametrize(("given", "missing"), [(FRICTION_LOW, FRICTION_HIGH), (FRICTION_HIGH, FRICTION_LOW)])
@@ -176,7 +176,7 @@ def test_arms_start_and_pads_yield_within_the_ranges_of_the_facts(scene: str) ->
     assert (off.max(axis=0) > 0.9 * arm.posture_range_rad).all() and off.max() <= arm.posture_range_rad
     assert stiffer.min() < -0.9 * tool.stiffness_range and 0.9 * tool.stiffness_range < stiffer.max()
     assert np.abs(stiffer).max() <= tool.stiffness_range
-    np.testing.assert_array_equal(cell(scene, 5).arm(arm.individual).q, draw(facts, 5).start(arm))
+    np.testing.assert_array_equal(cell(scene, 5).arm(arm.individual).measured.q, draw(facts, 5).start(arm))
 
 
 @pytest.mark.parametrize("scene", SCENES)

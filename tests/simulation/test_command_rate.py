@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from cells import ARM, world
 
-from skillc_runtime.robots.arm import JointPosition, Torque
+from skillc_runtime.devices.arm import JointPosition, Torque
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.model import WorldModel
 
@@ -15,7 +15,7 @@ SCENE = "ur5e_whiteboard"
 def test_servo_targets_are_interpolated_over_the_control_period(steps: int) -> None:
     there = SimulatedCell(WorldModel(world(SCENE)), steps_per_command=steps)
     driver = there.arm(ARM[SCENE])
-    driver.move_joints(driver.q + 0.2, 0.5)
+    driver.motion.move_joints(driver.measured.q + 0.2, 0.5)
     there.advance(0.2)
     targets = []
     for _ in range(12 * steps):

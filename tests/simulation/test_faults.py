@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from cells import ARM, SCENES, cell
 
-from skillc_runtime.controllers.controller import ControlError
+from skillc_runtime.control.controller import ControlError
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.changes import SetProperty
 from skillc_runtime.world.model import ChangeEvent, WorldModel
@@ -46,19 +46,19 @@ def test_an_arm_that_reports_no_numbers_is_broken_once(scene: str) -> None:
 @pytest.mark.parametrize("scene", SCENES)
 def test_after_bad_numbers_a_yielding_arm_can_still_be_made_stiff(scene: str) -> None:
     there = cell(scene)
-    arm, link = there.arm(ARM[scene]), there.arms[ARM[scene]]._link_position
-    arm.release(arm.pose.rotation[:, 2])
+    arm, link = there.arm(ARM[scene]), there.arms[ARM[scene]]._sensing.link.position
+    arm.compliance.release(arm.measured.pose.rotation[:, 2])
     there.advance(0.1)
-    before = arm.pose.position
+    before = arm.measured.pose.position
     link[:] = np.nan
     with pytest.raises(ControlError, match="not a number"):
         there.advance(0.001)
-    arm.push_off()
-    arm.restore()
+    arm.compliance.push_off()
+    arm.compliance.restore()
     mujoco.mj_forward(there.model, there.data)
     there.advance(0.5)
-    assert np.abs(arm.pose.position - before).max() < 1e-3
-    assert arm.commanded_stiffness.all()
+    assert np.abs(arm.measured.pose.position - before).max() < 1e-3
+    assert arm.compliance.commanded_stiffness.all()
 
 
 def test_a_blocked_arm_is_broken_and_a_new_cell_starts_afresh() -> None:
@@ -67,7 +67,7 @@ def test_a_blocked_arm_is_broken_and_a_new_cell_starts_afresh() -> None:
     found, arm = faults(there), there.arm(ARM[scene])
     there.model.actuator_gainprm[:] = 0.0
     there.model.actuator_biasprm[:] = 0.0
-    arm.move_joints(arm.q + 1.0, 1.0)
+    arm.motion.move_joints(arm.measured.q + 1.0, 1.0)
     there.advance(1.5)
     assert device_state(there, scene) == "Fault"
     assert len(found) == 1

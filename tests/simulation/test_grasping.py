@@ -19,11 +19,11 @@ from cells import (
     run,
 )
 
+from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.grasp import Release
 from skillc_runtime.primitives.gripper import ParallelGripper
 from skillc_runtime.primitives.primitive import SkillFailure, Status
-from skillc_runtime.robots.driver import ArmDriver
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.changes import AddRelation, ClearProperty
 from skillc_runtime.world.frames import WORLD_FRAME, FrameError, placed, pose
@@ -105,12 +105,12 @@ def test_fingers_that_cannot_open_do_not_let_go() -> None:
     assert hand.holding == ERASER
 
 
-def mean_force(there: SimulatedCell, arm: ArmDriver) -> Array:
+def mean_force(there: SimulatedCell, arm: CompliantArmDriver) -> Array:
     """Return what the arm feels, in N, the noise of its sensors evened out."""
     felt = []
     for _ in range(100):
         there.advance(0.001)
-        felt.append(arm.wrench[:3])
+        felt.append(arm.measured.wrench[:3])
     return np.asarray(np.mean(felt, axis=0))
 
 
@@ -123,8 +123,8 @@ def test_the_tool_centre_point_becomes_the_felt_and_the_weight_is_known(scene: s
     there.advance(0.5)
     arm = there.arm(ARM[scene])
     felt = there.data.site(there.facts.names[ERASER] + "/face")
-    np.testing.assert_allclose(arm.pose.position, felt.xpos, atol=0.002)
-    np.testing.assert_allclose(arm.pose.rotation, felt.xmat.reshape(3, 3), atol=0.01)
+    np.testing.assert_allclose(arm.measured.pose.position, felt.xpos, atol=0.002)
+    np.testing.assert_allclose(arm.measured.pose.rotation, felt.xmat.reshape(3, 3), atol=0.01)
     assert np.linalg.norm(mean_force(there, arm)) < 0.3, "the weight of hand and eraser must not look like a contact"
 
 
@@ -195,7 +195,7 @@ def test_the_same_seed_gives_the_same_recording() -> None:
         reach_for_eraser(there, "iiwa_table")
         grasp(there, "iiwa_table")
         lift(there, "iiwa_table")
-        rows = there.recording(ERASER).rows
+        rows = there.ground_truth.recording(ERASER).rows
         assert len(rows) > 500
         return rows.tobytes()
 

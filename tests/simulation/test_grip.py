@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from cells import ARM, ERASER, GRIPPER, HANDS, at_the_eraser, eraser_height, grasp, lift, reach_for_eraser
 
+from skillc_runtime.primitives.fact_monitor import FactMonitor
 from skillc_runtime.primitives.primitive import SkillFailure
-from skillc_runtime.robots.contradictions import DeviceWatch
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.changes import AddRelation, SetProperty
 from skillc_runtime.world.frames import pose
@@ -45,9 +45,9 @@ def test_a_thing_too_heavy_for_the_grip_slips_and_the_motion_fails(scene: str) -
     there.advance(1.0)
     assert there.gripper(GRIPPER[scene]).holding is None
     assert eraser_height(there) == pytest.approx(before, abs=0.01), "it lies where it lay"
-    told = DeviceWatch(there).contradiction()
+    told = FactMonitor(there).withdraw_contradicted()
     assert told is not None and "reports that it holds nothing, but the world model said" in told
-    assert DeviceWatch(there).contradiction() is None, "it was withdrawn"
+    assert FactMonitor(there).withdraw_contradicted() is None, "it was withdrawn"
     after = there.world.snapshot()
     assert not after.holds(GRIPPER[scene], CONTAIN, ERASER)
     assert np.linalg.norm(pose(after, ERASER).position[2] - before) < 0.06, "where it was lost, as far as is known"

@@ -10,8 +10,8 @@ import pytest
 from cells import vocabulary
 
 from skillc_ontology import catalogue
+from skillc_runtime.control.kinematics import JOINT_RAMP_S
 from skillc_runtime.motion.joint import joint_motion
-from skillc_runtime.robots.reach import JOINT_RAMP_S
 from skillc_runtime.world.scene import load_scene
 from skillc_runtime.world.sheet import Sheet
 from skillc_runtime.world.state import WorldState

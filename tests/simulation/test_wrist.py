@@ -34,31 +34,33 @@ def loaded(force_n: tuple[float, float, float]) -> tuple[SimulatedCell, np.ndarr
 def test_a_force_on_the_hand_is_reported_at_the_tool_centre_point(force_n: tuple[float, float, float]) -> None:
     there, point = loaded(force_n)
     arm = there.arm(ARM[SCENE])
-    np.testing.assert_allclose(arm.wrench[:3], force_n, atol=1e-2)
-    np.testing.assert_allclose(arm.wrench[3:], np.cross(point - arm.pose.position, force_n), atol=1e-2)
+    np.testing.assert_allclose(arm.measured.wrench[:3], force_n, atol=1e-2)
+    np.testing.assert_allclose(
+        arm.measured.wrench[3:], np.cross(point - arm.measured.pose.position, force_n), atol=1e-2
+    )
 
 
 def test_a_hanging_mass_that_nobody_announced_pulls_down_and_an_announced_one_does_not() -> None:
     there, _ = loaded((0.0, 0.0, -9.81 * 2.0))
     simulated, driver = there.arms[ARM[SCENE]], there.arm(ARM[SCENE])
-    assert driver.wrench[2] == pytest.approx(-19.62, abs=0.01)
+    assert driver.measured.wrench[2] == pytest.approx(-19.62, abs=0.01)
     name = there.facts.names[GRIPPER[SCENE]]
     palm = there.model.body(f"{name}/palm")
     in_link = Pose.of(there.model.body(f"{name}/palm").pos, there.model.body(f"{name}/palm").quat).at(palm.ipos)
     simulated.carry(Payload(2.0, in_link), Pose(np.zeros(3), np.eye(3)))
     there.advance(0.3)
-    np.testing.assert_allclose(driver.wrench, 0.0, atol=0.02)
+    np.testing.assert_allclose(driver.measured.wrench, 0.0, atol=0.02)
 
 
 def test_shaking_the_empty_hand_feels_like_nothing() -> None:
     there = silent()
     driver = there.arm(ARM[SCENE])
     there.advance(0.2)
-    goal = driver.q + np.array([0.3, 0.2, -0.3, 0.2, 0.3, 0.4])
-    driver.move_joints(goal, 0.5)
+    goal = driver.measured.q + np.array([0.3, 0.2, -0.3, 0.2, 0.3, 0.4])
+    driver.motion.move_joints(goal, 0.5)
     felt = []
-    while not driver.done:
+    while not driver.motion.done:
         there.advance(0.005)
-        felt.append(np.linalg.norm(driver.wrench[:3]))
+        felt.append(np.linalg.norm(driver.measured.wrench[:3]))
     assert len(felt) > 20
     assert max(felt) < 2.0

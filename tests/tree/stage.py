@@ -33,8 +33,8 @@ from skillc_compiler.library.vocabulary import (
     PropertyTerm,
     Vocabulary,
 )
+from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.robots.watchdog import Watchdog
 from skillc_runtime.world.changes import AddIndividual, SetProperty
 from skillc_runtime.world.model import WorldModel
 from skillc_runtime.world.state import WorldState
@@ -69,7 +69,7 @@ class Stage:
     now: float = 0.0
     log: list[tuple[float, str, str]] = field(default_factory=list)
     starts: dict[str, int] = field(default_factory=dict)
-    watchdog: Watchdog = field(default_factory=Watchdog)
+    watchdog: HeartbeatWatchdog = field(default_factory=HeartbeatWatchdog)
 
     def next_script(self, name: str) -> Script:
         """Return what the next run under this name does; the scripts repeat, without any it succeeds at once."""

@@ -7,6 +7,7 @@ from difflib import get_close_matches
 
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_runtime.commands._diagnostics import with_shown_path
+from skillc_runtime.control.gains import UnknownController, read_gains
 from skillc_runtime.world.individuals import iri_of
 from skillc_runtime.world.scene import Scene
 from skillc_runtime.world.sheet import Sheet, SheetError
@@ -45,15 +46,13 @@ def _misspelt_home(scene: Scene, path: str, sheet: Sheet, message: str) -> Diagn
 
 def _lacking(state: WorldState, arm: str, sheet: Sheet) -> str | None:
     """Return what a sheet lacks for an arm; what keeps its controller from being known is told elsewhere."""
-    # The controllers bring the simulator with them, which takes long to import.
+    # The simulator takes long to import.
     import mujoco
-
-    from skillc_runtime.controllers.gains import UnknownController, gains
 
     controller = state.value(arm, COMPLIANT_CONTROLLER)
     try:
         if controller is not None:
-            gains(str(controller), sheet.number)
+            read_gains(str(controller), sheet.number)
         joints, home = len(mujoco.MjSpec.from_file(str(sheet.model)).joints), sheet.posture(HOME).size
     except UnknownController:
         return None

@@ -11,6 +11,7 @@ from skillc_compiler.turtle.statements import Statement
 from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean
 from skillc_dsl.source import Span
 from skillc_runtime.commands._diagnostics import with_shown_path
+from skillc_runtime.control.gains import CONTROLLERS
 from skillc_runtime.world.scene import Scene
 from skillc_runtime.world.terms import COMPLIANT_CONTROLLER
 
@@ -18,12 +19,7 @@ from skillc_runtime.world.terms import COMPLIANT_CONTROLLER
 def unknown_controllers(scene: Scene, path: str) -> Iterator[Diagnostic]:
     """Yield the places in the scene file at `path` where an arm names a controller that there is not."""
     named = [each for each in scene.said if each.predicate == COMPLIANT_CONTROLLER and each.lines.path == path]
-    if not named:
-        return
-    # The controllers bring the simulator with them, which takes long to import.
-    from skillc_runtime.controllers.gains import known_controllers
-
-    known = known_controllers()
+    known = tuple(CONTROLLERS)
     for each in named:
         name = _text(each)
         if name not in known:

@@ -11,7 +11,7 @@ from skillc_runtime.motion import piece
 from skillc_runtime.motion.pose import Array, Pose, log
 from skillc_runtime.motion.profile import Profile, trapezoid
 from skillc_runtime.motion.segments import MotionLimits
-from skillc_runtime.motion.smooth import Smooth, smoothed
+from skillc_runtime.motion.smooth import SmoothProfile, smooth_profile
 
 STRAIGHT = 1e-6
 """Sine below which three points count as lying on a line."""
@@ -25,8 +25,8 @@ class Arc:
     axis (3,): unit vector of the turn, or zero.
     """
 
-    way: Profile | Smooth
-    turn: Profile | Smooth
+    way: Profile | SmoothProfile
+    turn: Profile | SmoothProfile
     spoke: Array
     across: Array
     axis: Array
@@ -110,7 +110,7 @@ def arc_around(start: Pose, centre: Array, normal: Array, angle: float, end: Pos
     turn = trapezoid(turned, limits.turn_speed, limits.turn_acceleration)
     duration, window = max(way.duration, turn.duration), limits.window
     axis = rotation / turned if turned > 1e-9 else np.zeros(3)
-    moving, turning = smoothed(way.stretched(duration), window), smoothed(turn.stretched(duration), window)
+    moving, turning = smooth_profile(way.stretched(duration), window), smooth_profile(turn.stretched(duration), window)
     return Arc(moving, turning, spoke, np.cross(normal, spoke), axis)
 
 

@@ -7,9 +7,10 @@ from math import asinh, cos, pi, sin, sqrt
 
 import numpy as np
 
+from skillc_runtime.motion.numerics.arrays import OutMatrix, Vector
+from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import Overlay
-from skillc_runtime.numerics.compiled import OutMatrix, Vector, compiled
 
 Scalars = tuple[float, float, float]
 
@@ -120,7 +121,7 @@ def _angle_at(length: float) -> float:
 
 
 @dataclass(frozen=True, slots=True)
-class Faded:
+class FadedOverlay:
     """An overlay that grows from nothing in the `fade` s after `start` and shrinks to nothing in those after `end`."""
 
     overlay: Overlay
@@ -128,7 +129,7 @@ class Faded:
     fade: float
     end: float | None = None
 
-    def ended(self, time: float) -> Faded:
+    def ended(self, time: float) -> FadedOverlay:
         """Return this overlay with its end at `time`; an end that is set already stays."""
         return self if self.end is not None else replace(self, end=time)
 

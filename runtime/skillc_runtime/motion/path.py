@@ -15,12 +15,13 @@ from math import sqrt
 import numpy as np
 
 from skillc_runtime.motion.arc import Arc
+from skillc_runtime.motion.numerics.arrays import Matrix, OutMatrix
+from skillc_runtime.motion.numerics.compiled import compiled, part
+from skillc_runtime.motion.numerics.linear import cross, product, rotation_by, times
 from skillc_runtime.motion.piece import COLUMNS, motion_at
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Reference, at_rest
 from skillc_runtime.motion.segments import MotionLimits, Segment, segment
-from skillc_runtime.numerics.compiled import Matrix, OutMatrix, compiled, part
-from skillc_runtime.numerics.linear import cross, product, rotation_by, times
 
 START, END = COLUMNS, COLUMNS + 1
 """When a piece starts and ends; the columns after those of the piece itself."""
@@ -115,7 +116,7 @@ def _started_last(table: Array, time: float) -> int:
 
 @compiled
 def path_at(rows: OutMatrix, table: Matrix, time: float) -> None:
-    """Compute the rows of the reference at `time` s from the `table` of a path."""
+    """Compute the rows (8, 3) of the reference at `time` s from the table of a path, a row a piece, see `Path`."""
     position, rotation = rows[0], rows[1:4]
     last, motion = _started_last(table, time), np.empty((3, 6))
     motion_at(motion, table[last, :COLUMNS], time - table[last, START])

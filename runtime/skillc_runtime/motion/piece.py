@@ -6,9 +6,10 @@ from math import cos, sin, sqrt
 
 import numpy as np
 
+from skillc_runtime.motion.numerics.arrays import OutMatrix, Vector
+from skillc_runtime.motion.numerics.compiled import compiled, part
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.smooth import smooth_at
-from skillc_runtime.numerics.compiled import OutMatrix, Vector, compiled, part
 
 WAY, TURN = 0, 6
 """Columns of the two profiles: length, peak, acceleration, deceleration, rate, window each."""

@@ -13,7 +13,7 @@ import numpy as np
 from skillc_runtime.motion.lanes import Direction, side
 from skillc_runtime.motion.lanes import lanes as lane_pattern
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.motion.strokes import over
+from skillc_runtime.motion.strokes import strokes_over
 from skillc_runtime.world.areas import direction, layout
 from skillc_runtime.world.frames import normal, pose, size
 
@@ -79,7 +79,7 @@ def strokes(state: WorldState, surface: str, tool: str, overlap: float) -> list[
     Between two pieces the tool must be lifted. ValueError where the tool fits nowhere.
     """
     frame, along = pose(state, surface), direction(state, surface)
-    found = over(layout(state, surface), size(state, tool)[:2], overlap, Pose(np.zeros(3), np.eye(3)), along)
+    found = strokes_over(layout(state, surface), size(state, tool)[:2], overlap, Pose(np.zeros(3), np.eye(3)), along)
     if not found:
         short = state.vocabulary.short
         raise ValueError(f"{short(tool)} fits nowhere on {short(surface)} beside the holes that it has")

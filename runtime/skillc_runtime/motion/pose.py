@@ -8,6 +8,8 @@ from math import atan2, sin, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from skillc_runtime.motion.numerics.arrays import Matrix, Vector
+
 Array = NDArray[np.float64]
 
 
@@ -15,8 +17,8 @@ Array = NDArray[np.float64]
 class Pose:
     """A frame in a parent frame: `position` (3,) in m, `rotation` (3, 3), its columns are the axes in the parent."""
 
-    position: Array
-    rotation: Array
+    position: Vector
+    rotation: Matrix
 
     def __matmul__(self, other: Pose) -> Pose:
         """Return `other`, given in this frame, in this frame's parent."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from math import sqrt
 
-from skillc_runtime.numerics.compiled import compiled
+from skillc_runtime.motion.numerics.compiled import compiled
 
 
 @dataclass(frozen=True, slots=True)

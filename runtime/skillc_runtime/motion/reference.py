@@ -7,6 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
+from skillc_runtime.motion.numerics.arrays import Matrix, Vector
 from skillc_runtime.motion.pose import Array, Pose
 
 POSITION, ROTATION, TWIST, ACCELERATION = slice(0, 1), slice(1, 4), slice(4, 6), slice(6, 8)
@@ -21,7 +22,7 @@ class Reference:
     frame.
     """
 
-    rows: Array
+    rows: Matrix
 
     @staticmethod
     def of(pose: Pose, twist: Array, acceleration: Array) -> Reference:
@@ -72,11 +73,11 @@ class Compliance:
     fastest (3,): m/s along C's axes; its sign says which way the tool yields no faster, infinite lets it go.
     """
 
-    stiffness: Array
-    wrench: Array
-    frame: Array
+    stiffness: Vector
+    wrench: Vector
+    frame: Matrix
     damping_ratio: float = 1.0
-    fastest: Array = field(default_factory=lambda: ANY_SPEED)
+    fastest: Vector = field(default_factory=lambda: ANY_SPEED)
 
 
 class Trajectory(Protocol):

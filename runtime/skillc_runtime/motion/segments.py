@@ -10,7 +10,7 @@ import numpy as np
 from skillc_runtime.motion import piece
 from skillc_runtime.motion.pose import Array, Pose, log
 from skillc_runtime.motion.profile import Profile, trapezoid
-from skillc_runtime.motion.smooth import Smooth, smoothed, window_for
+from skillc_runtime.motion.smooth import SmoothProfile, smooth_profile, window_for
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,8 +40,8 @@ class Segment:
     axes (2, 6): [direction, 0] of the displacement and [0, axis] of the turn, unit vectors in the parent frame or zero.
     """
 
-    way: Profile | Smooth
-    turn: Profile | Smooth
+    way: Profile | SmoothProfile
+    turn: Profile | SmoothProfile
     axes: Array
 
     @property
@@ -92,7 +92,9 @@ def segment(start: Pose, end: Pose, limits: MotionLimits) -> Segment:
     duration = max(way.duration, turn.duration)
     axes = np.array([[*direction, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, *axis]])
     window = limits.window
-    return Segment(smoothed(way.stretched(duration), window), smoothed(turn.stretched(duration), window), axes)
+    return Segment(
+        smooth_profile(way.stretched(duration), window), smooth_profile(turn.stretched(duration), window), axes
+    )
 
 
 def _unit(vector: Array) -> tuple[Array, float]:

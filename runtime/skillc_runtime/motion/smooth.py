@@ -8,12 +8,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import isinf
 
+from skillc_runtime.motion.numerics.compiled import compiled, part
 from skillc_runtime.motion.profile import Profile, trapezoid_at
-from skillc_runtime.numerics.compiled import compiled, part
 
 
 @dataclass(frozen=True, slots=True)
-class Smooth:
+class SmoothProfile:
     """A profile averaged over a window in s, by which it lasts longer; speed and acceleration do not grow.
 
     Rise and fall are half of the time each where it does not cruise.
@@ -75,7 +75,7 @@ def _area(speed: float, rise: float, fall: float, length: float, end: float, tim
 def smooth_at(
     length: float, peak: float, acceleration: float, deceleration: float, rate: float, window: float, time: float
 ) -> tuple[float, float, float]:
-    """Return place, speed and acceleration of a `Smooth`; a window of 0 s leaves the plain profile."""
+    """Return place, speed and acceleration of a `SmoothProfile`; a window of 0 s leaves the plain profile."""
     now = trapezoid_at(length, peak, acceleration, deceleration, rate, time)
     if window == 0.0 or length <= 0.0:
         return now
@@ -88,9 +88,9 @@ def smooth_at(
     return way / window, (now[0] - before[0]) / window, (now[1] - before[1]) / window
 
 
-def smoothed(profile: Profile, window: float) -> Profile | Smooth:
+def smooth_profile(profile: Profile, window: float) -> Profile | SmoothProfile:
     """Return the profile averaged over `window` s >= 0."""
-    return Smooth(profile, window) if window > 0 and profile.length > 0 else profile
+    return SmoothProfile(profile, window) if window > 0 and profile.length > 0 else profile
 
 
 def window_for(acceleration: float, jerk: float) -> float:

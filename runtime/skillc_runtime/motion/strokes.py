@@ -31,8 +31,8 @@ def strokes(
 ) -> list[Stroke]:
     """Return lanes, as `lanes` has them, that touch no hole nor the half of its margin; in the surface frame.
 
-    One stroke goes on from lane to lane as long as the way there touches no hole, each time to the nearest that is
-    left. ValueError as for `lanes`.
+    surface (2,), tool (2,): sizes in m. One stroke goes on from lane to lane as long as the way there touches no hole,
+    each time to the nearest that is left. ValueError as for `lanes`.
     """
     ends = lanes(surface, tool, overlap, OVERHANG_M, direction)
     kept = [hole.grown(hole.margin / 2) for hole in holes]
@@ -44,8 +44,13 @@ def strokes(
     return _joined(pieces + beside, tool, kept) if pieces or beside else []
 
 
-def over(layout: Layout, tool: Array, overlap: float, start: Pose, direction: Direction = "longer") -> list[Stroke]:
-    """Return the strokes over all parts of a surface, in its frame, each time those of the part that begins nearest."""
+def strokes_over(
+    layout: Layout, tool: Array, overlap: float, start: Pose, direction: Direction = "longer"
+) -> list[Stroke]:
+    """Return the strokes over all parts of a surface, in its frame, each time those of the part that begins nearest.
+
+    tool (2,): size in m; overlap: share of its width; start: in the surface frame.
+    """
     left = [
         [
             [part.pose @ pose for pose in stroke]

@@ -12,7 +12,7 @@ from skillc_runtime.primitives.place_description import describe_place
 from skillc_runtime.primitives.primitive import SkillFailure
 
 if TYPE_CHECKING:
-    from skillc_runtime.robots.cell import Cell
+    from skillc_runtime.devices.cell import Cell
 
 
 class MoveArc(ArmMotion):
@@ -24,11 +24,11 @@ class MoveArc(ArmMotion):
 
     def start_motion(self) -> None:
         """Start the arc from the stopping pose; SkillFailure if the positions define no circle."""
-        start, limits = self.arm.anchor, self.limits(self._speed)
+        start, limits = self.arm.motion.stopping_pose(), self.limits(self._speed)
         try:
             piece = arc_through(start, self._via.position, self._target, limits)
         except ValueError as why:
             state = self.cell.world.snapshot()
             places = (describe_place(state, pose.position) for pose in (start, self._via, self._target))
             raise SkillFailure("{}: start at {}; via at {}; target at {}".format(why, *places)) from why
-        self.arm.move_along(joined([start, self._target], [piece], limits))
+        self.arm.motion.move_along(joined([start, self._target], [piece], limits))

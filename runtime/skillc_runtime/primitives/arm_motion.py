@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from skillc_runtime.devices.arm_driver import Infeasible
 from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.primitives.place_description import describe_place
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.robots.feasible import Infeasible
 from skillc_runtime.world.labelled import Quantity
 
 if TYPE_CHECKING:
-    from skillc_runtime.robots.cell import Cell
-    from skillc_runtime.robots.driver import ArmDriver
+    from skillc_runtime.devices.arm_driver import ArmDriver
+    from skillc_runtime.devices.cell import Cell
 
 MAX_SETTLING_S = 1.5
 """How long after the end of its reference an arm may take to come to rest."""
@@ -41,47 +41,47 @@ class ArmMotion(Primitive):
     def tick(self) -> Status:
         """Return SUCCESS when the arm has arrived."""
         raise_fault(self.arm)
-        if not self.arm.done:
+        if not self.arm.motion.done:
             return Status.RUNNING
-        behind = self.arm.behind
-        if behind is None:
+        error = self.arm.motion.tracking_error_message
+        if error is None:
             return Status.SUCCESS
         self._ended = self.cell.now if self._ended is None else self._ended
         if self.cell.now - self._ended > MAX_SETTLING_S:
-            raise SkillFailure(behind)
+            raise SkillFailure(error)
         return Status.RUNNING
 
     def halt(self, reason: str) -> None:
         """Stop the arm."""
-        self.arm.stop()
+        self.arm.motion.stop()
 
     def pause(self) -> None:
         """Slow down to standstill."""
-        self.arm.pause()
+        self.arm.motion.pause()
 
     def resume(self) -> None:
         """Continue the motion."""
-        self.arm.resume()
+        self.arm.motion.resume()
 
     def limits(self, speed: float) -> MotionLimits:
         """Return the limits of a tool motion at a speed in m/s; SkillFailure if the arm allows less."""
-        if speed > self.arm.gains.speed_limit:
+        if speed > self.arm.task_limits.speed_m_s:
             raise SkillFailure(
                 "{speed} is faster than the {limit} the arm allows",
                 speed=Quantity(speed, "m/s"),
-                limit=Quantity(self.arm.gains.speed_limit, "m/s"),
+                limit=Quantity(self.arm.task_limits.speed_m_s, "m/s"),
             )
-        return MotionLimits(speed, self.arm.gains.acceleration_limit, jerk=self.arm.gains.jerk_limit)
+        return MotionLimits(speed, self.arm.task_limits.acceleration_m_s2, jerk=self.arm.task_limits.jerk_m_s3)
 
 
 def infeasible_motion(cell: Cell, arm: ArmDriver, why: Infeasible) -> SkillFailure:
     """Return the failure of a motion that the arm cannot follow, with the place in the world frame."""
-    place = describe_place(cell.world.snapshot(), arm.in_world(why.place))
+    place = describe_place(cell.world.snapshot(), arm.measured.in_world(why.place))
     return SkillFailure(f"the motion does not fit the arm: {why.problem}, at {place}")
 
 
 def raise_fault(arm: ArmDriver) -> None:
     """Raise SkillFailure if the driver stopped because of a fault; each fault is reported once."""
-    fault, arm.fault = arm.fault, None
+    fault = arm.take_fault()
     if fault is not None:
         raise SkillFailure(fault)

@@ -11,7 +11,7 @@ from skillc_runtime.world.labelled import Quantity, label
 from skillc_runtime.world.terms import IS_ON, PRESSED_WITH
 
 if TYPE_CHECKING:
-    from skillc_runtime.robots.cell import Cell
+    from skillc_runtime.devices.cell import Cell
 
 PRESS_HOLD_S = 0.2
 """How long a button is held after it has switched; the force is the mean over this time."""
@@ -39,7 +39,7 @@ class AwaitSwitch(Primitive):
         raise_fault(self.arm)
         if self._switched_at is None and self._switch.switched:
             self._switched_at, self._forces = self.cell.now, []
-        self._forces.append(-float(self.arm.wrench[:3] @ self.arm.pose.rotation[:, 2]))
+        self._forces.append(-float(self.arm.measured.wrench[:3] @ self.arm.measured.pose.rotation[:, 2]))
         if self._switched_at is not None and self.cell.now - self._switched_at >= PRESS_HOLD_S:
             self._note()
             return Status.SUCCESS

@@ -18,8 +18,8 @@ from skillc_runtime.world.sheet import SheetError, sheet_of
 from skillc_runtime.world.terms import HAS_GRIPPER
 
 if TYPE_CHECKING:
-    from skillc_runtime.robots.cell import Cell
-    from skillc_runtime.robots.driver import ArmDriver
+    from skillc_runtime.devices.arm_driver import ArmDriver
+    from skillc_runtime.devices.cell import Cell
     from skillc_runtime.world.state import WorldState
 
 BLEND_SHARES = (1.0, 0.5, 0.25)
@@ -36,10 +36,10 @@ def move_collision_free(cell: Cell, arm: str, goals: Iterable[Array], pace: floa
     try:
         contacts, known = _make_collision_model(cell, state, arm)
     except (SheetError, FrameError):
-        driver.move_joints(next(iter(goals)), pace)
+        driver.motion.move_joints(next(iter(goals)), pace)
         return
     try:
-        driver.follow_joints(_plan_motion(driver, contacts, known, goals, pace))
+        driver.motion.follow_joints(_plan_motion(driver, contacts, known, goals, pace))
     except NoWay as why:
         raise SkillFailure(str(why)) from why
 
@@ -60,10 +60,10 @@ def _plan_motion(
 
     If no blending is possible the arm stops at each posture of the path, which is free of collisions.
     """
-    postures = way(contacts, driver.joint_anchor, goals, known)
+    postures = way(contacts, driver.motion.stopping_joints(), goals, known)
     if len(postures) > 1:
         for blend in BLEND_SHARES:
-            motion = driver.joint_motion(postures, pace, blend)
+            motion = driver.motion.joint_motion(postures, pace, blend)
             if touch_on(contacts, motion) is None:
                 return motion
-    return driver.joint_motion(postures, pace)
+    return driver.motion.joint_motion(postures, pace)

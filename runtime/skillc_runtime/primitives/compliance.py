@@ -4,20 +4,19 @@ from __future__ import annotations
 
 from collections import deque
 from math import inf
-from typing import TYPE_CHECKING, assert_never
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from skillc_runtime.devices.arm_driver import GuardedPush, PushProgress, Travel
 from skillc_runtime.motion.pose import Array, log
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.primitives.surface_location import write_surface_pose
-from skillc_runtime.robots.contact import FALL_SHARE, Approach, Pressed, advance, go_on
 from skillc_runtime.world.labelled import Quantity
 
 if TYPE_CHECKING:
-    from skillc_runtime.robots.arm import ArmState
-    from skillc_runtime.robots.cell import Cell
+    from skillc_runtime.devices.cell import Cell
 
 APPROACH_M_S = 0.05
 """Speed of the approach to a surface whose position is uncertain."""
@@ -47,7 +46,7 @@ class ReleaseAxis(Primitive):
         """Release the axis; the tool does not move."""
         raise_fault(self.arm)
         try:
-            self.arm.release(self._along, self._stiffness)
+            self.arm.compliance.release(self._along, self._stiffness)
         except ValueError as refusal:
             raise SkillFailure(str(refusal)) from refusal
 
@@ -57,7 +56,7 @@ class ReleaseAxis(Primitive):
 
     def release(self) -> None:
         """Make the axis stiff again at the current position."""
-        self.arm.restore()
+        self.arm.compliance.restore()
 
 
 class Push(Primitive):
@@ -74,86 +73,38 @@ class Push(Primitive):
     ) -> None:
         super().__init__(cell)
         self.arm = cell.arm(arm)
-        self._along, self._force, self._travel, self._speed = along, force, travel, approach
-        self._going: Approach | Pressed = Approach(approach, travel)
-        self._axis = along
+        self._push = GuardedPush(along, force, approach, Travel(travel))
+        self._progress: PushProgress | None = None
         self._touched_at = 0.0
-        self._surface: float | None = None
 
     def start(self) -> None:
         """Begin the approach."""
         raise_fault(self.arm)
-        if not self.arm.yields_along(self._along):
+        compliance, greatest_n = self.arm.compliance, self.arm.task_limits.force_n
+        if not compliance.yields_along(self._push.along):
             raise SkillFailure(
                 "the arm must yield along the direction in which it shall push; use it within Compliance"
             )
-        if self._force > self.arm.gains.force_limit:
+        if self._push.force_n > greatest_n:
             raise SkillFailure(
                 "{force} is more than the {limit} the arm allows",
-                force=Quantity(self._force, "N"),
-                limit=Quantity(self.arm.gains.force_limit, "N"),
+                force=Quantity(self._push.force_n, "N"),
+                limit=Quantity(greatest_n, "N"),
             )
-        self._axis = self.arm.in_base(self._along)
-        self._approach()
-        self.arm.watch(self._observe)
+        self._progress = compliance.start_push(self._push)
 
     def tick(self) -> Status:
         """Return SUCCESS once the tool presses with the force."""
         raise_fault(self.arm)
-        if self._surface is None:
+        if self._progress is None or not self._progress.touched:
             return Status.RUNNING
         self._touched_at = self._touched_at or self.cell.now
         return Status.SUCCESS if self.cell.now - self._touched_at >= RAMP_S else Status.RUNNING
 
     def release(self) -> None:
         """Stop pushing."""
-        self.arm.unwatch(self._observe)
-        self.arm.push_off()
-
-    def _observe(self, state: ArmState) -> None:
-        """Look, once a control period, whether something is touched, and later whether it still is there."""
-        height = float(self._axis @ state.tool.position)
-        speed = -float(self._axis @ (state.jacobian[:3] @ state.dq))
-        if self._surface is not None and self._surface - height > self._travel:
-            self._give_up(f"contact was lost: the tool sank by {self._travel * 100:.0f} cm")
-            return
-        match self._going:
-            case Approach():
-                self._go_nearer(self._going, speed, height)
-            case Pressed():
-                self._going = go_on(self._going, speed, self.arm.period)
-                if self._going.falling:
-                    self._approach()
-            case _:
-                assert_never(self._going)
-
-    def _approach(self) -> None:
-        """Push no harder than takes the tool along at the speed of the approach."""
-        self._going = Approach(self._speed, self._travel)
-        self._press(self._speed * self.arm.gains.release_damping)
-
-    def _go_nearer(self, approach: Approach, speed: float, height: float) -> None:
-        force = float(self._axis @ self.arm.wrench_in_base[:3])
-        self._going = advance(approach, speed, force, self.arm.period)
-        match self._going.outcome:
-            case "touching":
-                self._going = Pressed(self._speed)
-                self._surface = height if self._surface is None else self._surface
-                self._press(self._force)
-            case "missing":
-                self._give_up(f"nothing to push against within {self._travel * 100:.0f} cm")
-            case "approaching":
-                pass
-            case _:
-                assert_never(self._going.outcome)
-
-    def _press(self, force_n: float) -> None:
-        """Push, and let nobody push the tool much faster than it approaches: it would hit what it meets."""
-        self.arm.push(self._along, force_n, FALL_SHARE * self._speed)
-
-    def _give_up(self, reason: str) -> None:
-        self.arm.unwatch(self._observe)
-        self.arm.abort(reason)
+        if self._progress is not None:
+            self.arm.compliance.end_push(self._progress)
 
 
 class Align(Primitive):
@@ -170,8 +121,8 @@ class Align(Primitive):
     def start(self) -> None:
         """Release the rotation of the tool."""
         raise_fault(self.arm)
-        self._began, self._from = self.cell.now, self.arm.pose.rotation
-        self.arm.release_rotation()
+        self._began, self._from = self.cell.now, self.arm.measured.pose.rotation
+        self.arm.compliance.release_rotation()
 
     def tick(self) -> Status:
         """Return SUCCESS when the tool is flush, its rotation is stiff again, and the surface's pose is written."""
@@ -181,7 +132,7 @@ class Align(Primitive):
             self._hold()
         if now < self._held_at + SETTLING_S:
             return Status.RUNNING
-        write_surface_pose(self.cell.world, self._surface, self.arm.pose)
+        write_surface_pose(self.cell.world, self._surface, self.arm.measured.pose)
         return Status.SUCCESS
 
     def halt(self, reason: str) -> None:
@@ -191,7 +142,7 @@ class Align(Primitive):
 
     def _is_flush(self, now: float) -> bool:
         """Whether the tool has come to rest on the surface: it has hardly turned for a while."""
-        self._turns.append((now, log(self.arm.pose.rotation @ self._from.T)))
+        self._turns.append((now, log(self.arm.measured.pose.rotation @ self._from.T)))
         while now - self._turns[0][0] > FLUSH_S:
             self._turns.popleft()
         if now - self._began < MIN_ALIGN_S:
@@ -202,4 +153,4 @@ class Align(Primitive):
 
     def _hold(self) -> None:
         self._held_at = self.cell.now
-        self.arm.restore_rotation()
+        self.arm.compliance.restore_rotation()

@@ -12,7 +12,7 @@ from skillc_runtime.world.terms import CONTACT_SHARE
 from skillc_runtime.world.working import least_contact, least_force_n
 
 if TYPE_CHECKING:
-    from skillc_runtime.robots.cell import Cell
+    from skillc_runtime.devices.cell import Cell
 
 
 class KeepContact(Primitive):
@@ -37,7 +37,7 @@ class KeepContact(Primitive):
     def tick(self) -> Status:
         """Measure once; SkillFailure if contact was lost for too long."""
         now = self.cell.now
-        pressed = -float(self.arm.wrench[:3] @ self.arm.pose.rotation[:, 2]) >= self._least_n
+        pressed = -float(self.arm.measured.wrench[:3] @ self.arm.measured.pose.rotation[:, 2]) >= self._least_n
         self._samples, self._contacts = self._samples + 1, self._contacts + pressed
         if not pressed:
             self._lost.append((now, now - self._before))

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from skillc_runtime.devices.cell import Cell
+from skillc_runtime.primitives.fact_monitor import base_away_from
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.robots.cell import Cell
-from skillc_runtime.robots.contradictions import away
 from skillc_runtime.world.changes import AddRelation
 from skillc_runtime.world.frames import pose
 from skillc_runtime.world.terms import AT
@@ -25,7 +25,7 @@ class DriveBase(Primitive):
         """Return SUCCESS when the base has arrived; SkillFailure if it reports another place."""
         if not self._base.done:
             return Status.RUNNING
-        elsewhere = away(self.cell, self._robot, self._to, self.cell.world.snapshot())()
+        elsewhere = base_away_from(self.cell, self._robot, self._to, self.cell.world.snapshot())()
         if elsewhere is not None:
             raise SkillFailure(elsewhere)
         self.cell.world.commit([AddRelation(self._robot, AT, self._to)], "DriveBase", "reported")

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from skillc_runtime.devices.cell import Cell
+from skillc_runtime.devices.gripper import working_face
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.robots.cell import Cell
-from skillc_runtime.robots.tools import working_face
 from skillc_runtime.world.changes import AddRelation, RemoveRelation
 from skillc_runtime.world.frames import placed, pose, size
 from skillc_runtime.world.labelled import Quantity, label
@@ -102,7 +102,7 @@ class Release(Primitive):
 
         That the hand is empty is sensed by the fingers. That the object stays where the arm brought it is assumed.
         """
-        left_at = self._arm.pose @ self._face.inverse()
+        left_at = self._arm.measured.pose @ self._face.inverse()
         self._gripper.detach()
         self._freed = True
         world = self.cell.world

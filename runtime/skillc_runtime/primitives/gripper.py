@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from skillc_runtime.devices.cell import Cell
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.robots.cell import Cell
 from skillc_runtime.world.labelled import Iri, Quantity, label
 from skillc_runtime.world.sheet import SheetError, sheet_of
 

@@ -14,7 +14,7 @@ from skillc_runtime.world.labelled import Quantity, label
 from skillc_runtime.world.terms import IS_TAUGHT
 
 if TYPE_CHECKING:
-    from skillc_runtime.robots.cell import Cell
+    from skillc_runtime.devices.cell import Cell
 
 GUIDED_DISTANCE_M = 0.005
 """A tool that moved this far was guided, not pushed by accident."""
@@ -38,16 +38,16 @@ class AwaitGuidance(Primitive):
         """Start waiting."""
         raise_fault(self.arm)
         self._began = self._moved_at = self.cell.now
-        self._from = self.arm.pose.position
+        self._from = self.arm.measured.pose.position
 
     def tick(self) -> Status:
         """Return SUCCESS when the tool was guided to a pose and stands still."""
         raise_fault(self.arm)
-        now, away = self.cell.now, float(np.linalg.norm(self.arm.pose.position - self._from))
-        if away < GUIDED_DISTANCE_M or float(np.linalg.norm(self.arm.velocity[:3])) > STANDSTILL_M_S:
+        now, away = self.cell.now, float(np.linalg.norm(self.arm.measured.pose.position - self._from))
+        if away < GUIDED_DISTANCE_M or float(np.linalg.norm(self.arm.measured.velocity[:3])) > STANDSTILL_M_S:
             self._moved_at = now
         if now - self._moved_at >= self._still:
-            taught = [*placed(self._pose, self.arm.pose), SetProperty(self._pose, IS_TAUGHT, True)]
+            taught = [*placed(self._pose, self.arm.measured.pose), SetProperty(self._pose, IS_TAUGHT, True)]
             self.cell.world.commit(taught, "AwaitGuidance", "sensed")
             return Status.SUCCESS
         if now - self._began > self._patience:

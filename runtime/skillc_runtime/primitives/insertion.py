@@ -16,7 +16,7 @@ from skillc_runtime.world.sheet import SheetError, number
 from skillc_runtime.world.terms import DEPTH, INSERTED_DEPTH, IS_SEATED
 
 if TYPE_CHECKING:
-    from skillc_runtime.robots.cell import Cell
+    from skillc_runtime.devices.cell import Cell
 
 REST_RANGE_M, REST_TIME_S = 0.0003, 0.3
 """A tool that stays within REST_RANGE_M for REST_TIME_S is at rest; its measured speed is too noisy."""
@@ -44,7 +44,7 @@ class SinkBelow(Primitive):
     def tick(self) -> Status:
         """Return SUCCESS when the tool is deep enough."""
         raise_fault(self.arm)
-        depth = float(self._along @ (self._target - self.arm.pose.position))
+        depth = float(self._along @ (self._target - self.arm.measured.pose.position))
         self._deepest = max(self._deepest, depth)
         if depth >= self._depth:
             return Status.SUCCESS
@@ -79,18 +79,18 @@ class Seat(Primitive):
             raise SkillFailure(str(error)) from error
         self._opening = pose(state, self._socket)
         self._began = self._came_at = self.cell.now
-        self._place = self.arm.pose.position
+        self._place = self.arm.measured.pose.position
 
     def tick(self) -> Status:
         """Return SUCCESS when the peg rests at the bottom; SkillFailure if it rests elsewhere or time is up."""
         raise_fault(self.arm)
-        place = self.arm.pose.position
+        place = self.arm.measured.pose.position
         if float(np.linalg.norm(place - self._place)) > REST_RANGE_M:
             self._place, self._came_at = place, self.cell.now
         resting = self.cell.now - self._came_at >= REST_TIME_S
         if not resting and self.cell.now - self._began <= self._patience:
             return Status.RUNNING
-        depth = -float(self._opening.inverse().at(self.arm.pose.position)[2])
+        depth = -float(self._opening.inverse().at(self.arm.measured.pose.position)[2])
         seated = resting and abs(depth - self._bottom) <= (1 - SEATED_SHARE) * self._bottom
         noted = [SetProperty(self._peg, INSERTED_DEPTH, depth), SetProperty(self._peg, IS_SEATED, seated)]
         self.cell.world.commit(noted, "Seat", "sensed")

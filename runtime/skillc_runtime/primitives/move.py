@@ -19,7 +19,7 @@ from skillc_runtime.world.sheet import SheetError, sheet_of
 from skillc_runtime.world.terms import HAS_POSTURE, HAS_SHEET, POSTURE_NAME
 
 if TYPE_CHECKING:
-    from skillc_runtime.robots.cell import Cell
+    from skillc_runtime.devices.cell import Cell
     from skillc_runtime.world.state import WorldState
 
 HOME = "home"
@@ -41,10 +41,10 @@ class MoveJoints(ArmMotion):
     def start_motion(self) -> None:
         """Find the posture nearest to home that puts the tool there, another where that one is not free, and go."""
         seed = _find_posture(self.cell.world.snapshot(), self._individual, HOME)
-        q = self.arm.inverse_kinematics(self._target, seed)
+        q = self.arm.motion.inverse_kinematics(self._target, seed)
         if q is None:
             x, y, z = self._target.position.tolist()
-            far = float(np.linalg.norm(self._target.position - self.arm.pose.position))
+            far = float(np.linalg.norm(self._target.position - self.arm.measured.pose.position))
             raise SkillFailure(
                 "the arm cannot reach {target:.3f} in this orientation, {far:.2f} from where its tool is",
                 target=Vector((x, y, z), "m"),
@@ -56,8 +56,8 @@ class MoveJoints(ArmMotion):
         """Yield other postures (nv,) in rad for the same pose: near the current one, then over all joint ranges."""
         draw, limits = np.random.default_rng(0), self.arm.limits.range
         low, high = np.maximum(limits[:, 0], home - np.pi), np.minimum(limits[:, 1], home + np.pi)
-        for seed in (self.arm.q, *(draw.uniform(low, high) for _ in range(RANDOM_SEEDS))):
-            q = self.arm.inverse_kinematics(self._target, seed)
+        for seed in (self.arm.measured.q, *(draw.uniform(low, high) for _ in range(RANDOM_SEEDS))):
+            q = self.arm.motion.inverse_kinematics(self._target, seed)
             if q is not None:
                 yield q
 
@@ -87,7 +87,7 @@ class MoveLinear(ArmMotion):
     def start_motion(self) -> None:
         """Start the line from the stopping pose."""
         limits = self.limits(self._speed)
-        self.arm.move_along(path([self.arm.anchor, self._target], limits))
+        self.arm.motion.move_along(path([self.arm.motion.stopping_pose(), self._target], limits))
 
 
 def _find_posture(state: WorldState, arm: str, name: str) -> Array:

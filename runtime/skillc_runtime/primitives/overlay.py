@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from skillc_runtime.devices.arm_driver import Infeasible
 from skillc_runtime.motion.overlays import Circle, Lissajous, Spiral
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import Overlay
 from skillc_runtime.primitives.arm_motion import infeasible_motion
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.robots.feasible import Infeasible
 from skillc_runtime.world.labelled import Quantity
 
 if TYPE_CHECKING:
-    from skillc_runtime.robots.cell import Cell
+    from skillc_runtime.devices.cell import Cell
 
 FADE_TIME_S = 0.5
 """Time in which an overlay fades in and out."""
@@ -39,14 +39,14 @@ class AddedMotion(Primitive):
 
     def start(self) -> None:
         """Fade in; SkillFailure if the motion is faster than the arm allows."""
-        if self._speed > self.arm.gains.speed_limit:
+        if self._speed > self.arm.task_limits.speed_m_s:
             raise SkillFailure(
                 f"{self._name} runs with {{speed:.2f}}, faster than the {{limit}} the arm allows",
                 speed=Quantity(self._speed, "m/s"),
-                limit=Quantity(self.arm.gains.speed_limit, "m/s"),
+                limit=Quantity(self.arm.task_limits.speed_m_s, "m/s"),
             )
         try:
-            self._handle = self.arm.add_overlay(self._overlay, self._axes, FADE_TIME_S)
+            self._handle = self.arm.motion.add_overlay(self._overlay, self._axes, FADE_TIME_S)
         except Infeasible as why:
             raise infeasible_motion(self.cell, self.arm, why) from why
 
@@ -56,7 +56,7 @@ class AddedMotion(Primitive):
 
     def halt(self, reason: str) -> None:
         """Fade out."""
-        self.arm.remove_overlay(self._handle)
+        self.arm.motion.remove_overlay(self._handle)
 
 
 class OverlayCircle(AddedMotion):

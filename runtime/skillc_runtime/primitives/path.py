@@ -10,7 +10,7 @@ from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.arm_motion import ArmMotion
 
 if TYPE_CHECKING:
-    from skillc_runtime.robots.cell import Cell
+    from skillc_runtime.devices.cell import Cell
 
 
 class FollowPath(ArmMotion):
@@ -25,4 +25,4 @@ class FollowPath(ArmMotion):
     def start_motion(self) -> None:
         """Start the path from the stopping pose."""
         limits = self.limits(self._speed)
-        self.arm.move_along(path_through([self.arm.anchor, *self._poses], limits, self._blend))
+        self.arm.motion.move_along(path_through([self.arm.motion.stopping_pose(), *self._poses], limits, self._blend))

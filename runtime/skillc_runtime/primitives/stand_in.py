@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from skillc_runtime.primitives.primitive import Primitive, Status
 
 if TYPE_CHECKING:
-    from skillc_runtime.robots.cell import Cell
+    from skillc_runtime.devices.cell import Cell
 
 
 class StandIn(Primitive):

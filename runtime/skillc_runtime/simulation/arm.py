@@ -8,11 +8,11 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from skillc_runtime.devices.arm import ArmLimits, ArmState, Capabilities, Command, Mode
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.robots.arm import ArmLimits, ArmState, Capabilities, Command, Mode
 from skillc_runtime.simulation import noise
 from skillc_runtime.simulation.facts import ArmFacts
-from skillc_runtime.simulation.hand import BIAS, CARRYING, SPEED, Hand, Q, load_mass, measure
+from skillc_runtime.simulation.hand import BIAS, CARRYING, SPEED, ArmSensing, Hand, Q, load_mass, measure
 from skillc_runtime.simulation.motors import Joints, Motors, ServoGains, Servos, TorqueMotors
 from skillc_runtime.simulation.names import part
 from skillc_runtime.simulation.variation import Variation
@@ -60,12 +60,8 @@ class SimulatedArm:
         self._bias = data.qfrc_bias[self._dofs]
         self._base = _root_body(model, model.jnt_bodyid[joints[0]], part(name, ""))
         self._link = int(model.site_bodyid[model.site(part(name, "flange")).id])
-        self._base_position, self._base_rotation = data.xpos[self._base], data.xmat[self._base].reshape(3, 3)
-        self._link_position, self._link_rotation = data.xpos[self._link], data.xmat[self._link].reshape(3, 3)
         self.limits = _limits(model, joints, actuator, facts)
         self.fixed_tool = _fixed_tool(model, name, gripper)
-        self._motion_axes = data.cdof[self._dofs]
-        self._centre = data.subtree_com[model.body_rootid[self._link]]
         self._hand = Hand()
         self._joints = np.zeros((4, count))
         self._here = _blank(self._joints, self._hand.tool)
@@ -74,8 +70,7 @@ class SimulatedArm:
         self._weight, self._carrying, self._quiet = np.zeros(3), self._joints[CARRYING], np.zeros(count)
         self._flange = _in_body(model.site(part(name, "flange")))
         self._wrist = _wrist(facts, gripper, model, data, reality.seed)
-        self._gain = np.zeros((6, 9)) if self._wrist is None else self._wrist.gain
-        self._readings = np.zeros(9) if self._wrist is None else self._wrist.readings
+        self._sensing = self._make_sensing()
         self._speed_noise = noise.of_joints(facts, reality.seed)
         self._configure(NO_PAYLOAD, self.fixed_tool)
         self._q[:] = reality.start(facts)
@@ -98,17 +93,13 @@ class SimulatedArm:
     @property
     def base(self) -> Pose:
         """The arm's base in the world."""
-        return Pose(self._base_position.copy(), self._base_rotation.copy())
+        live = self._sensing.base
+        return Pose(live.position.copy(), live.rotation.copy())
 
     def state(self) -> ArmState:
         """Return the present state, in the arm's base frame."""
-        hand, here, noise = self._hand, self._here, self._speed_noise
-        measure(
-            self._joints, hand.in_base, here.jacobian, here.wrench,
-            self._q, self._dq, self._bias, self._quiet if noise is None else noise.row(),
-            hand.on_link, self._motion_axes, self._centre, self._link_position, self._link_rotation,
-            self._base_position, self._base_rotation, self._weight, self._gain, self._readings,
-        )  # fmt: skip
+        noise = self._speed_noise
+        measure(self._sensing, self._quiet if noise is None else noise.row())
         if self._data.time >= self._next_mass_time:
             self._update_mass_matrix()
         return self._state
@@ -134,6 +125,26 @@ class SimulatedArm:
         """Configure the empty gripper."""
         self._carrying[:] = 0.0
         self._configure(NO_PAYLOAD, self.fixed_tool)
+
+    def _make_sensing(self) -> ArmSensing:
+        data, hand, here, wrist = self._data, self._hand, self._here, self._wrist
+        return ArmSensing(
+            joints=self._joints,
+            in_base=hand.in_base,
+            jacobian=here.jacobian,
+            wrench=here.wrench,
+            q=self._q,
+            dq=self._dq,
+            bias=self._bias,
+            on_link=hand.on_link,
+            motion_axes=data.cdof[self._dofs],
+            centre=data.subtree_com[self._model.body_rootid[self._link]],
+            link=_live_body(data, self._link),
+            base=_live_body(data, self._base),
+            weight=self._weight,
+            gain=np.zeros((6, 9)) if wrist is None else wrist.gain,
+            readings=np.zeros(9) if wrist is None else wrist.readings,
+        )
 
     def _make_motors(self, facts: ArmFacts, actuators: slice, steps_per_command: int) -> Motors:
         data, here, timestep = self._data, self._here, self._model.opt.timestep
@@ -161,6 +172,11 @@ class SimulatedArm:
         if self.payload.mass_kg > 0.0:
             load_mass(self._here.mass_matrix, self._hand.lever, self._here.jacobian, self.payload.mass_kg)
         self._next_mass_time = self._data.time + MASS_MATRIX_PERIOD_S - 1e-9
+
+
+def _live_body(data: Any, body: int) -> Pose:
+    """Return where a body is in the world, changing with the simulation."""
+    return Pose(data.xpos[body], data.xmat[body].reshape(3, 3))
 
 
 def _blank(joints: Array, tool: Pose) -> ArmState:

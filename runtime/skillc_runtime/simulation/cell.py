@@ -7,10 +7,11 @@ from typing import Any
 
 import mujoco
 
+from skillc_runtime.control.driver import CompliantArmDriver
+from skillc_runtime.control.watchdog import HeartbeatWatchdog
+from skillc_runtime.devices.gripper import working_face
+from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.robots.driver import ArmDriver
-from skillc_runtime.robots.tools import working_face
-from skillc_runtime.robots.watchdog import Watchdog
 from skillc_runtime.simulation.arm import SimulatedArm
 from skillc_runtime.simulation.base import SimulatedBase
 from skillc_runtime.simulation.build import build
@@ -18,12 +19,12 @@ from skillc_runtime.simulation.button import SimulatedButton, buttons
 from skillc_runtime.simulation.complaints import tell_complaints
 from skillc_runtime.simulation.coverage import CoverageMap
 from skillc_runtime.simulation.drivers import driver
-from skillc_runtime.simulation.facts import SceneFacts, SurfaceFacts, read_scene
+from skillc_runtime.simulation.facts import SceneFacts, read_scene
 from skillc_runtime.simulation.gripper import SimulatedGripper
+from skillc_runtime.simulation.ground_truth import SimulatedTruth
 from skillc_runtime.simulation.inspection import SimulatedCamera
 from skillc_runtime.simulation.observer import ToolObserver
 from skillc_runtime.simulation.person import make_people
-from skillc_runtime.simulation.recorder import Recording
 from skillc_runtime.simulation.variation import Variation, draw
 from skillc_runtime.world.changes import SetProperty
 from skillc_runtime.world.frames import placed, size
@@ -64,12 +65,14 @@ class SimulatedCell:
         self._bases = {b.individual: SimulatedBase(b, names[b.individual], self.model, self.data) for b in facts.bases}
         mujoco.mj_forward(self.model, self.data)
         self._drivers = {a.individual: driver(a, self.arms[a.individual], self.period_s) for a in facts.arms}
-        self.coverage = {s.individual: CoverageMap(self.true_pose(s), s.layout, s.least_n) for s in facts.surfaces}
+        poses = {s.individual: self.variation.of(s.individual).true_pose(s.pose) for s in facts.surfaces}
+        self.coverage = {s.individual: CoverageMap(poses[s.individual], s.layout, s.least_n) for s in facts.surfaces}
         self._observers = {
             tool.individual: ToolObserver(tool, names, self.model, self.data, self.coverage) for tool in facts.tools
         }
+        self.ground_truth: GroundTruth = SimulatedTruth(self._observers, poses)
         self._camera = SimulatedCamera(self.coverage)
-        self.watchdog = Watchdog()
+        self.watchdog = HeartbeatWatchdog()
         self._buttons = buttons(facts.fixtures, self.variation.fixtures, names, self.data)
         self.people = make_people(facts, self.variation, self._drivers, self.data)
         idle = [SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(self._drivers)]
@@ -96,7 +99,7 @@ class SimulatedCell:
         """The world model."""
         return self._world
 
-    def arm(self, individual: str) -> ArmDriver:
+    def arm(self, individual: str) -> CompliantArmDriver:
         """Return an arm's driver; KeyError where the cell has no such arm."""
         return self._drivers[individual]
 
@@ -116,18 +119,6 @@ class SimulatedCell:
         """Return a button; KeyError where the cell has no such button."""
         return self._buttons[individual]
 
-    def true_pose(self, surface: SurfaceFacts) -> Pose:
-        """Return where a surface really is, in the world."""
-        return self.variation.of(surface.individual).true_pose(surface.pose)
-
-    def recording(self, tool: str) -> Recording:
-        """Return what was recorded of a tool, by IRI, while it was held; KeyError where the cell has no such tool."""
-        return self._observers[tool].recorder.recording()
-
-    def peak_force(self, tool: str) -> float:
-        """Return the greatest force in N on a tool, by IRI, while it was held; KeyError where there is no such tool."""
-        return self._observers[tool].peak_force.newton
-
     def advance(self, seconds: float) -> None:
         """Let time pass: controllers, devices and physics, step by step. ControlError when a controller gives up."""
         for _ in range(round(seconds / self._timestep)):
@@ -140,9 +131,8 @@ class SimulatedCell:
         """
         names, found = self.facts.names, []
         for individual, arm in self._drivers.items():
-            if arm.fault is not None:
-                found.append(f"{names[individual]} had stopped: {arm.fault}")
-                arm.fault = None
+            if (fault := arm.take_fault()) is not None:
+                found.append(f"{names[individual]} had stopped: {fault}")
             if arm.secure():
                 found.append(f"{names[individual]} was left yielding; it is held stiff again")
         self._stop_devices()
@@ -186,7 +176,7 @@ class SimulatedCell:
         mujoco.mj_step1(self.model, self.data)
         self._step += 1
 
-    def _control(self, individual: str, arm: ArmDriver, now: float) -> None:
+    def _control(self, individual: str, arm: CompliantArmDriver, now: float) -> None:
         """Do a control period of one arm; note, once, that it is broken."""
         worked = arm.broken is None
         try:
@@ -207,7 +197,7 @@ class SimulatedCell:
 
     def _lose(self, arm: str, gripper: SimulatedGripper, thing: str, why: str) -> None:
         """Stop an arm whose gripper cannot hold a thing any more, and note where that was."""
-        state, there = self._world.snapshot(), self._drivers[arm].pose
+        state, there = self._world.snapshot(), self._drivers[arm].measured.pose
         left_at = there @ working_face(size(state, thing)).inverse()
         gripper.lose()
         self._drivers[arm].abort(why)

@@ -6,9 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skillc_runtime.motion.layout import Layout
+from skillc_runtime.motion.numerics.arrays import Matrix, OutMatrix, Vector
+from skillc_runtime.motion.numerics.compiled import compiled
+from skillc_runtime.motion.numerics.linear import add_under, product, times
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.numerics.compiled import Matrix, OutMatrix, Vector, compiled
-from skillc_runtime.numerics.linear import add_under, product, times
 
 CELL_M = 0.005
 """Edge of a cell."""

@@ -8,8 +8,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from skillc_runtime.devices.gripper import working_face
 from skillc_runtime.motion.pose import Pose, quaternion_of
-from skillc_runtime.robots.tools import working_face
 from skillc_runtime.simulation.facts import ArmFacts, GripperFacts, ToolFacts
 from skillc_runtime.simulation.names import (
     box_geom,

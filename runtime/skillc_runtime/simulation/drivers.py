@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from math import inf
 
-from skillc_runtime.controllers.gains import LawGains, UnknownController, gains
-from skillc_runtime.controllers.virtual_arm import virtual_model
-from skillc_runtime.robots.arm import ModeRefused
-from skillc_runtime.robots.driver import ArmDriver
-from skillc_runtime.robots.safety import Box, SafetyLimits
-from skillc_runtime.robots.setup import Setup
+from skillc_runtime.control.driver import CompliantArmDriver
+from skillc_runtime.control.gains import LawGains, UnknownController, read_gains
+from skillc_runtime.control.safety import Box, SafetyLimits
+from skillc_runtime.control.setup import ArmSetup
+from skillc_runtime.control.virtual_arm import virtual_model
+from skillc_runtime.devices.arm import ModeRefused
 from skillc_runtime.simulation.arm import SimulatedArm
 from skillc_runtime.simulation.facts import ArmFacts
 from skillc_runtime.world.frames import seen_from, size
@@ -18,16 +18,17 @@ from skillc_runtime.world.sheet import SheetError, number
 from skillc_runtime.world.terms import CONTACT_FORCE_LIMIT, HAS_SENSOR, HAS_WORKSPACE, JERK_LIMIT, TOOL_SPEED_LIMIT
 
 
-def driver(facts: ArmFacts, arm: SimulatedArm, period_s: float) -> ArmDriver:
+def driver(facts: ArmFacts, arm: SimulatedArm, period_s: float) -> CompliantArmDriver:
     """Return the driver of an arm with the controller its facts name; SheetError for an unknown one, a missing gain."""
     jerk_limit = number(facts.sheet.state, facts.sheet.individual, JERK_LIMIT, inf)
     try:
-        chosen = replace(gains(facts.controller, facts.sheet.number), jerk_limit=jerk_limit)
+        chosen = read_gains(facts.controller, facts.sheet.number)
     except UnknownController as error:
         raise SheetError(f"{facts.sheet.state.vocabulary.short(facts.individual)}: {error}") from error
+    chosen = replace(chosen, limits=replace(chosen.limits, jerk_m_s3=jerk_limit))
     _engage(facts, arm, chosen.law)
     virtual, limits = virtual_model(facts.model), safety(facts)
-    return ArmDriver(Setup(arm, virtual, chosen, arm.limits, lambda: arm.base, period_s, limits))
+    return CompliantArmDriver(ArmSetup(arm, virtual, chosen, arm.limits, lambda: arm.base, period_s, limits))
 
 
 def _engage(facts: ArmFacts, arm: SimulatedArm, law: LawGains) -> None:

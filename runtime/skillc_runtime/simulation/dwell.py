@@ -8,8 +8,8 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
+from skillc_runtime.devices.ground_truth import Recording
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.simulation.recorder import Recording
 
 LINGERING = 0.5
 """Share of the lane speed below which a tool lingers."""

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
+from skillc_runtime.devices.arm import Mode
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.robots.arm import Mode
 from skillc_runtime.simulation.fixture_facts import FixtureFacts, read_fixtures
 from skillc_runtime.simulation.friction import friction
 from skillc_runtime.simulation.person_facts import PersonFacts, read_people

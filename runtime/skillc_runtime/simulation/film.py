@@ -87,7 +87,7 @@ class Film:
         self._cell, self._drawn = cell, cell.model if drawn is None else drawn
         self._frames: list[tuple[Array, Array, Array]] = []
         self._arms = {arm.individual: _watched(cell, arm) for arm in cell.facts.arms}
-        places = ((cell.true_pose(each), each) for each in cell.facts.surfaces)
+        places = ((cell.ground_truth.surface_pose(each.individual), each) for each in cell.facts.surfaces)
         present = ((pose, each) for pose, each in places if cell.variation.of(each.individual).present)
         self._props = tuple(prop for pose, each in present for prop in props(pose, each.size))
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from skillc_runtime.devices.gripper import working_face
 from skillc_runtime.motion.pose import Array, Pose, quaternion_of
-from skillc_runtime.robots.tools import working_face
 from skillc_runtime.simulation.arm import Payload, SimulatedArm
 from skillc_runtime.simulation.facts import GripperFacts, ToolFacts
 from skillc_runtime.simulation.grip import Grip, grip

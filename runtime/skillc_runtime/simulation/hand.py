@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
+from skillc_runtime.motion.numerics.arrays import Matrix, OutMatrix, OutVector, Vector
+from skillc_runtime.motion.numerics.compiled import compiled, part
+from skillc_runtime.motion.numerics.linear import cross, product, times, transposed_times
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.numerics.compiled import Matrix, OutMatrix, OutVector, Vector, compiled, part
-from skillc_runtime.numerics.linear import cross, product, times, transposed_times
 
 TOOL = 6
 """The row of the tool centre point."""
@@ -37,37 +40,6 @@ class Hand:
 
 
 @part
-def see_hand(
-    in_base: OutMatrix,
-    J: OutMatrix,
-    on_link: Matrix,
-    motion_axes: Matrix,
-    centre: Vector,
-    link_position: Vector,
-    link_rotation: Matrix,
-    base_position: Vector,
-    base_rotation: Matrix,
-) -> None:
-    """Compute, in base axes, what is on the link, and the Jacobian J (6, nv) of the tool centre point.
-
-    motion_axes (nv, 6): MuJoCo's `cdof`, [angular; linear] velocity at `centre` (3,) per joint speed, in the world.
-    With d = tool - centre and base axes a_i: a_i . (v + w x d) = a_i . v + (d x a_i) . w.
-    """
-    in_world, away, at_tool = np.empty((8, 3)), np.empty(3), np.zeros((6, 6))
-    product(on_link, link_rotation.T, in_world)
-    for i in range(3):
-        in_world[TOOL, i] += link_position[i]
-        away[i] = in_world[TOOL, i] - centre[i]
-        in_world[TOOL, i] -= base_position[i]
-        for j in range(3):
-            at_tool[i, 3 + j] = at_tool[3 + i, j] = base_rotation[j, i]
-    product(in_world, base_rotation, in_base)
-    for i in range(3):
-        cross(away, at_tool[i, 3:], at_tool[i, :3])
-    product(at_tool, motion_axes.T, J)
-
-
-@part
 def carry(
     bias: OutVector, carrying: OutVector, weight: Vector, base_rotation: Matrix, lever: Vector, J: Matrix
 ) -> None:
@@ -89,38 +61,66 @@ def external_wrench(wrench: OutVector, gain: Matrix, readings: Vector, axes: Mat
     transposed_times(axes, at_wrist[3:], wrench[3:])
 
 
-@compiled
-def measure(
-    joints: OutMatrix,
-    in_base: OutMatrix,
-    J: OutMatrix,
-    wrench: OutVector,
-    true_q: Vector,
-    true_dq: Vector,
-    own_bias: Vector,
-    noise: Vector,
-    on_link: Matrix,
-    motion_axes: Matrix,
-    centre: Vector,
-    link_position: Vector,
-    link_rotation: Matrix,
-    base_position: Vector,
-    base_rotation: Matrix,
-    weight: Vector,
-    gain: Matrix,
-    readings: Vector,
-) -> None:
-    """Compute what an arm measures: hand and Jacobian; speeds with their noise, bias with that of a payload; wrench.
+@dataclass(frozen=True, slots=True)
+class ArmSensing:
+    """What `measure` reads and writes for one arm; all arrays are reused or change with the simulation.
 
-    joints (4, nv); gain (6, 9) and readings (9,): of the sensor at the wrist, see there.
+    Written, in the arm's base frame. joints (4, nv): Q rad, SPEED rad/s, BIAS and CARRYING N m; in_base (8, 3): see
+    `Hand`; jacobian (6, nv): of the tool centre point, [linear m; angular rad] per rad; wrench (6,): N and N m on the
+    tool, zeros where there is no sensor.
+
+    Read. q, dq, bias (nv,): rad, rad/s and N m, without noise and payload; on_link (8, 3): see `Hand`. In the world:
+    motion_axes (nv, 6), MuJoCo's `cdof`, and centre (3,) m, where they hold; position (3,) m and rotation (3, 3) of
+    last link and base; weight (3,) N of the payload. gain (6, 9) and readings (9,): of the sensor, see `Wrist`.
     """
-    see_hand(
-        in_base, J, on_link, motion_axes, centre, link_position, link_rotation, base_position, base_rotation
-    )  # fmt: skip
-    for j in range(true_q.size):
-        joints[Q, j], joints[SPEED, j], joints[BIAS, j] = true_q[j], true_dq[j] + noise[j], own_bias[j]
-    carry(joints[BIAS], joints[CARRYING], weight, base_rotation, in_base[LEVER], J)
-    external_wrench(wrench, gain, readings, in_base[3:6])
+
+    joints: OutMatrix
+    in_base: OutMatrix
+    jacobian: OutMatrix
+    wrench: OutVector
+    q: Vector
+    dq: Vector
+    bias: Vector
+    on_link: Matrix
+    motion_axes: Matrix
+    centre: Vector
+    link: Pose
+    base: Pose
+    weight: Vector
+    gain: Matrix
+    readings: Vector
+
+
+@part
+def see_hand(arm: ArmSensing) -> None:
+    """Compute, in base axes, what is on the link, and the Jacobian (6, nv) of the tool centre point.
+
+    motion_axes: [angular; linear] velocity at `centre` per joint speed. With d = tool - centre and base axes a_i:
+    a_i . (v + w x d) = a_i . v + (d x a_i) . w.
+    """
+    in_world, away, at_tool, axes = np.empty((8, 3)), np.empty(3), np.zeros((6, 6)), arm.base.rotation
+    product(arm.on_link, arm.link.rotation.T, in_world)
+    for i in range(3):
+        in_world[TOOL, i] += arm.link.position[i]
+        away[i] = in_world[TOOL, i] - arm.centre[i]
+        in_world[TOOL, i] -= arm.base.position[i]
+        for j in range(3):
+            at_tool[i, 3 + j] = at_tool[3 + i, j] = axes[j, i]
+    product(in_world, axes, arm.in_base)
+    for i in range(3):
+        cross(away, at_tool[i, 3:], at_tool[i, :3])
+    product(at_tool, arm.motion_axes.T, arm.jacobian)
+
+
+@compiled
+def measure(arm: ArmSensing, noise: Vector) -> None:
+    """Compute what an arm measures: hand and Jacobian; speeds with noise (nv,) rad/s, bias with a payload's; wrench."""
+    joints, J, axes = arm.joints, arm.jacobian, arm.base.rotation
+    see_hand(arm)
+    for j in range(arm.q.size):
+        joints[Q, j], joints[SPEED, j], joints[BIAS, j] = arm.q[j], arm.dq[j] + noise[j], arm.bias[j]
+    carry(joints[BIAS], joints[CARRYING], arm.weight, axes, arm.in_base[LEVER], J)
+    external_wrench(arm.wrench, arm.gain, arm.readings, arm.in_base[3:6])
 
 
 @compiled

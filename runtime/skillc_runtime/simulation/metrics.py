@@ -8,12 +8,12 @@ from typing import TypeAlias
 
 import numpy as np
 
+from skillc_runtime.devices.ground_truth import Recording, join_recordings
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose, rotation_of
 from skillc_runtime.simulation.coverage import CoverageMap
 from skillc_runtime.simulation.dwell import LaneDwell, lane_dwell
 from skillc_runtime.simulation.highpass import highpass
-from skillc_runtime.simulation.recorder import Recording, join_recordings
 
 LOST_N = 0.5
 """Normal force below which contact counts as lost."""

@@ -8,9 +8,10 @@ from typing import ClassVar, NoReturn
 
 import numpy as np
 
+from skillc_runtime.devices.arm import Command, JointPosition, JointVelocity, Mode, ModeRefused, Torque
+from skillc_runtime.motion.numerics.arrays import OutVector, Vector
+from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.numerics.compiled import OutVector, Vector, compiled
-from skillc_runtime.robots.arm import Command, JointPosition, JointVelocity, Mode, ModeRefused, Torque
 
 SILENCE_S = 0.05
 """An arm that is not commanded for so long holds still by itself."""
@@ -23,7 +24,7 @@ HOLD_RATE = 20.0
 class Joints:
     """The joints of a simulated arm, live: arrays (nv,) in rad, rad/s, N m.
 
-    control, applied: what their actuators are told, and torques beside theirs, both to be written. q, dq, own_bias: as
+    control, applied: commands of their actuators, and torques beside theirs, both to be written. q, dq, own_bias: as
     they are, without payload. bias: as measured last, payload included; carrying: what of it carries the payload.
     mass_matrix (nv, nv): as measured last. effort: greatest torque of the actuators.
     """
@@ -86,7 +87,7 @@ class Motors(ABC):
 
 
 class TorqueMotors(Motors):
-    """Motors that exert what they are told. Left alone they carry the arm and brake each joint."""
+    """Motors that exert what they are commanded. Left alone they carry the arm and brake each joint."""
 
     MODES: ClassVar[tuple[Mode, ...]] = ("torque",)
 
@@ -103,7 +104,7 @@ class TorqueMotors(Motors):
         """There is no other mode to come from."""
 
     def _move(self) -> None:
-        """The motors are told what was commanded already."""
+        """The motors have been commanded already."""
 
     def _hold(self, first: bool) -> None:
         joints = self._joints
@@ -125,8 +126,8 @@ class ServoGains:
 class Servos(Motors):
     """Servos that follow targets, like those of industrial arms; weight and Coriolis forces are compensated.
 
-    tau = kp (target - q) - kv dq. Told positions, the targets move there evenly over the control period; told speeds,
-    they move as fast as that, but no further ahead than takes all effort. Where it takes all and the arm is told to
+    tau = kp (target - q) - kv dq. Given positions, the targets move there evenly over the control period; given speeds,
+    they move as fast as that, but no further ahead than takes all effort. Where it takes all and the arm is to
     stand still, the joint stays where it is, instead of pressing on against what is in its way.
     """
 
@@ -184,7 +185,7 @@ def drive(
     """Move the targets of servos by speed for a step of the simulation, in s; all else (nv,).
 
     lead: kv / kp, s, for which a target is ahead of a joint that moves freely; farthest: how much more takes all
-    effort, rad. While all are told to stand still, the target of a joint that takes it all is where the joint is.
+    effort, rad. While all are commanded to stand still, the target of a joint that takes it all is where the joint is.
     """
     still = True
     for j in range(q.size):

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.motion.pose import Array, rotation_of
-from skillc_runtime.robots.driver import ArmDriver
 from skillc_runtime.simulation.coverage import CoverageMap
 from skillc_runtime.simulation.facts import ToolFacts
 from skillc_runtime.simulation.names import contact_sensor, face_sensor, pressing_sensor
@@ -40,7 +40,7 @@ class ToolObserver:
         self.recorder.sample(time)
         self.peak_force.sample()
         if self._steps % STEPS_PER_UPDATE == 0:
-            self.recorder.sample_reference(time, driver.reference, driver.path, self._cover())
+            self.recorder.sample_reference(time, driver.motion.reference, driver.motion.path, self._cover())
         self._steps += 1
 
     def _cover(self) -> float:

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.robots.driver import ArmDriver
 from skillc_runtime.simulation.facts import ArmFacts, SceneFacts
 from skillc_runtime.simulation.names import part
 from skillc_runtime.simulation.person_facts import PersonFacts
@@ -44,7 +44,7 @@ class SimulatedPerson:
 
     def step(self, now: float) -> None:
         """Pull, or do not."""
-        yields = not self._driver.commanded_stiffness[:3].any()
+        yields = not self._driver.compliance.commanded_stiffness[:3].any()
         self._yields_since = None if not yields else now if self._yields_since is None else self._yields_since
         leading = self._yields_since is not None and now - self._yields_since >= REACTION_S and not self.let_go
         self._force[:] = 0.0
@@ -52,11 +52,11 @@ class SimulatedPerson:
             self._lead(now)
 
     def _lead(self, now: float) -> None:
-        tool = self._driver.pose.position
+        tool = self._driver.measured.pose.position
         away = self.place - tool
         pull = PULL_N_M * away
         pull *= min(1.0, self._strength / max(float(np.linalg.norm(pull)), 1e-9))
-        self._force[:3] = pull - HOLD_N_S_M * self._driver.velocity[:3]
+        self._force[:3] = pull - HOLD_N_S_M * self._driver.measured.velocity[:3]
         self._force[3:] = np.cross(tool - self._centre, self._force[:3])
         self.forces.append(float(np.linalg.norm(self._force[:3])))
         near = float(np.linalg.norm(away)) < THERE_M

@@ -8,8 +8,9 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from skillc_runtime.motion.numerics.arrays import OutVector, Vector
+from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.pose import Array, Pose, skew
-from skillc_runtime.numerics.compiled import OutVector, Vector, compiled
 from skillc_runtime.simulation.names import part, wrist_sensor
 from skillc_runtime.simulation.noise import Noise
 

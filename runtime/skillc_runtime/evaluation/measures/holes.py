@@ -29,6 +29,6 @@ def _inserted(evidence: RunEvidence, fixture: FixtureFacts, true: FixtureVariati
         socket=cell.facts.names[fixture.individual],
         depth_m=-float(true.true_pose(fixture.pose).inverse().at(end)[2]),
         hole_m=number(cell.world.snapshot(), fixture.individual, DEPTH),
-        greatest_n=float(cell.recording(peg).force.max(initial=0.0)),
+        greatest_n=float(cell.ground_truth.recording(peg).force.max(initial=0.0)),
         took=evidence.duration_share(fixture.individual),
     )

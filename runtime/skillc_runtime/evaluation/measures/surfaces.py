@@ -6,12 +6,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from skillc_runtime.devices.ground_truth import Recording
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import PolishingWork, WipingWork, Work
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.report.wiping import Wiping
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.simulation.recorder import Recording
 from skillc_runtime.world.sheet import number
 from skillc_runtime.world.terms import POLISH_TIME, POLISHABLE_SURFACE
 
@@ -30,7 +30,7 @@ def measure(evidence: RunEvidence) -> Iterator[Work]:
 
 def _polished(evidence: RunEvidence, wiping: Wiping, how: WipingResult) -> PolishingWork:
     cell = evidence.cell
-    asked, gone = swing_amplitudes(cell.recording(wiping.tool).between(wiping.start, wiping.end))
+    asked, gone = swing_amplitudes(cell.ground_truth.recording(wiping.tool).between(wiping.start, wiping.end))
     seconds = number(cell.world.snapshot(), wiping.surface, POLISH_TIME)
     swung = asked > LEAST_SWING_M
     return PolishingWork(

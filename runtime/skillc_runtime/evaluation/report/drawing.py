@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from skillc_runtime.devices.ground_truth import Recording, join_recordings
 from skillc_runtime.evaluation.report.wiping import Wiping, describe_wiping
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.dwell import LINGERING, along_lanes
 from skillc_runtime.simulation.metrics import measure_coverage
-from skillc_runtime.simulation.recorder import Recording, join_recordings
 
 EVERY = 5
 """Of so many steps one is drawn."""
@@ -54,7 +54,10 @@ class Drawing:
 
 def make_drawing(wiping: Wiping, cell: SimulatedCell) -> Drawing:
     """Gather what is drawn of one wiping."""
-    recording, wiped = cell.recording(wiping.tool).between(wiping.began, wiping.end), describe_wiping(wiping, cell)
+    recording, wiped = (
+        cell.ground_truth.recording(wiping.tool).between(wiping.began, wiping.end),
+        describe_wiping(wiping, cell),
+    )
     windows, frame = [recording.between(*stroke) for stroke in wiping.strokes], wiped.surface.inverse()
     window, drawn = join_recordings(windows), _apart(windows)
     covered = measure_coverage(window, wiped)

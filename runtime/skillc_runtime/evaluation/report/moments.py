@@ -7,12 +7,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
+from skillc_runtime.devices.ground_truth import Recording
 from skillc_runtime.evaluation.report.wiping import Wiping
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.film import Moment
-from skillc_runtime.simulation.recorder import Recording
 
 GRASPED_S = 0.3
 """How long after the first moment at which a tool is held its grasp is looked at."""
@@ -44,7 +44,7 @@ def _seen(node: Outcome, choice: ImplementationChosen, cell: SimulatedCell) -> I
 
 
 def _moments(wiping: Wiping, cell: SimulatedCell) -> Iterator[Moment]:
-    name, recording = cell.world.snapshot().vocabulary.short(wiping.surface), cell.recording(wiping.tool)
+    name, recording = cell.world.snapshot().vocabulary.short(wiping.surface), cell.ground_truth.recording(wiping.tool)
     yield Moment(f"{name} grasp", float(recording.time[0]) + GRASPED_S, wiping.arm)
     yield Moment(f"{name} contact", _contact(recording.between(wiping.began, wiping.end)), wiping.arm)
     yield Moment(f"{name} corner", _corner(recording.between(wiping.start, wiping.end)), wiping.arm)

@@ -67,12 +67,14 @@ def describe_wiping(wiping: Wiping, cell: SimulatedCell) -> WipingSetup:
     """Return what was wiped with what, as it really was."""
     surface = next(each for each in cell.facts.surfaces if each.individual == wiping.surface)
     tool = size(cell.world.snapshot(), wiping.tool)[:2]
-    return WipingSetup(cell.true_pose(surface), surface.layout, tool, wiping.force_n, surface.least_n)
+    return WipingSetup(
+        cell.ground_truth.surface_pose(surface.individual), surface.layout, tool, wiping.force_n, surface.least_n
+    )
 
 
 def judge_wiping(wiping: Wiping, cell: SimulatedCell) -> WipingResult:
     """Measure how good the wiping was."""
-    recording = cell.recording(wiping.tool).between(wiping.began, wiping.end)
+    recording = cell.ground_truth.recording(wiping.tool).between(wiping.began, wiping.end)
     metrics = measure_wiping(recording, wiping.strokes, describe_wiping(wiping, cell))
     dwell = metrics.lane_dwell
     return WipingResult(

@@ -111,7 +111,7 @@ def _measure_work(evidence: RunEvidence) -> tuple[Work, ...]:
 
 
 def _greatest_force(cell: SimulatedCell) -> float:
-    return max((cell.peak_force(tool.individual) for tool in cell.facts.tools), default=0.0)
+    return max((cell.ground_truth.peak_force_n(tool.individual) for tool in cell.facts.tools), default=0.0)
 
 
 def _force_limit(cell: SimulatedCell) -> float | None:

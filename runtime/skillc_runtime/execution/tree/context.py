@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Position
+from skillc_runtime.devices.cell import Cell
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.recording.events import Listener, Note
-from skillc_runtime.robots.cell import Cell
 from skillc_runtime.world.changes import Change
 from skillc_runtime.world.state import WorldState
 

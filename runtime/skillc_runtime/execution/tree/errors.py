@@ -5,8 +5,8 @@ from __future__ import annotations
 import traceback
 from pathlib import PurePath
 
+from skillc_runtime.devices.cell import WatchdogTimeout
 from skillc_runtime.primitives.primitive import SkillFailure
-from skillc_runtime.robots.watchdog import Silence
 from skillc_runtime.world.expressions import EvaluationError
 from skillc_runtime.world.model import WorldError
 from skillc_runtime.world.store.store import StoreError
@@ -14,7 +14,7 @@ from skillc_runtime.world.store.store import StoreError
 
 def describe_exception(error: BaseException) -> str:
     """Return the message of an exception; with type and line if it was not written for users."""
-    if isinstance(error, SkillFailure | Silence | EvaluationError | WorldError | StoreError):
+    if isinstance(error, SkillFailure | WatchdogTimeout | EvaluationError | WorldError | StoreError):
         return str(error)
     frames = traceback.extract_tb(error.__traceback__)
     where = f" ({PurePath(frames[-1].filename).name}:{frames[-1].lineno})" if frames else ""

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from skillc_compiler.library import tree
 from skillc_compiler.library.skills import SkillLibrary
+from skillc_runtime.devices.cell import Cell, WatchdogTimeout
 from skillc_runtime.execution.success_facts import Claim
 from skillc_runtime.execution.tree.active_path import ActivePath
 from skillc_runtime.execution.tree.build import build_node
@@ -17,14 +18,12 @@ from skillc_runtime.execution.tree.lexical_scope import CallFailures, LexicalSco
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, Node
 from skillc_runtime.execution.tree.undo_stack import UndoStack
+from skillc_runtime.primitives.fact_monitor import FactMonitor
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Listener, Paused, Resumed
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.listeners import Listeners
 from skillc_runtime.recording.outcome import Outcome
-from skillc_runtime.robots.cell import Cell
-from skillc_runtime.robots.contradictions import DeviceWatch
-from skillc_runtime.robots.watchdog import Silence
 from skillc_runtime.world.model import ChangeEvent
 
 _ALIVE = (RUNNING, Status.IDLE)
@@ -61,7 +60,7 @@ class TreeRun:
         self._root = build_node(body, self._context, LexicalScope(self._undo, failures=failures))
         self._path = ActivePath(self._root)
         self._paused_at: float | None = None
-        self._devices = DeviceWatch(cell)
+        self._devices = FactMonitor(cell)
         self.status = Status.IDLE
         self.failure: Failure | None = None
 
@@ -134,7 +133,7 @@ class TreeRun:
             return
         stop_listening = self._context.cell.world.listen(self._emit_world_change)
         try:
-            contradiction = self._devices.contradiction()
+            contradiction = self._devices.withdraw_contradicted()
         finally:
             stop_listening()
         if contradiction is not None:
@@ -166,11 +165,11 @@ class TreeRun:
     def _send_heartbeat(self) -> None:
         cell = self._context.cell
         if not cell.watchdog.beat(self, cell.now):
-            raise Silence("the tree was not ticked for too long, so everything was stopped")
+            raise WatchdogTimeout("the tree was not ticked for too long, so everything was stopped")
 
     def _find_contradiction(self) -> str | None:
         """Retract the facts that a device contradicts; return a description of them."""
-        found = self._devices.contradiction()
+        found = self._devices.withdraw_contradicted()
         if found is not None:
             self._context.refresh_state()
         return found
@@ -187,7 +186,7 @@ class TreeRun:
         """Send the heartbeat while paused."""
         try:
             self._send_heartbeat()
-        except Silence as silence:
+        except WatchdogTimeout as silence:
             self.abort(silence)
         return self.status
 

@@ -10,9 +10,9 @@ from skillc_compiler.library.conditions import Compare, Literal
 from skillc_compiler.library.properties import Is, Measures, Property
 from skillc_compiler.library.skills import Implementation
 from skillc_compiler.library.vocabulary import ClassType, Vocabulary
+from skillc_runtime.devices.cell import Cell
 from skillc_runtime.execution.tree.lexical_scope import Frame
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.robots.cell import Cell
 from skillc_runtime.world.conditions import evaluate
 from skillc_runtime.world.state import WorldState
 from skillc_runtime.world.terms import ARM_DEVICE
@@ -50,7 +50,7 @@ def _describe_violation(
             return "" if evaluate(condition, state, frame) else None
         case Measures(operator=operator, limit=limit):
             for arm in _find_arms(implementation, vocabulary, frame):
-                force_n = float(np.linalg.norm(cell.arm(arm).wrench[:3]))
+                force_n = float(np.linalg.norm(cell.arm(arm).measured.wrench[:3]))
                 if evaluate(Compare(Literal(force_n), operator, limit), state, frame):
                     return f": {vocabulary.short(arm)} measures {force_n:.1f} N"
     return None

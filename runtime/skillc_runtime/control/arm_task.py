@@ -1,0 +1,100 @@
+"""Whether the tool of an arm is moved or its joints are, and how one hands over to the other; in base axes."""
+
+from __future__ import annotations
+
+from math import dist
+
+import numpy as np
+
+from skillc_runtime.control.controllers import make_controllers
+from skillc_runtime.control.kinematics import JOINT_RAMP_S, Kinematics
+from skillc_runtime.control.measured import MeasuredArm
+from skillc_runtime.control.setup import ArmSetup
+from skillc_runtime.control.tool_task import ToolTask
+from skillc_runtime.devices.arm import ArmState, Command
+from skillc_runtime.motion.joint_reference_generator import JointReferenceGenerator
+from skillc_runtime.motion.pose import Array, Pose
+
+TOOL_JUMP_M_S = 3.0
+"""No tool moves this fast; one that seems to was moved on the hand."""
+
+
+class ArmTask:
+    """What one arm does at present: `joints` moves them, or is None while `tool` moves the tool.
+
+    `now` s is the time of motions, which waits while the arm is not controlled. Skills use `MotionControl` and
+    `ComplianceControl`, which both change it; the driver asks it for a command once a control period.
+    """
+
+    def __init__(self, setup: ArmSetup) -> None:
+        """Hold the joints where they are."""
+        state = setup.arm.state()
+        self.limits, self.period, self.now = setup.limits, setup.period, 0.0
+        self._arm, self._tool_position = setup.arm, state.tool.position.tolist()
+        self.measured = MeasuredArm(setup.base, self.contact_wrench, state)
+        self.controllers = make_controllers(setup.gains, setup.limits, setup.virtual, state, setup.period)
+        self.kinematics = Kinematics(setup.virtual)
+        self.tool = ToolTask(setup.gains, self.controllers.tool, state.tool)
+        self.joints: JointReferenceGenerator | None = self._joint_reference(state.q, np.zeros_like(state.q))
+
+    def contact_wrench(self) -> Array:
+        """Return what the environment does to the tool (6,), N and N m, base axes."""
+        return self.measured.state.wrench if self.joints is not None else self.tool.contact_wrench
+
+    def command(self, state: ArmState) -> Command:
+        """Return what to command for the next control period; ControlError where the law cannot go on."""
+        self.tool.compliance.step(self.period)
+        if self.joints is not None:
+            return self.controllers.joints.command(state, self.joints.sample(self.now), self.period)
+        return self.tool.command(state, self.now, self.period)
+
+    def take_in(self, state: ArmState) -> None:
+        """Remember a state; a tool centre point that jumps was moved on the hand, say by grasping a tool."""
+        before, self._tool_position = self._tool_position, state.tool.position.tolist()
+        self.measured.state = state
+        if self.joints is None and dist(self._tool_position, before) > TOOL_JUMP_M_S * self.period:
+            self.tool.restart_here(state, self.controllers.joints_now(state), self.now)
+
+    def move_tool(self) -> ToolTask:
+        """Hand over from joint to tool control: the tool goes on as the joints moved it."""
+        self.take_in(self._arm.state())
+        if self.joints is not None:
+            state, reference = self.measured.state, self.joints.sample(self.now)
+            tool, jacobian = self.kinematics.tool_at(reference.q, state)
+            self.tool.restart_from(state, reference, tool, jacobian @ reference.dq, self.now)
+            self.joints = None
+        return self.tool
+
+    def move_joints(self) -> JointReferenceGenerator:
+        """Hand over from tool to joint control: the joints go on as the tool moved them."""
+        if self.joints is None:
+            self.joints = self.joints_as_they_move()
+        return self.joints
+
+    def joints_as_they_move(self) -> JointReferenceGenerator:
+        """Return a reference that comes to rest from how the joints move now; nothing changes."""
+        state = self.measured.state
+        return self._joint_reference(self.controllers.joints_now(state), self.controllers.speeds_now(state))
+
+    def stop(self) -> None:
+        """Come to rest within the acceleration limit; compliance, push and overlays stay."""
+        (self.joints or self.tool.reference_generator).stop(self.now)
+
+    def hold_still(self) -> None:
+        """Hold the arm where it is, at once, and push no more."""
+        q = self.controllers.joints_held(self.measured.state)
+        if self.joints is None:
+            self.tool.hold(self.measured.state, q, self.now)
+        else:
+            self.joints = self._joint_reference(q, np.zeros_like(q))
+
+    def hold_joints(self, state: ArmState) -> None:
+        """Hold the joints from now on: the law of the tool or of the joints has failed."""
+        self.joints = self._joint_reference(self.controllers.joints_now(state), np.zeros_like(state.q))
+
+    def base(self) -> Pose:
+        """Return where the arm stands in the world."""
+        return self.measured.base()
+
+    def _joint_reference(self, q: Array, dq: Array) -> JointReferenceGenerator:
+        return JointReferenceGenerator(q, dq, float(self.limits.velocity.min()) / JOINT_RAMP_S, self.now)

@@ -1,0 +1,83 @@
+"""Stands between a driver and its arm: sees every measurement and every command, and knows what the arm may not do.
+
+Nothing is computed from, nor commanded with, something that is not a number.
+"""
+
+from __future__ import annotations
+
+from typing import NoReturn, assert_never
+
+import numpy as np
+
+from skillc_runtime.control.controller import ControlError
+from skillc_runtime.control.safety import SafetyLimits, SafetyMonitor
+from skillc_runtime.devices.arm import Arm, ArmState, Command, JointPosition, JointVelocity, Torque, command_values
+from skillc_runtime.motion.numerics.arrays import OutVector, Vector
+from skillc_runtime.motion.numerics.compiled import compiled
+from skillc_runtime.motion.pose import Array
+
+
+@compiled
+def sum_of_squares(x: Vector) -> float:
+    """Return the sum of the squares of x (n,): no finite number when one of them is none."""
+    total = 0.0
+    for value in x:
+        total += value * value
+    return total
+
+
+class CommandValidator:
+    """Checks what one arm measures and is commanded, and keeps it where it was last known to be when a check fails."""
+
+    def __init__(self, arm: Arm, state: ArmState, limits: SafetyLimits | None = None) -> None:
+        self._arm = arm
+        self.safety = SafetyMonitor(limits or SafetyLimits(), state, arm.interface == "torque")
+        self._holding = self._rest(state).copy()
+
+    def check(self, state: ArmState) -> None:
+        """Take in what the arm measures. ControlError when some of it is not a number; the arm is commanded to hold."""
+        if not take_over(self._holding, self._rest(state), state.q, state.dq, state.wrench, state.tool.position):
+            self._give_up("the arm reports something that is not a number")
+
+    def command(self, command: Command, period: float) -> None:
+        """Command the arm for the next `period` s.
+
+        ControlError when not all is numbers; the arm is commanded to hold instead.
+        """
+        if not sum_of_squares(command_values(command)) < np.inf:
+            self._give_up("the control law does not yield a number")
+        self.safety.add_command(command, self._holding, period)
+        self._arm.command(command)
+
+    def holding(self) -> Command:
+        """Return what keeps the arm where it was last known to be."""
+        match self._arm.interface:
+            case "torque":
+                return Torque(self._holding.copy())
+            case "position":
+                return JointPosition(self._holding.copy())
+            case "velocity":
+                return JointVelocity(np.zeros_like(self._holding))
+            case never:
+                assert_never(never)
+
+    def _rest(self, state: ArmState) -> Array:
+        """Return what keeps the arm in a state: the torques of the bias; the joints, of an arm with servos."""
+        return state.bias if self._arm.interface == "torque" else state.q
+
+    def _give_up(self, reason: str) -> NoReturn:
+        self._arm.command(self.holding())
+        raise ControlError(reason)
+
+
+@compiled
+def take_over(holding: OutVector, rest: Vector, q: Vector, dq: Vector, wrench: Vector, position: Vector) -> bool:
+    """Hold what is `rest` (nv,) from now on, if all of the others is finite; else return False.
+
+    Whatever is not makes its sum of squares infinite or no number.
+    """
+    finite = sum_of_squares(q) + sum_of_squares(dq) + sum_of_squares(wrench) + sum_of_squares(position) < np.inf
+    if finite:
+        for j in range(holding.size):
+            holding[j] = rest[j]
+    return bool(finite)

@@ -1,0 +1,44 @@
+"""The seams of control laws: Cartesian ones, which yield and push, and joint ones."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from skillc_runtime.devices.arm import ArmState, Command
+from skillc_runtime.motion.joint import JointReference
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.motion.reference import Compliance, Reference
+
+
+class ControlError(Exception):
+    """A controller cannot go on safely; the message says why. The arm has been commanded to hold."""
+
+
+class Controller(Protocol):
+    """A compliant Cartesian law. Reference and compliance are in the arm's base frame, see `motion.reference`."""
+
+    @property
+    def tool(self) -> Pose:
+        """The tool centre point in base that the law compares with its reference."""
+        ...
+
+    @property
+    def contact_wrench(self) -> Array:
+        """What the environment does to the tool (6,), measured or estimated; N and N m, base axes, at the tool."""
+        ...
+
+    def reset(self, state: ArmState, q: Array, dq: Array) -> None:
+        """Start from joint positions and speeds q, dq (nv,): those commanded last, or the measured ones."""
+        ...
+
+    def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Command:
+        """Return what to command for the next `period` s."""
+        ...
+
+
+class JointController(Protocol):
+    """A law that moves joints."""
+
+    def command(self, state: ArmState, reference: JointReference, period: float) -> Command:
+        """Return what to command for the next `period` s."""
+        ...

@@ -1,0 +1,72 @@
+"""Makes the controllers of one arm, for its tool and for its joints, from gains."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import assert_never
+
+import mujoco
+
+from skillc_runtime.control.controller import Controller, JointController
+from skillc_runtime.control.damping import damping_rate
+from skillc_runtime.control.forward_dynamics import ForwardDynamics
+from skillc_runtime.control.gains import ForwardDynamicsGains, Gains, ImpedanceGains, VelocityGains
+from skillc_runtime.control.impedance import Impedance
+from skillc_runtime.control.joint_position import ComputedTorque, JointServo
+from skillc_runtime.control.limits import JointLimit, SpeedLimit, TorqueLimit
+from skillc_runtime.control.virtual_arm import VirtualArm
+from skillc_runtime.devices.arm import ArmLimits, ArmState
+from skillc_runtime.motion.pose import Array
+
+
+@dataclass(frozen=True, slots=True)
+class ControllerPair:
+    """One controller for the tool, one for the joints; they share the arm's limits, so changing over is smooth."""
+
+    tool: Controller
+    joints: JointController
+    limit: TorqueLimit | JointLimit
+
+    def joints_now(self, state: ArmState) -> Array:
+        """Return the joints (nv,) rad from which a motion goes on: those commanded last, else the measured ones."""
+        return (self.limit.q if isinstance(self.limit, JointLimit) else state.q).copy()
+
+    def joints_held(self, state: ArmState) -> Array:
+        """Return the joints (nv,) rad at which the arm holds still when it is to do so at once."""
+        return (self.limit.held(state) if isinstance(self.limit, JointLimit) else state.q).copy()
+
+    def speeds_now(self, state: ArmState) -> Array:
+        """Return the joint speeds (nv,) rad/s with which a motion goes on: those commanded last, else measured."""
+        return (self.limit.dq if isinstance(self.limit, JointLimit) else state.dq).copy()
+
+
+def make_controllers(
+    gains: Gains, limits: ArmLimits, virtual: mujoco.MjModel, state: ArmState, period: float
+) -> ControllerPair:
+    """Make the controllers of an arm in a state, for a control period in s; `virtual` is its `virtual_model`.
+
+    ValueError where they cannot be stable at that period.
+    """
+    match gains.law:
+        case ImpedanceGains() as law:
+            return _impedance(gains, law, limits, state, period)
+        case ForwardDynamicsGains() as law:
+            return _forward_dynamics(gains, law, JointLimit(limits, state.q), virtual)
+        case VelocityGains(compliance=law, tracking_rate=rate, tracking_time=lag):
+            return _forward_dynamics(gains, law, SpeedLimit(limits, state.q, rate, lag), virtual)
+        case never:
+            assert_never(never)
+
+
+def _impedance(gains: Gains, law: ImpedanceGains, limits: ArmLimits, state: ArmState, period: float) -> ControllerPair:
+    rate = damping_rate(state, law.damping_floor, law.rotational_damping_floor)
+    if rate * period > 1:
+        raise ValueError(f"the damping decays with {rate:.0f}/s: too fast for a control period of {period} s")
+    limit, joints = TorqueLimit(limits, law.torque_rate), state.q.size
+    return ControllerPair(Impedance(gains, law, limit, joints), ComputedTorque(limit, joints), limit)
+
+
+def _forward_dynamics(
+    gains: Gains, law: ForwardDynamicsGains, limit: JointLimit, virtual: mujoco.MjModel
+) -> ControllerPair:
+    return ControllerPair(ForwardDynamics(gains, law, limit, VirtualArm(virtual)), JointServo(limit), limit)

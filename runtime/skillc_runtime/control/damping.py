@@ -1,0 +1,52 @@
+"""Dampers for an arm that takes torques, designed from the inertia that its tool has where it is."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from skillc_runtime.devices.arm import ArmState
+from skillc_runtime.motion.numerics.compiled import part
+from skillc_runtime.motion.numerics.linear import cholesky, cholesky_solve, product, times
+from skillc_runtime.motion.pose import Array
+
+BRAKE_RATE = 250.0
+"""1/s, how fast a tool comes down to the greatest speed with which it may yield; stable down to 250 Hz."""
+
+LEAST_MOBILITY = 1e-3
+"""Added to the tool's inverse inertia, 1/kg and 1/(kg m^2): at a singularity the tool seems heavy, not immovable."""
+
+
+@part
+def tool_inertia(inertia: Array, mobility: Array, J: Array, mass_matrix: Array, rotation: Array, frame: Array) -> None:
+    """mobility (6, 6) = J_C M^-1 J_C^T in 1/kg and 1/(kg m^2), inertia its inverse but for the least mobility.
+
+    The axes of C are rotation @ frame, both (3, 3), in base; J (6, nv), mass_matrix (nv, nv).
+    """
+    joints = J.shape[1]
+    axes, J_C, factor, column = np.empty((3, 3)), np.empty((6, joints)), mass_matrix.copy(), np.empty(joints)
+    whole, unit = np.empty((6, 6)), np.zeros(6)
+    product(rotation, frame, axes)
+    product(axes.T, J[:3], J_C[:3])
+    product(axes.T, J[3:], J_C[3:])
+    cholesky(factor)
+    for i in range(6):
+        cholesky_solve(factor, J_C[i], column)
+        times(J_C, column, mobility[i])
+        mobility[i, i] += LEAST_MOBILITY
+        for j in range(6):
+            whole[i, j] = mobility[i, j]
+    cholesky(whole)
+    for i in range(6):
+        unit[i] = 1.0
+        cholesky_solve(whole, unit, inertia[i])
+        unit[i] = 0.0
+
+
+def damping_rate(state: ArmState, damping: float, rotational_damping: float) -> float:
+    """Return the fastest decay in 1/s that dampers on all axes cause; above 2 / h explicit damping explodes.
+
+    damping: N s/m; rotational_damping: N m s/rad.
+    """
+    D = np.repeat([damping, rotational_damping], 3)
+    rates = np.linalg.eigvals(np.linalg.solve(state.mass_matrix, state.jacobian.T @ (D[:, None] * state.jacobian)))
+    return float(np.abs(rates).max())

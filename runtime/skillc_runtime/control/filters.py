@@ -1,0 +1,56 @@
+"""Filters that behave alike at every rate: a first-order lag in seconds, a limit on the rate of change per second."""
+
+from __future__ import annotations
+
+from math import exp
+
+import numpy as np
+
+from skillc_runtime.motion.pose import Array
+
+
+class Lag:
+    """A first-order low-pass x <- x + (1 - exp(-h/T)) (target - x) with time constant T in s; 0 passes everything.
+
+    `value` (n,) is updated in place, so a reference to it stays valid. What is nearer than `grain` has `arrived`.
+    """
+
+    def __init__(self, value: Array, time_constant: float, grain: float = 1e-6) -> None:
+        self.value = value.copy()
+        self._time_constant, self._grain = time_constant, grain
+        self._difference = np.empty_like(value)
+        self._period, self._share, self.arrived = -1.0, 1.0, True
+
+    def step(self, target: Array, period: float) -> Array:
+        """Follow the target for `period` s and return `value`."""
+        if period != self._period:
+            self._period = period
+            self._share = 1 - exp(-period / self._time_constant) if self._time_constant > 0 else 1.0
+        np.subtract(target, self.value, out=self._difference)
+        self.arrived = self._difference.dot(self._difference) <= self._grain**2
+        if self.arrived:
+            self.value[:] = target
+        else:
+            self._difference *= self._share
+            self.value += self._difference
+        return self.value
+
+
+class RateLimit:
+    """Follow a target at `rate` per s at most, one for all or one each; `value` (n,) is updated in place."""
+
+    def __init__(self, value: Array, rate: float | Array) -> None:
+        self.value = value.copy()
+        self._rate = rate
+        self._period, self._step = -1.0, np.empty_like(value)
+        self._longest, self._least = np.zeros_like(value), np.zeros_like(value)
+
+    def step(self, target: Array, period: float) -> Array:
+        """Follow the target for `period` s and return `value`."""
+        if period != self._period:
+            self._period, self._longest[:], self._least[:] = period, self._rate * period, -self._rate * period
+        np.subtract(target, self.value, out=self._step)
+        np.minimum(self._step, self._longest, out=self._step)
+        np.maximum(self._step, self._least, out=self._step)
+        self.value += self._step
+        return self.value

@@ -1,0 +1,132 @@
+"""Forward-dynamics compliance for arms that take positions and feel forces: a virtual arm moves, the real one follows.
+
+w_C = -K sat(e) + W + W_ext;  a = A w_C / T + nu_d / T + a_d;  ddq = H^-1 (J_C^T a - c)
+dq <- g dq + (1 - g) T ddq, g = exp(-h/T);  q <- q + h dq
+Scherzinger, Roennau, Dillmann 2017; gains per second, Coriolis forces c, feed-forward along stiff axes. C: compliance
+frame. Of what would be over the speed with which a tool may yield little is left.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import exp
+
+import numpy as np
+
+from skillc_runtime.control.gains import ForwardDynamicsGains, Gains
+from skillc_runtime.control.limits import COMMANDED, FASTEST, JointLimit, limit_joints
+from skillc_runtime.control.task_error import (
+    ACCELERATION,
+    ERROR,
+    MEASURED,
+    TWIST,
+    TaskError,
+    speed_excess,
+    task_error,
+    task_error_of,
+)
+from skillc_runtime.control.virtual_arm import VirtualArm, VirtualState
+from skillc_runtime.devices.arm import ArmState, Command
+from skillc_runtime.motion.numerics.arrays import OutMatrix, OutVector, Vector
+from skillc_runtime.motion.numerics.compiled import compiled
+from skillc_runtime.motion.numerics.linear import cholesky, cholesky_solve, times, transposed_times
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.motion.reference import Compliance, Reference
+
+BRAKED = 0.9
+"""Share of what would be over the greatest speed with which a tool may yield that is taken off."""
+
+
+@dataclass(frozen=True, slots=True)
+class ForwardDynamicsMemory:
+    """What the law of one arm knows, and keeps from one control period to the next; C is the compliance frame.
+
+    dq (nv,): rad/s, of the virtual arm; task: errors along C; limits (9, nv): see `JointLimit`; rate (6,): admittance
+    over its lag, 1/kg and 1/(kg m^2); lag: s.
+    """
+
+    dq: OutVector
+    task: TaskError
+    limits: OutMatrix
+    rate: Vector
+    lag: float
+
+
+class ForwardDynamics:
+    """The law for one arm. It integrates from the last command, never from the measurement. Arrays are reused."""
+
+    def __init__(self, gains: Gains, law: ForwardDynamicsGains, limit: JointLimit, arm: VirtualArm) -> None:
+        self._limit, self._arm = limit, arm
+        self._memory = ForwardDynamicsMemory(
+            dq=np.zeros(arm.joints),
+            task=task_error_of(np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3)),
+            limits=limit.rows,
+            rate=np.repeat([law.admittance, law.rotational_admittance], 3) / law.admittance_time,
+            lag=law.admittance_time,
+        )
+        self._felt = np.zeros(6)
+
+    @property
+    def tool(self) -> Pose:
+        """Where the commanded joints put the tool centre point, in base; a copy."""
+        return self._arm.tool
+
+    @property
+    def contact_wrench(self) -> Array:
+        """The measured wrench (6,) in N and N m, base axes; a copy."""
+        return self._felt.copy()
+
+    def reset(self, state: ArmState, q: Array, dq: Array) -> None:
+        """Start from q (nv,) in rad and dq (nv,) in rad/s."""
+        self._arm.mount(state.q, state.tool)
+        self._arm.move(q)
+        self._memory.dq[:] = dq
+
+    def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Command:
+        """Return where the joints shall be, or how fast, as the limit makes it."""
+        self._felt[:] = state.wrench
+        arm, limit = self._arm, self._limit
+        arm.move(limit.q)
+        arm.weigh(self._memory.dq)
+        followed = virtual_motion(self._memory, arm.state, state.q, state.wrench, reference, compliance, period)
+        return limit.followed(followed, state)
+
+
+@compiled
+def virtual_motion(
+    memory: ForwardDynamicsMemory,
+    virtual: VirtualState,
+    measured: Vector,
+    felt: Vector,
+    reference: Reference,
+    compliance: Compliance,
+    period: float,
+) -> bool:
+    """Compute dq (nv,), slowed down as a whole where a joint would be too fast, and what is commanded.
+
+    measured (nv,): rad, the joints; felt (6,): N and N m, the wrench on the tool, base axes. Return False when the arm
+    does not follow.
+    """
+    dq, rows, axes, lag = memory.dq, memory.task.rows, memory.task.axes, memory.lag
+    task_error(memory.task, virtual.tool, reference, compliance, felt)
+    push, in_base, torque, ddq = np.empty(6), np.empty(6), np.empty(dq.size), np.empty(dq.size)
+    for i in range(6):
+        force = rows[MEASURED, i] + compliance.wrench[i] - compliance.stiffness[i] * rows[ERROR, i]
+        push[i] = memory.rate[i] * force + rows[TWIST, i] / lag + rows[ACCELERATION, i]
+    for i in range(3):
+        push[i] -= BRAKED * speed_excess(lag * push[i], compliance.fastest[i]) / lag
+    times(axes, push[:3], in_base[:3])
+    times(axes, push[3:], in_base[3:])
+    transposed_times(virtual.jacobian, in_base, torque)
+    for j in range(dq.size):
+        torque[j] -= virtual.bias[j]
+    cholesky(virtual.inertia)
+    cholesky_solve(virtual.inertia, torque, ddq)
+    keep, excess, wanted = exp(-period / lag), 1.0, torque
+    for j in range(dq.size):
+        dq[j] = keep * dq[j] + (1 - keep) * lag * ddq[j]
+        excess = max(excess, abs(dq[j] / memory.limits[FASTEST, j]))
+    for j in range(dq.size):
+        dq[j] /= excess
+        wanted[j] = memory.limits[COMMANDED, j] + period * dq[j]
+    return limit_joints(memory.limits, wanted, measured, period)

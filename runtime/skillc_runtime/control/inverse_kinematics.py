@@ -1,0 +1,67 @@
+"""Finding joint positions for a pose of the tool: damped least squares from several seeds, always the same ones."""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+
+from skillc_runtime.control.virtual_arm import VirtualArm
+from skillc_runtime.motion.pose import Array, Pose, log
+
+STEPS, SEEDS = 150, 16
+LONGEST_STEP_RAD = 0.3
+CLOSE_M, CLOSE_RAD = 1e-5, 1e-5
+PULL = 0.05
+"""Share of the way to the seed that the posture of a redundant arm goes in each step, without moving the tool."""
+
+
+def solve_inverse_kinematics(arm: VirtualArm, target: Pose, seed: Array, limits: Array) -> Array | None:
+    """Return joints (nv,) within limits (nv, 2) that put the tool at `target` in base, near `seed`; or None.
+
+    The solution from the seed itself is taken if there is one, else the nearest of those from seeds all over the range.
+    """
+    direct = _descend(arm, target, seed, seed, limits)
+    if direct is not None:
+        return direct
+    draw = np.random.default_rng(0)
+    low, high = np.maximum(limits[:, 0], seed - pi), np.minimum(limits[:, 1], seed + pi)
+    starts = [draw.uniform(low, high) for _ in range(SEEDS)]
+    found = [q for start in starts if (q := _descend(arm, target, start, seed, limits)) is not None]
+    return min(found, key=lambda q: float(np.abs(q - seed).max()), default=None)
+
+
+def _descend(arm: VirtualArm, target: Pose, start: Array, seed: Array, limits: Array) -> Array | None:
+    q = np.clip(start, limits[:, 0], limits[:, 1])
+    for _ in range(STEPS):
+        arm.move(q)
+        error = pose_error(arm.tool, target)
+        if np.abs(error[:3]).max() < CLOSE_M and np.abs(error[3:]).max() < CLOSE_RAD:
+            return _unwound(q, seed, limits)
+        step = step_towards(arm.jacobian, error, PULL * (seed - q))
+        longest = float(np.abs(step).max())
+        q = np.clip(q + step * min(1.0, LONGEST_STEP_RAD / longest), limits[:, 0], limits[:, 1])
+    return None
+
+
+def pose_error(tool: Pose, target: Pose) -> Array:
+    """Return what leads a tool to its target: way and turn (6,) in m and rad."""
+    return np.concatenate([target.position - tool.position, log(target.rotation @ tool.rotation.T)])
+
+
+def step_towards(J: Array, error: Array, pull: Array) -> Array:
+    """dq = J^T (J J^T + lam^2 I)^-1 (e - J p) + p, (nv,) in rad; lam falls with the error.
+
+    J (6, nv); e (6,): m and rad, along the same axes; p (nv,): rad, where the posture is pulled.
+    """
+    damping = 1e-9 + 1e-2 * float(error @ error)
+    gram = J @ J.T + damping * np.eye(6)
+    if J.shape[1] == 6:
+        return J.T @ np.linalg.solve(gram, error)
+    return pull + J.T @ np.linalg.solve(gram, error - J @ pull)
+
+
+def _unwound(q: Array, seed: Array, limits: Array) -> Array:
+    """Turn joints by whole turns to where they are nearest to the seed, within their range."""
+    turned = q - 2 * pi * np.round((q - seed) / (2 * pi))
+    return np.where((turned >= limits[:, 0]) & (turned <= limits[:, 1]), turned, q)

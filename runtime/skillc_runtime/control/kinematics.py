@@ -1,0 +1,91 @@
+"""Where an arm's tool gets to: forward and inverse kinematics with whatever is in its hand at the moment."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.control.feasibility import check_overlay_feasible, slow_to_feasible
+from skillc_runtime.control.inverse_kinematics import solve_inverse_kinematics
+from skillc_runtime.control.measured import NEAR_JOINT_RAD
+from skillc_runtime.control.virtual_arm import VirtualArm
+from skillc_runtime.devices.arm import ArmLimits, ArmState
+from skillc_runtime.motion.joint_path import JointPath, joint_path
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.motion.reference import Overlay, Trajectory
+
+JOINT_RAMP_S = 0.5
+"""Seconds in which a joint motion reaches its full speed."""
+
+LOOKS, CALM = 20, 0.85
+"""How often a joint motion is looked at for its tool's speed, and which share of the limit that may be."""
+
+
+class Kinematics:
+    """Kinematics in the arm's base frame; a state says where the tool centre point is on the hand."""
+
+    def __init__(self, virtual: mujoco.MjModel) -> None:
+        self._arm = VirtualArm(virtual)
+
+    def tool_at(self, q: Array, state: ArmState) -> tuple[Pose, Array]:
+        """Return the tool in base and its Jacobian (6, nv), [linear m; angular rad] per rad, at joints q (nv,) rad."""
+        self._arm.mount(state.q, state.tool)
+        self._arm.move(q)
+        return self._arm.tool, self._arm.jacobian.copy()
+
+    def feasible(self, trajectory: Trajectory, q: Array, limits: ArmLimits, state: ArmState) -> Trajectory:
+        """Return a motion in base from joints q (nv,) rad, slowed where a joint would be too fast.
+
+        Infeasible where the arm cannot follow it.
+        """
+        self._arm.mount(state.q, state.tool)
+        return slow_to_feasible(self._arm, trajectory, q, limits)
+
+    def check_overlay_feasible(self, overlay: Overlay, axes: Array, limits: ArmLimits, state: ArmState) -> None:
+        """Refuse an overlay along `axes` (3, 3) for which a joint would be too fast where the arm is: Infeasible."""
+        self._arm.mount(state.q, state.tool)
+        check_overlay_feasible(self._arm, overlay, axes, limits)
+
+    def limit_tool_speed(self, start: Array, goal: Array, speed: Array, most_m_s: float, state: ArmState) -> Array:
+        """Return joint speeds (nv,) rad/s, lowered alike, with which a joint motion keeps the tool below `most_m_s`.
+
+        start, goal (nv,): rad; speed (nv,): rad/s.
+        """
+        change, fastest = goal - start, 0.0
+        way = np.maximum(np.abs(change), 1e-12)
+        self._arm.mount(state.q, state.tool)
+        for share in np.linspace(0.0, 1.0, LOOKS):
+            self._arm.move(start + share * change)
+            fastest = max(fastest, float(np.linalg.norm(self._arm.jacobian[:3] @ change)))
+        return speed * min(1.0, CALM * most_m_s / max(fastest * float((speed / way).min()), 1e-12))
+
+    def joint_path(
+        self, postures: Sequence[Array], limits: ArmLimits, share: float, most_m_s: float, blend: float, state: ArmState
+    ) -> JointPath:
+        """Return a joint motion through postures, each (nv,) rad, at a share of joint speeds, the tool below a speed.
+
+        It passes those on the way without stopping where `blend` is above 0, to 1 at most.
+        """
+        calm = [self.limit_tool_speed(*piece, share * limits.velocity, most_m_s, state) for piece in pairwise(postures)]
+        slowest = np.min(calm, axis=0)
+        ramp = np.minimum(slowest / JOINT_RAMP_S, limits.acceleration)
+        return joint_path(postures, slowest, ramp, [blend] * (len(postures) - 2))
+
+    def tracking_error_message(self, wanted: Array, q: Array) -> str | None:
+        """Return which joint is farthest from where it shall be, and how far; None when all are near enough.
+
+        wanted, q (nv,): rad.
+        """
+        far = np.abs(wanted - q)
+        joint = int(far.argmax())
+        if far[joint] <= NEAR_JOINT_RAD:
+            return None
+        return f"{self._arm.joint_name(joint)} is {far[joint]:.3f} rad away from where it shall be"
+
+    def joints_for(self, target: Pose, seed: Array, limits: Array, state: ArmState) -> Array | None:
+        """Return joints (nv,) rad within limits (nv, 2) that put the tool at `target` in base, near `seed`; or None."""
+        self._arm.mount(state.q, state.tool)
+        return solve_inverse_kinematics(self._arm, target, seed, limits)

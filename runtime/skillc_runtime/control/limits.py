@@ -1,0 +1,168 @@
+"""The last word before a command reaches an arm: what the arm can take, whichever law asks. One of them per arm."""
+
+from __future__ import annotations
+
+from math import exp
+
+import numpy as np
+
+from skillc_runtime.control.controller import ControlError
+from skillc_runtime.devices.arm import ArmLimits, ArmState, JointPosition, JointVelocity
+from skillc_runtime.motion.numerics.arrays import OutMatrix, OutVector, Vector
+from skillc_runtime.motion.numerics.compiled import compiled, part
+from skillc_runtime.motion.pose import Array
+
+RANGE_MARGIN_RAD = 0.05
+"""Within this distance of the end of its range a joint is pushed back, at the end with a quarter of its effort."""
+
+GREATEST_LAG_RAD = 0.2
+"""An arm with servos of its own that lags behind its command by more, over all joints, is stuck."""
+
+RAMP, LOW, HIGH, SPRING, EFFORT = range(5)
+"""Rows of `TorqueLimit.rows`, one value a joint.
+
+RAMP N m: torque so far, without bias; LOW, HIGH rad: from where joints are pushed back; SPRING N m/rad: how hard;
+EFFORT N m: the greatest torque.
+"""
+
+COMMANDED, SPEED, LEAST, MOST, FASTEST, PULL, LAG, EXPECTED, DRIVEN = range(9)
+"""Rows of `JointLimit.rows`, one value a joint.
+
+COMMANDED rad, SPEED rad/s: positions and speeds commanded last; LEAST, MOST rad, FASTEST rad/s: their limits. For
+`SpeedLimit`: PULL 1/s and LAG s, as there; EXPECTED rad: where joints should be by now; DRIVEN rad/s: the
+command.
+"""
+
+
+class TorqueLimit:
+    """Limits torques in rate, range and effort; since all laws share it, changing between them makes no jump.
+
+    rows (5, nv) is what `limit_torque` knows; `rate` in N m/s holds for torques without bias.
+    """
+
+    def __init__(self, limits: ArmLimits, rate: float) -> None:
+        low, high = limits.range[:, 0] + RANGE_MARGIN_RAD, limits.range[:, 1] - RANGE_MARGIN_RAD
+        spring = limits.effort / 4 / RANGE_MARGIN_RAD
+        self.rows: Array = np.array([np.zeros_like(low), low, high, spring, limits.effort])
+        self.rate = rate
+
+    def step(self, tau: Array, state: ArmState, period: float) -> Array:
+        """Return what to command (nv,) in N m for torques without bias. A new array."""
+        tau_out = np.empty_like(tau)
+        limit_torque(tau_out, self.rows, tau, state.q, state.bias, self.rate * period)
+        return tau_out
+
+
+class JointLimit:
+    """Limits joint positions in range and speed.
+
+    Laws continue from q and dq (nv,), rad and rad/s, which were commanded last.
+    """
+
+    def __init__(self, limits: ArmLimits, q: Array) -> None:
+        still = np.zeros_like(q)
+        self.rows: Array = np.array([q, still, *limits.range.T, limits.velocity, still, still, q, still])
+        self.q: Array = self.rows[COMMANDED]
+        self.dq: Array = self.rows[SPEED]
+
+    def step(self, q: Array, state: ArmState, period: float) -> JointPosition | JointVelocity:
+        """Return what to command on the way to q (nv,) in rad for `period` s, with an array of its own.
+
+        ControlError when the arm does not follow; it is then commanded to stay where it is.
+        """
+        return self.followed(limit_joints(self.rows, q, state.q, period), state)
+
+    def followed(self, followed: bool, state: ArmState) -> JointPosition | JointVelocity:
+        """Return what `limit_joints` left to command if it found the arm to follow; else as `step`."""
+        if followed:
+            return self._command()
+        lag = np.abs(self.q - state.q).max()
+        self._stay(state)
+        raise ControlError(f"a joint is {lag:.2f} rad away from where it was commanded to be; is the arm blocked?")
+
+    def held(self, state: ArmState) -> Array:
+        """Return the joints (nv,) in rad at which the arm holds still when it is to do so at once."""
+        return self.q
+
+    def _command(self) -> JointPosition | JointVelocity:
+        return JointPosition(self.q.copy())
+
+    def _stay(self, state: ArmState) -> None:
+        self.q[:], self.dq[:] = state.q, 0.0
+
+
+class SpeedLimit(JointLimit):
+    """The same for an arm that takes speeds: dq = dq_c + pull (q_expected - q), so that no error of them adds up.
+
+    Joints are expected to follow `lag` s late, lag dq_expected + q_expected = q_c, as commanded; that is no error.
+    None is commanded to be faster than it may, nor to leave its range within a period. pull: 1/s.
+    """
+
+    def __init__(self, limits: ArmLimits, q: Array, pull: float, lag: float) -> None:
+        super().__init__(limits, q)
+        self.rows[PULL], self.rows[LAG] = pull, lag
+
+    def held(self, state: ArmState) -> Array:
+        """Return where the joints come to rest, (nv,) in rad: a pull to others would press ever harder."""
+        self._stay(state)
+        return self.q
+
+    def _command(self) -> JointPosition | JointVelocity:
+        return JointVelocity(self.rows[DRIVEN].copy())
+
+    def _stay(self, state: ArmState) -> None:
+        self.q[:], self.dq[:] = state.q + self.rows[LAG] * state.dq, 0.0
+        self.rows[EXPECTED] = state.q
+
+
+@part
+def _within(x: float, least: float, most: float) -> float:
+    """Return what is nearest to x between two limits; what is no number stays none."""
+    if x < least:
+        return least
+    return most if x > most else x
+
+
+@compiled
+def limit_torque(tau_out: OutVector, rows: OutMatrix, tau: Vector, q: Vector, bias: Vector, longest: float) -> None:
+    """Let the ramp follow tau (nv,) by steps of at most `longest`; add the bias and what pushes joints back into range.
+
+    tau_out, tau, bias (nv,), longest: N m; q (nv,): rad; rows: see `TorqueLimit`.
+    """
+    for j in range(tau_out.size):
+        rows[RAMP, j] += _within(tau[j] - rows[RAMP, j], -longest, longest)
+        back = rows[SPRING, j] * (_within(q[j], rows[LOW, j], rows[HIGH, j]) - q[j])
+        tau_out[j] = _within(rows[RAMP, j] + back + bias[j], -rows[EFFORT, j], rows[EFFORT, j])
+
+
+@compiled
+def limit_joints(rows: OutMatrix, q: Vector, measured: Vector, period: float) -> bool:
+    """Let what is commanded follow q (nv,) in rad within limits, for the next `period` s; rows: see `JointLimit`.
+
+    Return False, and do nothing, when the arm, whose joints are `measured`, is too far.
+    """
+    square = 0.0
+    for j in range(q.size):
+        lag = rows[COMMANDED, j] - measured[j]
+        square += lag * lag
+    if square > GREATEST_LAG_RAD * GREATEST_LAG_RAD:
+        return False
+    for j in range(q.size):
+        before, longest = rows[COMMANDED, j], rows[FASTEST, j] * period
+        wanted = before + _within(q[j] - before, -longest, longest)
+        rows[COMMANDED, j] = _within(wanted, rows[LEAST, j], rows[MOST, j])
+        rows[SPEED, j] = (rows[COMMANDED, j] - before) / period
+    if rows[PULL, 0] > 0.0:
+        _drive(rows, measured, period)
+    return True
+
+
+@part
+def _drive(rows: Array, measured: Array, period: float) -> None:
+    """Compute the speeds that lead joints along what is commanded until the end of the period."""
+    for j in range(measured.size):
+        wanted, fastest = rows[SPEED, j] + rows[PULL, j] * (rows[EXPECTED, j] - measured[j]), rows[FASTEST, j]
+        least, most = (rows[LEAST, j] - measured[j]) / period, (rows[MOST, j] - measured[j]) / period
+        rows[DRIVEN, j] = _within(_within(wanted, -fastest, fastest), min(least, 0.0), max(most, 0.0))
+        share = 1.0 - exp(-period / max(rows[LAG, j], 1e-9))
+        rows[EXPECTED, j] += share * (rows[COMMANDED, j] - rows[SPEED, j] * period / 2 - rows[EXPECTED, j])

@@ -1,0 +1,68 @@
+"""What an arm measured last, as the world sees it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from skillc_runtime.devices.arm import ArmState
+from skillc_runtime.motion.pose import Array, Pose
+
+NEAR_JOINT_RAD = 0.02
+"""How far a joint may be from its reference to count as there."""
+
+STILL_RAD_S = 0.03
+"""Joints slower than this rest; the noise of a force sensor alone moves those of a compliant arm with 0.02 rad/s."""
+
+
+class MeasuredArm:
+    """The last state of an arm, implementing `ArmMeasurements`: world axes, SI units, arrays that are copies.
+
+    `base` returns where the arm stands in the world; `contact_wrench` what the environment does to the tool (6,), N and
+    N m, in the arm's base axes. `state` is the measurement itself, in base: it is set once a control period.
+    """
+
+    def __init__(self, base: Callable[[], Pose], contact_wrench: Callable[[], Array], state: ArmState) -> None:
+        self.base, self.state = base, state
+        self._contact_wrench = contact_wrench
+
+    @property
+    def pose(self) -> Pose:
+        """The tool centre point in the world."""
+        return self.base() @ self.state.tool
+
+    @property
+    def velocity(self) -> Array:
+        """The twist (6,) of the tool, [linear m/s; angular rad/s], world axes."""
+        return self._in_world(self.state.jacobian @ self.state.dq)
+
+    @property
+    def wrench(self) -> Array:
+        """What the environment does to the tool (6,), N and N m, world axes; measured at the wrist, else estimated."""
+        return self._in_world(self._contact_wrench())
+
+    @property
+    def q(self) -> Array:
+        """The joints (nv,) in rad."""
+        return self.state.q.copy()
+
+    @property
+    def still(self) -> bool:
+        """Whether no joint moves."""
+        return bool(np.abs(self.state.dq).max() < STILL_RAD_S)
+
+    def at_joints(self, q: Array) -> bool:
+        """Tell whether the joints are at q (nv,) in rad."""
+        return bool(np.abs(self.state.q - q).max() < NEAR_JOINT_RAD)
+
+    def in_world(self, point: Array) -> Array:
+        """Return a point (3,) in m of the arm's base frame in the world."""
+        return self.base().at(point)
+
+    def in_base(self, direction: Array) -> Array:
+        """Return a direction (3,) of the world in the arm's base axes."""
+        return self.base().rotation.T @ direction
+
+    def _in_world(self, vector: Array) -> Array:
+        return (vector.reshape(2, 3) @ self.base().rotation.T).ravel()

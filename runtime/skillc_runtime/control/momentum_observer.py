@@ -1,0 +1,86 @@
+"""What a torque-controlled arm without a sensor at its wrist feels: the momentum that its torques do not explain.
+
+r = (M (dq_1 - dq_0) - int (tau - bias) dt) / T over short windows, low-passed; W = (J J^T + lam^2 I)^-1 J r.
+De Luca et al. 2006, with the mass matrix taken as constant within a window.
+"""
+
+from __future__ import annotations
+
+from math import exp
+
+import numpy as np
+
+from skillc_runtime.devices.arm import ArmState
+from skillc_runtime.motion.numerics.arrays import Matrix, OutVector, Vector
+from skillc_runtime.motion.numerics.compiled import compiled
+from skillc_runtime.motion.numerics.linear import cholesky, cholesky_solve, product, times
+from skillc_runtime.motion.pose import Array
+
+WINDOW_S = 0.01
+"""How long momentum is gathered before it is compared."""
+
+LAG_S = 0.01
+"""Time constant of the low-pass on the comparison."""
+
+DAMPING = 1e-3
+"""lam^2: near a singularity a force along the lost direction is felt less, instead of noise being felt as force."""
+
+
+class MomentumObserver:
+    """Estimates the wrench of the environment on the tool from what one arm was commanded and how it moved."""
+
+    def __init__(self, state: ArmState) -> None:
+        joints = state.q.size
+        self._dq, self._impulse, self._torque = state.dq.copy(), np.zeros(joints), np.zeros(joints)
+        self._wrench = np.zeros(6)
+        self._elapsed = 0.0
+
+    def add_command(self, tau: Array, bias: Array, period: float) -> None:
+        """Take in the joint torques (nv,) in N m, bias included, that hold for the next `period` s, and the bias."""
+        gather(self._impulse, tau, bias, period)
+
+    def step(self, state: ArmState, period: float) -> None:
+        """Take in what was measured at the end of a period of `period` s."""
+        self._elapsed += period
+        if self._elapsed > WINDOW_S - period / 2:
+            share = 1 - exp(-self._elapsed / LAG_S)
+            compare(self._torque, self._impulse, self._dq, state.dq, state.mass_matrix, self._elapsed, share)
+            self._elapsed = 0.0
+
+    def wrench(self, state: ArmState) -> Array:
+        """Return the wrench (6,) in N and N m, base axes, at the tool; the array is reused."""
+        felt_wrench(self._wrench, self._torque, state.jacobian)
+        return self._wrench
+
+
+@compiled
+def gather(impulse: OutVector, tau: Vector, bias: Vector, period: float) -> None:
+    """Add to the impulse (nv,) what tau gives beside the bias of the period's start."""
+    for j in range(impulse.size):
+        impulse[j] += (tau[j] - bias[j]) * period
+
+
+@compiled
+def compare(
+    torque: OutVector, impulse: OutVector, dq: OutVector, dq_now: Vector, mass: Matrix, elapsed: float, share: float
+) -> None:
+    """Let the torque (nv,) of the surroundings follow M (dq_now - dq) - impulse per s; begin a new window."""
+    faster, gained = np.empty(torque.size), np.empty(torque.size)
+    for j in range(torque.size):
+        faster[j] = dq_now[j] - dq[j]
+    times(mass, faster, gained)
+    for j in range(torque.size):
+        torque[j] += share * ((gained[j] - impulse[j]) / elapsed - torque[j])
+        dq[j], impulse[j] = dq_now[j], 0.0
+
+
+@compiled
+def felt_wrench(wrench: OutVector, torque: Vector, J: Matrix) -> None:
+    """wrench (6,) = (J J^T + lam^2 I)^-1 J torque."""
+    gram, force = np.empty((6, 6)), np.empty(6)
+    product(J, J.T, gram)
+    for i in range(6):
+        gram[i, i] += DAMPING
+    cholesky(gram)
+    times(J, torque, force)
+    cholesky_solve(gram, force, wrench)

@@ -1,0 +1,134 @@
+"""Moving the tool or the joints of one arm, for skills."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from skillc_runtime.control.arm_task import ArmTask
+from skillc_runtime.motion.joint import JointTrajectory
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
+
+
+class MotionControl:
+    """Implements `MotionInterface` for an arm whose joint motions keep the tool below a speed in m/s.
+
+    A new motion starts where the one before it comes to rest, never at the measured pose.
+    """
+
+    def __init__(self, task: ArmTask, tool_speed_m_s: float) -> None:
+        self._task, self._tool_speed_m_s = task, tool_speed_m_s
+
+    @property
+    def reference(self) -> Reference:
+        """Where the tool shall be, in the world, as of the last control period."""
+        task = self._task
+        if task.joints is None:
+            return task.tool.reference.moved(task.base())
+        reference = task.joints.sample(task.now)
+        tool, jacobian = task.kinematics.tool_at(reference.q, task.measured.state)
+        return Reference.of(tool, jacobian @ reference.dq, jacobian @ reference.ddq).moved(task.base())
+
+    @property
+    def path(self) -> Reference:
+        """The same without overlays."""
+        task = self._task
+        return task.tool.reference_generator.path.moved(task.base()) if task.joints is None else self.reference
+
+    @property
+    def done(self) -> bool:
+        """Whether the reference rests, overlays aside."""
+        task = self._task
+        return (task.joints or task.tool.reference_generator).done(task.now)
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether the reference rests and no overlay is left."""
+        task = self._task
+        return (task.joints or task.tool.reference_generator).at_rest(task.now)
+
+    @property
+    def tracking_error_message(self) -> str | None:
+        """How far the arm is from its reference along what it is to hold, in words; None when near enough."""
+        task = self._task
+        if task.joints is not None:
+            return task.kinematics.tracking_error_message(task.joints.sample(task.now).q, task.measured.state.q)
+        return task.tool.tracking_error_message(task.measured.state, task.now)
+
+    def stopping_pose(self) -> Pose:
+        """Return where a new motion of the tool starts, in the world: where its reference rests when stopped now.
+
+        An arm that moves its joints moves its tool from now on.
+        """
+        tool = self._task.move_tool()
+        return self._task.base() @ tool.reference_generator.stopping_pose(self._task.now)
+
+    def stopping_joints(self) -> Array:
+        """Return where a new motion of the joints starts, (nv,) in rad; asking changes nothing."""
+        return (self._task.joints or self._task.joints_as_they_move()).stopping_joints(self._task.now)
+
+    def move_along(self, trajectory: Trajectory) -> None:
+        """Move the tool along a trajectory in the world, more slowly where a joint would be too fast.
+
+        ValueError where it does not start at `stopping_pose`; Infeasible where the arm cannot follow.
+        """
+        task, tool = self._task, self._task.move_tool()
+        state = task.measured.state
+        q, local = task.controllers.joints_now(state), trajectory.moved(task.base().inverse())
+        tool.reference_generator.follow(task.kinematics.feasible(local, q, task.limits, state), task.now)
+
+    def joint_motion(self, way: Sequence[Array], share: float, blend: float = 0.0) -> JointTrajectory:
+        """Return the motion of the joints from where they come to rest through all of `way`, each (nv,) in rad.
+
+        share: of their greatest speeds, above 0 to 1, less where the tool would be too fast. Postures on the way are
+        passed without a stop if `blend` > 0, to 1 at most.
+        """
+        task = self._task
+        postures, speeds = (self.stopping_joints(), *way), (share, self._tool_speed_m_s)
+        return task.kinematics.joint_path(postures, task.limits, *speeds, blend, task.measured.state)
+
+    def move_joints(self, goal: Array, share: float) -> None:
+        """Move the joints to `goal` (nv,) in rad; `share` as for `joint_motion`."""
+        self.follow_joints(self.joint_motion((goal,), share))
+
+    def follow_joints(self, motion: JointTrajectory) -> None:
+        """Move the joints along a motion, which must start at `stopping_joints`, else ValueError."""
+        self._task.move_joints().follow(motion, self._task.now)
+
+    def stop(self) -> None:
+        """Come to rest within the acceleration limit; compliance, push and overlays stay."""
+        self._task.stop()
+
+    def hold_position(self) -> None:
+        """Come to rest and hold the tool from now on, with springs on a compliant arm."""
+        self._task.move_tool().reference_generator.stop(self._task.now)
+
+    def pause(self) -> None:
+        """Slow down to a standstill on the way."""
+        (self._task.joints or self._task.tool.reference_generator).pause(self._task.now)
+
+    def resume(self) -> None:
+        """Go on where `pause` stopped."""
+        (self._task.joints or self._task.tool.reference_generator).resume(self._task.now)
+
+    def add_overlay(self, overlay: Overlay, axes: Array, fade: float) -> int:
+        """Add a motion along `axes` (3, 3), columns in the world, to whatever the tool does; return its handle.
+
+        It grows for `fade` s. Infeasible where a joint would be too fast.
+        """
+        task, tool = self._task, self._task.move_tool()
+        in_base = task.base().rotation.T @ axes
+        task.kinematics.check_overlay_feasible(overlay, in_base, task.limits, task.measured.state)
+        return tool.reference_generator.add(overlay, in_base, fade, task.now)
+
+    def remove_overlay(self, handle: int) -> None:
+        """Let an overlay fade out."""
+        self._task.tool.reference_generator.remove(handle, self._task.now)
+
+    def inverse_kinematics(self, target: Pose, seed: Array) -> Array | None:
+        """Return joints (nv,) in rad, within limits, that put the tool at a pose of the world; None if there are none.
+
+        They are near `seed` (nv,).
+        """
+        task = self._task
+        return task.kinematics.joints_for(task.base().inverse() @ target, seed, task.limits.range, task.measured.state)

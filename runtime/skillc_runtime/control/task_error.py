@@ -1,0 +1,82 @@
+"""The error of the tool in the compliance frame, as all laws need it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import sqrt
+
+import numpy as np
+
+from skillc_runtime.motion.numerics.arrays import OutMatrix
+from skillc_runtime.motion.numerics.compiled import part
+from skillc_runtime.motion.numerics.linear import product, rotation_between
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.motion.reference import Compliance, Reference
+
+CLAMP_M, CLAMP_RAD = 0.05, 0.3
+"""Greatest error that a spring sees, so that a wrong goal cannot produce an unbounded force."""
+
+ERROR, TWIST, ACCELERATION, MEASURED, HELD, SOFTNESS, EXERTED, DAMPING, BRAKING = range(9)
+"""Rows of `TaskError.rows`."""
+
+
+@dataclass(frozen=True, slots=True)
+class TaskError:
+    """What `task_error` computes, and what laws make of it, along the axes of the compliance frame C.
+
+    axes (3, 3): C in base. rows (9, 6), each [linear; angular]: ERROR, tool minus reference, m and rad, clamped in
+    length; TWIST, m/s and rad/s, and ACCELERATION, per s, of the reference; MEASURED: the velocity of the tool, m/s and
+    rad/s, or the wrench on it, N and N m, whichever a law gives; HELD: 1 for a stiff axis, 0 for a released one,
+    between below a tenth of the full stiffness; SOFTNESS: ten times the inverse of the full stiffness, m/N and
+    rad/(N m). For the impedance law: EXERTED, N and N m; DAMPING and BRAKING, N s/m and N m s/rad.
+
+    One block of rows is one argument: what a compiled call costs beside its work grows with their number.
+    """
+
+    axes: OutMatrix
+    rows: OutMatrix
+
+
+def task_error_of(stiffness: Array) -> TaskError:
+    """Return room for the errors of an arm whose axes have `stiffness` (6,), N/m and N m/rad, when unreleased."""
+    task = TaskError(np.eye(3), np.zeros((9, 6)))
+    task.rows[SOFTNESS] = 10 / stiffness
+    return task
+
+
+@part
+def task_error(task: TaskError, tool: Pose, reference: Reference, compliance: Compliance, measured: Array) -> None:
+    """Compute axes and the first five rows of `task`; measured (6,) and tool in base.
+
+    HELD scales the first three rows, since a released axis follows no reference.
+    """
+    rows, axes, rotation, in_base = task.rows, task.axes, reference.rows[1:4], np.empty((8, 3))
+    product(rotation, compliance.frame, axes)
+    rotation_between(rotation, tool.rotation, in_base[1])
+    for i in range(3):
+        in_base[0, i] = tool.position[i] - reference.rows[0, i]
+        for row in range(4):
+            in_base[2 + row, i] = reference.rows[4 + row, i]
+        in_base[6, i], in_base[7, i] = measured[i], measured[3 + i]
+    product(in_base, axes, rows[:4].reshape(8, 3))
+    for i in range(6):
+        rows[HELD, i] = min(compliance.stiffness[i] * rows[SOFTNESS, i], 1.0)
+        for row in range(3):
+            rows[row, i] *= rows[HELD, i]
+    shorten(rows[ERROR, :3], CLAMP_M)
+    shorten(rows[ERROR, 3:], CLAMP_RAD)
+
+
+@part
+def shorten(vector: Array, longest: float) -> None:
+    """Shorten a vector (3,) in place to a length."""
+    square = vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]
+    if square > longest * longest:
+        vector *= longest / sqrt(square)
+
+
+@part
+def speed_excess(velocity: float, fastest: float) -> float:
+    """Return by how much a velocity is over the greatest one, both in m/s, whose sign says which way that holds."""
+    excess = velocity - fastest
+    return excess if excess * fastest > 0 else 0.0

@@ -1,0 +1,79 @@
+"""Where the joints shall be now: a joint motion and what is left of the one before it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from skillc_runtime.motion.joint import JointReference, JointTrajectory
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.motion.stopping_motion import stopping_motion
+from skillc_runtime.motion.time_scaling import TimeScaling
+
+
+class JointReferenceGenerator:
+    """The reference of one arm's joints; it stops with `deceleration` rad/s^2 of the fastest joint."""
+
+    def __init__(self, q: Array, dq: Array, deceleration: float, now: float) -> None:
+        """Come to rest from joint positions and speeds (nv,)."""
+        self._deceleration = deceleration
+        self._restart_from(q, dq, now)
+
+    def _restart_from(self, q: Array, dq: Array, now: float) -> None:
+        self._time = TimeScaling(since=now)
+        self._stopping = stopping_motion(dq, self._deceleration)
+        self._rest = _at_rest(q + self._stopping.way)
+        self._motion: JointTrajectory | None = None
+        self._ends = self._stopping.duration
+
+    def follow(self, motion: JointTrajectory, now: float) -> None:
+        """Follow a motion from now on; it must start at `stopping_joints`, else ValueError."""
+        far = float(np.abs(motion.start - self.stopping_joints(now)).max())
+        if far > 1e-3:
+            raise ValueError(f"a motion must start where the last one ends; this one starts {far:.3f} rad beside it")
+        self.stop(now)
+        self._motion = motion
+        self._ends = max(self._ends, motion.duration)
+        self._rest = _at_rest(motion.end)
+
+    def stop(self, now: float) -> None:
+        """Give up the motion and come to rest."""
+        present = self.sample(now)
+        self._restart_from(present.q, present.dq, now)
+
+    def stopping_joints(self, now: float) -> Array:
+        """Return the joints (nv,) where the reference rests if it is stopped now."""
+        present = self.sample(now)
+        return present.q + stopping_motion(present.dq, self._deceleration).way
+
+    def done(self, now: float) -> bool:
+        """Tell whether the motion has run out and nothing is left of the one before it."""
+        return self._time.at(now)[0] >= self._ends
+
+    def at_rest(self, now: float) -> bool:
+        """Tell whether the reference stands still."""
+        return self.done(now)
+
+    def pause(self, now: float) -> None:
+        """Slow down to a standstill where the motion leads."""
+        self._time = self._time.towards(0.0, now)
+
+    def resume(self, now: float) -> None:
+        """Go on where `pause` stopped."""
+        self._time = self._time.towards(1.0, now)
+
+    def sample(self, now: float) -> JointReference:
+        """Return the reference."""
+        time, rate, slope = self._time.at(now)
+        if time >= self._ends:
+            return self._rest
+        motion = self._motion.at(time) if self._motion else self._rest
+        if time < self._stopping.duration:
+            q, dq, ddq = self._stopping.at(time)
+            motion = JointReference(motion.q + q, motion.dq + dq, motion.ddq + ddq)
+        if rate == 1.0:
+            return motion
+        return JointReference(motion.q, rate * motion.dq, rate * rate * motion.ddq + slope * motion.dq)
+
+
+def _at_rest(q: Array) -> JointReference:
+    return JointReference(q, np.zeros_like(q), np.zeros_like(q))

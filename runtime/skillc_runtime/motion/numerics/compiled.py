@@ -1,0 +1,184 @@
+"""Compiles functions over arrays where numba is installed (the extra `fast`); elsewhere they run as they are.
+
+Each is compiled when it is first called, or when another that calls it is compiled. Loops over numbers compile fast;
+an expression over arrays costs ten times as much, a slice that is assigned to half a second. The machine code is kept
+in the user's cache folder, named after the sources it was made of.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections import namedtuple
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import fields, is_dataclass
+from functools import cache
+from hashlib import sha256
+from importlib import import_module
+from importlib.util import find_spec
+from inspect import get_annotations, isfunction
+from pathlib import Path
+from typing import Any, ParamSpec, TypeVar, get_args, get_origin, get_type_hints
+
+from skillc_runtime.cache_folder import cache_folder
+
+Parameters = ParamSpec("Parameters")
+Result = TypeVar("Result")
+
+COMPILES: bool = os.environ.get("SKILLC_COMPILED", "1") != "0" and find_spec("numba") is not None
+"""Whether functions are compiled; SKILLC_COMPILED=0 in the environment leaves them as they are."""
+
+
+def compiled(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
+    """Compile a function for the types of its annotations: those of `arrays`, numbers, bool, and tuples as a result.
+
+    It may take dataclasses with fields of these types and of such dataclasses, which it only reads: what an array in a
+    field holds may be written. One that does is called from Python only. Functions it calls are `compiled` or `part`
+    themselves.
+    """
+    if not COMPILES:
+        return function
+    if any(is_dataclass(annotation) for annotation in get_annotations(function, eval_str=True).values()):
+        return _unpacking(function)
+    return _compiled_lazily(function)
+
+
+def _compiled_lazily(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
+    made: Any = import_module("numba").njit(error_model="numpy", no_cfunc_wrapper=True)(function)
+    compile_for = made.compile
+
+    def compile_once(_first_call: object) -> object:
+        """Compile for the annotated types, whatever those of the first call, and for no others."""
+        types = get_annotations(function, eval_str=True)
+        returns = _type(types.pop("return"))
+        with _lock(), _our_settings() as kept:
+            if made.overloads:
+                return made.overloads[tuple(map(_type, types.values()))].entry_point
+            if kept:
+                made.enable_caching()
+            machine_code = compile_for(returns(*map(_type, types.values())))
+            made.disable_compile()
+        return machine_code
+
+    made.compile = compile_once
+    lazy: Callable[Parameters, Result] = made
+    return lazy
+
+
+def part(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
+    """Let compiled functions call this one, compiled with them for whatever they pass; elsewhere it stays as it is."""
+    if not COMPILES:
+        return function
+    callable_inside = import_module("numba.extending").register_jitable(
+        error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True
+    )
+    made: Callable[Parameters, Result] = callable_inside(function)
+    return made
+
+
+def _unpacking(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
+    """Return what calls a compiled function with the fields of its dataclasses, one by one.
+
+    Numba takes named tuples, but only of arrays of one layout and all writable, or none; single arrays it converts.
+    """
+    annotations = get_annotations(function, eval_str=True)
+    returns = annotations.pop("return")
+    leaves: dict[str, Any] = {}
+    names: dict[str, Any] = {"function": part(function), "__name__": function.__module__}
+    packed = [_packed(function, annotation, name, leaves, names) for name, annotation in annotations.items()]
+    flat = {path.replace(".", "__"): annotation for path, annotation in leaves.items()}
+    source = (
+        f"def flat({', '.join(flat)}):\n    return function({', '.join(packed)})\n"
+        f"def call({', '.join(annotations)}):\n    return flat({', '.join(leaves)})\n"
+    )
+    exec(compile(source, function.__code__.co_filename, "exec"), names)
+    names["flat"].__qualname__ = f"{function.__qualname__}_flat"
+    names["flat"].__annotations__ = {**flat, "return": returns}
+    names["flat"] = _compiled_lazily(names["flat"])
+    call: Callable[Parameters, Result] = names["call"]
+    call.__doc__, call.__name__ = function.__doc__, function.__name__
+    return call
+
+
+@cache
+def _names_in(function: Any) -> set[str]:
+    """Return the names of what a function, and those it calls, read from elsewhere: fields among them."""
+    found = set(function.__code__.co_names)
+    called = (inner for name in found if isfunction(inner := function.__globals__.get(name)))
+    return found.union(*map(_names_in, called))
+
+
+def _packed(function: Any, annotation: Any, path: str, leaves: dict[str, Any], names: dict[str, Any]) -> str:
+    """Return the expression that makes a parameter of single values; add these, and what makes it, to the last two.
+
+    A field whose name the function does not use is left out: every value that is passed costs time.
+    """
+    if not is_dataclass(annotation):
+        leaves[path] = annotation
+        return path.replace(".", "__")
+    assert isinstance(annotation, type)
+    hints = get_type_hints(annotation, include_extras=True)
+    parts = [(field.name, hints[field.name]) for field in fields(annotation) if field.name in _names_in(function)]
+    # Numba tells named tuples apart by their names and the types of their fields alone, so no two may share a name.
+    kind = f"{function.__module__}_{function.__name__}_{annotation.__name__}".replace(".", "_")
+    names[kind] = namedtuple(kind, [name for name, _ in parts])
+    inside = (_packed(function, hint, f"{path}.{each}", leaves, names) for each, hint in parts)
+    return f"{kind}({', '.join(inside)})"
+
+
+def _type(annotation: Any) -> Any:
+    """Return numba's type for an annotation."""
+    types = import_module("numba").types
+    if annotation in (float, int, bool, None):
+        return {float: types.float64, int: types.int64, bool: types.boolean, None: types.void}[annotation]
+    if get_origin(annotation) is tuple:
+        return types.Tuple([_type(each) for each in get_args(annotation)])
+    dimensions, access = annotation.__metadata__
+    return types.Array(types.float64, dimensions, *(("A", True) if access == "read" else ("C", False)))
+
+
+def _lock() -> AbstractContextManager[object]:
+    """Return what numba holds while it compiles, so that threads never wait for each other in turn."""
+    lock: AbstractContextManager[object] = import_module("numba.core.compiler_lock").global_compiler_lock
+    return lock
+
+
+@contextmanager
+def _our_settings() -> Iterator[bool]:
+    """Let numba keep what it compiles in our folder, and tell if there is one; its settings are put back afterwards.
+
+    Loops over three to seven numbers gain nothing from what numba does for long ones but take longer to compile.
+    """
+    config: Any = import_module("numba").config
+    ours = {"CACHE_DIR": _folder(), "OPT": 1, "LOOP_VECTORIZE": 0}
+    before = {name: getattr(config, name) for name in ours}
+    try:
+        vars(config).update(ours)
+        yield config.CACHE_DIR != ""
+    finally:
+        vars(config).update(before)
+
+
+@cache
+def _folder() -> str:
+    """Return where machine code is kept, empty where nothing can be; say so when it has to be made first."""
+    base = cache_folder()
+    if base is None:
+        return ""
+    folder = base / f"laws-{_digest()}"
+    new = not folder.is_dir()
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    except OSError:
+        return ""
+    if new:
+        print("compiling the control laws, once for this version", file=sys.stderr)
+    return str(folder) if os.access(folder, os.W_OK) else ""
+
+
+def _digest() -> str:
+    """Return a name for the sources of whatever may be compiled: numba itself looks at one file at a time."""
+    runtime = Path(__file__).parents[2]
+    sources = sorted(path for path in runtime.rglob("*.py") if b"motion.numerics" in path.read_bytes())
+    return sha256(b"\0".join(path.read_bytes() for path in sources)).hexdigest()[:16]

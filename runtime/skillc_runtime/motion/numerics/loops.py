@@ -1,0 +1,147 @@
+"""Linear algebra of small matrices in loops to be compiled; `libraries` says what each function does."""
+
+from __future__ import annotations
+
+from math import atan2, hypot, sin, sqrt
+
+from skillc_runtime.motion.numerics.compiled import part
+from skillc_runtime.motion.pose import Array
+
+
+@part
+def times(A: Array, x: Array, out: Array) -> None:
+    """out (m,) = A (m, n) x (n,)."""
+    for i in range(A.shape[0]):
+        total = 0.0
+        for j in range(A.shape[1]):
+            total += A[i, j] * x[j]
+        out[i] = total
+
+
+@part
+def transposed_times(A: Array, x: Array, out: Array) -> None:
+    """out (n,) = A^T x for A (m, n) and x (m,)."""
+    for j in range(A.shape[1]):
+        total = 0.0
+        for i in range(A.shape[0]):
+            total += A[i, j] * x[i]
+        out[j] = total
+
+
+@part
+def product(A: Array, B: Array, out: Array) -> None:
+    """out (m, n) = A (m, k) B (k, n)."""
+    for i in range(A.shape[0]):
+        for j in range(B.shape[1]):
+            total = 0.0
+            for k in range(A.shape[1]):
+                total += A[i, k] * B[k, j]
+            out[i, j] = total
+
+
+@part
+def cross(a: Array, b: Array, out: Array) -> None:
+    """out (3,) = a x b."""
+    out[0] = a[1] * b[2] - a[2] * b[1]
+    out[1] = a[2] * b[0] - a[0] * b[2]
+    out[2] = a[0] * b[1] - a[1] * b[0]
+
+
+@part
+def cholesky(A: Array) -> None:
+    """Turn A (n, n), symmetric and positive, into its lower factor L with A = L L^T; what is above stays."""
+    for j in range(A.shape[0]):
+        left = A[j, j]
+        for k in range(j):
+            left -= A[j, k] * A[j, k]
+        A[j, j] = sqrt(max(left, 0.0))
+        for i in range(j + 1, A.shape[0]):
+            left = A[i, j]
+            for k in range(j):
+                left -= A[i, k] * A[j, k]
+            A[i, j] = left / A[j, j]
+
+
+@part
+def cholesky_solve(L: Array, b: Array, out: Array) -> None:
+    """Solve L L^T out = b for b (n,)."""
+    n = L.shape[0]
+    for i in range(n):
+        left = b[i]
+        for k in range(i):
+            left -= L[i, k] * out[k]
+        out[i] = left / L[i, i]
+    for i in range(n - 1, -1, -1):
+        left = out[i]
+        for k in range(i + 1, n):
+            left -= L[k, i] * out[k]
+        out[i] = left / L[i, i]
+
+
+@part
+def rotation_by(vector: Array, out: Array) -> None:
+    """out (3, 3) = the rotation about a vector (3,) in rad. Rodrigues' formula; see `motion.pose`."""
+    x, y, z = vector[0], vector[1], vector[2]
+    angle = sqrt(x * x + y * y + z * z)
+    s, c = 1.0, 0.0
+    if angle >= 1e-12:
+        s, c = sin(angle) / angle, 2 * (sin(angle / 2) / angle) ** 2
+    out[0, 0], out[0, 1], out[0, 2] = 1 - c * (y * y + z * z), c * x * y - s * z, c * x * z + s * y
+    out[1, 0], out[1, 1], out[1, 2] = c * x * y + s * z, 1 - c * (x * x + z * z), c * y * z - s * x
+    out[2, 0], out[2, 1], out[2, 2] = c * x * z - s * y, c * y * z + s * x, 1 - c * (x * x + y * y)
+
+
+@part
+def rotation_between(start: Array, end: Array, out: Array) -> None:
+    """out (3,) = log(end start^T). Shepperd's quaternion, its signs such that w >= 0; see `motion.pose`."""
+    a, b, c = _row(end, start, 0)
+    d, e, f = _row(end, start, 1)
+    g, h, i = _row(end, start, 2)
+    ww, xx, yy, zz = 1 + a + e + i, 1 + a - e - i, 1 - a + e - i, 1 - a - e + i
+    most = max(ww, xx, yy, zz)
+    if most == ww:
+        w, x, y, z = ww, h - f, c - g, d - b
+    elif most == xx:
+        w, x, y, z = h - f, xx, b + d, c + g
+    elif most == yy:
+        w, x, y, z = c - g, b + d, yy, f + h
+    else:
+        w, x, y, z = d - b, c + g, f + h, zz
+    sine = sqrt(x * x + y * y + z * z)
+    scale = 2 * atan2(sine, abs(w)) / sine if sine > 0.0 else 0.0
+    if w < 0.0:
+        scale = -scale
+    out[0], out[1], out[2] = scale * x, scale * y, scale * z
+
+
+@part
+def _row(end: Array, start: Array, i: int) -> tuple[float, float, float]:
+    """Return a row of end start^T."""
+    return (
+        end[i, 0] * start[0, 0] + end[i, 1] * start[0, 1] + end[i, 2] * start[0, 2],
+        end[i, 0] * start[1, 0] + end[i, 1] * start[1, 1] + end[i, 2] * start[1, 2],
+        end[i, 0] * start[2, 0] + end[i, 1] * start[2, 1] + end[i, 2] * start[2, 2],
+    )
+
+
+@part
+def add_under(
+    grid: Array, x: Array, y: Array, middle: Array, axes: Array, size: Array, amount: float, near: float
+) -> None:
+    """Add to the points of a grid (m, n), rows y (m,) and columns x (n,), that a rectangle reaches; in m.
+
+    The grid lies in the plane z = 0. The rectangle has its middle (3,) and a size (2,) along the first columns of axes
+    (3, 3), all in the grid's frame; it may reach to `near` above the plane.
+    """
+    reach = hypot(size[0], size[1]) / 2
+    for row in range(y.size):
+        dy = y[row] - middle[1]
+        if abs(dy) > reach:
+            continue
+        for column in range(x.size):
+            dx = x[column] - middle[0]
+            along, across = axes[0, 0] * dx + axes[1, 0] * dy, axes[0, 1] * dx + axes[1, 1] * dy
+            height = middle[2] + axes[2, 0] * along + axes[2, 1] * across
+            inside = abs(dx) <= reach and abs(along) <= size[0] / 2 and abs(across) <= size[1] / 2
+            if inside and height <= near:
+                grid[row, column] += amount

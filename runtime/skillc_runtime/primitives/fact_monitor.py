@@ -1,0 +1,115 @@
+"""Compares what devices report with what the world model says: a fact that a device contradicts is withdrawn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from skillc_runtime.devices.cell import Cell
+from skillc_runtime.devices.gripper import Gripper
+from skillc_runtime.world.changes import RemoveRelation
+from skillc_runtime.world.evidence import Established
+from skillc_runtime.world.facts import Related
+from skillc_runtime.world.frames import FrameError, pose
+from skillc_runtime.world.labelled import format_fact, label_fact
+from skillc_runtime.world.sheet import SheetError, number, sheet_of
+from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.terms import ARRIVAL_TOLERANCE, AT, CONTAIN, END_EFFECTOR, MOBILE_ROBOT
+
+ARRIVAL_TOLERANCE_M = 0.05
+"""How far from its place a base may stand whose data sheet does not say so."""
+
+Reading = Callable[[], "str | None"]
+"""What a device says against a fact, in words; None while it does not contradict it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Expected:
+    """A fact that a device can contradict, with what reads the device.
+
+    Where `also_given` is false, what the scene says of it is not compared: a place need not be where a base stops.
+    """
+
+    fact: Related
+    reading: Reading
+    also_given: bool
+
+
+class FactMonitor:
+    """Compares what the world model says with the devices that can tell; cheap while neither changes."""
+
+    def __init__(self, cell: Cell) -> None:
+        self._cell = cell
+        self._seen: WorldState | None = None
+        self._expected: tuple[Expected, ...] = ()
+
+    def withdraw_contradicted(self) -> str | None:
+        """Withdraw the facts that devices contradict; return them with what the devices say, None for none."""
+        state = self._cell.world.snapshot()
+        if state is not self._seen:
+            self._seen, self._expected = state, tuple(_expected(self._cell, state))
+        found = []
+        for expected in self._expected:
+            said = expected.reading()
+            if said is not None and (expected.also_given or self._cell.world.known(expected.fact) is not None):
+                found.append(self._withdraw(expected.fact, said, state))
+        return "; ".join(found) or None
+
+    def _withdraw(self, fact: Related, said: str, state: WorldState) -> str:
+        known = self._cell.world.known(fact)
+        change = RemoveRelation(fact.subject, fact.relation, fact.object)
+        self._cell.world.commit([change], said, "reported")
+        return f"{said}, but the world model said `{format_fact(label_fact(fact, state))}` ({describe_evidence(known)})"
+
+
+def describe_evidence(known: Established | None) -> str:
+    """Return how a fact is known in words, as `assumed by Place`."""
+    if known is None or known.evidence is None:
+        return "given"
+    return f"{known.evidence} by {known.origin}" if known.origin else known.evidence
+
+
+def _expected(cell: Cell, state: WorldState) -> Iterator[Expected]:
+    relations = state.vocabulary.relations
+    for gripper in sorted(state.instances(END_EFFECTOR)) if CONTAIN in relations else ():
+        for thing in sorted(state.objects(gripper, CONTAIN)):
+            with suppress(KeyError):
+                reading = partial(_lost, cell.gripper(gripper), thing, state.vocabulary.short(gripper), state)
+                yield Expected(Related(gripper, CONTAIN, thing), reading, also_given=True)
+    for robot in sorted(state.instances(MOBILE_ROBOT)) if AT in relations else ():
+        for place in sorted(state.objects(robot, AT)):
+            with suppress(KeyError, FrameError, SheetError):
+                yield Expected(Related(robot, AT, place), base_away_from(cell, robot, place, state), also_given=False)
+
+
+def _lost(gripper: Gripper, thing: str, name: str, state: WorldState) -> str | None:
+    held = gripper.holding
+    if held == thing:
+        return None
+    return f"{name} reports that it holds {state.vocabulary.short(held) if held else 'nothing'}"
+
+
+def base_away_from(cell: Cell, robot: str, place: str, state: WorldState) -> Reading:
+    """Return what tells where a robot's base stands when that is not at a place.
+
+    FrameError for a place without a pose, SheetError for a robot without a sheet, KeyError for one without a base.
+    """
+    goal, short = pose(state, place).position, state.vocabulary.short
+    tolerance, base = _tolerance_m(state, robot), cell.base(robot)
+
+    def read() -> str | None:
+        if not base.at_rest:
+            return None
+        off = float(np.linalg.norm((base.pose.position - goal)[:2]))
+        said = f"{short(robot)} reports that it stands {off:.2f} m away from {short(place)}"
+        return said if off > tolerance else None
+
+    return read
+
+
+def _tolerance_m(state: WorldState, robot: str) -> float:
+    return number(state, sheet_of(state, robot).individual, ARRIVAL_TOLERANCE, default=ARRIVAL_TOLERANCE_M)

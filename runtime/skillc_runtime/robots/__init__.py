@@ -1,1 +1,0 @@
-"""Devices as the skills see them: arms, grippers, bases, and the seams to what drives them."""

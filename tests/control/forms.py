@@ -1,0 +1,155 @@
+"""Prints what the laws and everything under them compute for drawn inputs, to compare their two forms."""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import replace
+
+import numpy as np
+from rig import GAINS, LAWS, ROBOTS, Bench, moved_by
+
+from skillc_runtime.control.command_validator import take_over
+from skillc_runtime.control.controllers import make_controllers
+from skillc_runtime.control.limits import EXPECTED, SpeedLimit
+from skillc_runtime.control.momentum_observer import MomentumObserver
+from skillc_runtime.control.safety import distance_outside, tool_speed
+from skillc_runtime.control.virtual_arm import virtual_model
+from skillc_runtime.devices.arm import command_values
+from skillc_runtime.motion.arc import arc_through
+from skillc_runtime.motion.overlays import Circle, Lissajous
+from skillc_runtime.motion.path import joined, path
+from skillc_runtime.motion.pose import Pose, exp
+from skillc_runtime.motion.reference import Compliance, Reference
+from skillc_runtime.motion.reference_generator import ReferenceGenerator
+from skillc_runtime.motion.segments import MotionLimits, segment
+from skillc_runtime.simulation.coverage import add_dose
+from skillc_runtime.simulation.hand import ArmSensing, Hand, load_mass, measure
+from skillc_runtime.simulation.motors import drive
+from skillc_runtime.simulation.wrist import low_pass
+
+
+def laws(robot: str, count: int) -> list[list[float]]:
+    """What one law commands for drawn postures, references and compliances, one after the other."""
+    chance, bench, told = np.random.default_rng(5), Bench(robot), []
+    home = bench.data.qpos.copy()
+    model = virtual_model(ROBOTS / f"{robot}.xml")
+    for step in range(count):
+        if step % 20 == 0:
+            state = bench.state()
+            law = make_controllers(GAINS[robot], bench.limits, model, state, 0.001)
+            law.tool.reset(state, state.q, np.zeros_like(state.q))
+        bench.data.qpos[:] = home + chance.uniform(-0.05, 0.05, home.size)
+        bench.data.qvel[:] = chance.uniform(-0.3, 0.3, home.size)
+        state = replace(bench.state_at_rest(), wrench=chance.uniform(-20, 20, 6))
+        twist, acceleration = chance.uniform(-0.5, 0.5, (2, 6))
+        pose = moved_by(state.tool, *chance.uniform(-0.06, 0.06, 3), turn=chance.uniform(-0.3, 0.3, 3))
+        released = chance.choice([0.0, 0.01, 1.0], 6)
+        stiffness = released * np.repeat([GAINS[robot].linear_stiffness, GAINS[robot].rotational_stiffness], 3)
+        compliance = Compliance(stiffness, chance.uniform(-20, 20, 6), exp(chance.uniform(-3, 3, 3)))
+        command = law.tool.command(state, Reference.of(pose, twist, acceleration), compliance, 0.001)
+        told.append([*(command.tau if LAWS[robot] == "impedance" else command.q), *law.tool.contact_wrench])
+    return told
+
+
+def speeds(count: int) -> list[list[float]]:
+    """What joints are told that take speeds, and where they are expected to be."""
+    chance, bench = np.random.default_rng(11), Bench("ur5e")
+    state, told = bench.state(), []
+    limit = SpeedLimit(bench.limits, state.q, 5.0, 0.015)
+    for _ in range(count):
+        measured = replace(state, q=limit.q + chance.uniform(-0.05, 0.05, bench.nv))
+        command = limit.step(limit.q + chance.uniform(-0.01, 0.01, bench.nv), measured, 0.002)
+        told.append([*command_values(command), *limit.rows[EXPECTED]])
+    return told
+
+
+def servos(count: int) -> list[list[float]]:
+    """Where the targets of servos go that are told speeds; in between all stand still."""
+    chance, targets, told = np.random.default_rng(12), np.zeros(6), []
+    for step in range(count):
+        speed, q, dq, lead, farthest = chance.uniform(-1.0, 1.0, (5, 6)) * [[step % 3 > 0], [0.02], [1], [0.01], [0.01]]
+        drive(targets, speed, q, dq, np.abs(lead), np.abs(farthest), 0.001)
+        told.append(targets.tolist())
+    return told
+
+
+def references(count: int) -> list[list[float]]:
+    """Where a guide's reference is on a blended, turning path, with an overlay that comes and goes."""
+    start = Bench("iiwa14").state().tool
+    corners = (moved_by(start, 0.2, 0, 0, turn=(0, 0.5, 0)), moved_by(start, 0.2, 0.1, 0, turn=(0.4, 0.5, 0.0)))
+    guide = ReferenceGenerator(start, 0.5)
+    guide.follow(path([start, *corners, start], MotionLimits(0.1, 0.4), 0.01), 0.0)
+    handle, found = guide.add(Circle(0.01, 1.0), exp(np.array([0.1, 0.2, 0.3])), 0.5, 0.1), []
+    for step in range(count):
+        now = 0.1 + 8.0 * step / count
+        if step == count // 2:
+            guide.remove(handle, now)
+            guide.pause(now)
+        motion = guide.sample(now)
+        found.append([*motion.pose.position, *motion.pose.rotation.ravel(), *motion.twist, *motion.acceleration])
+    return found
+
+
+def curves(count: int) -> list[list[float]]:
+    """Where a path of a line, an arc and a turn leads that are blended and limited in jerk."""
+    start, limits = Bench("iiwa14").state().tool, MotionLimits(0.1, 0.4, jerk=3.0, turn_jerk=9.0)
+    side, over = moved_by(start, 0.1, 0, 0), moved_by(start, 0.2, 0.1, 0, turn=(0.0, 0.3, 0.1))
+    arc = arc_through(side, moved_by(start, 0.17, 0.03, 0).position, over, limits)
+    end = moved_by(start, 0.2, 0.1, 0, turn=(0.4, 0.3, 0.1))
+    pieces = segment(start, side, limits), arc, segment(over, end, limits)
+    motion = joined((start, side, over, end), pieces, limits, 0.01)
+    samples = [motion.at(motion.duration * step / (count - 1)) for step in range(count)]
+    return [[*s.pose.position, *s.pose.rotation.ravel(), *s.twist, *s.acceleration] for s in samples]
+
+
+def watched(count: int) -> list[list[float]]:
+    """What is made of the states of an arm in view of its limits."""
+    chance, bench, found = np.random.default_rng(7), Bench("iiwa14"), []
+    felt, box = MomentumObserver(bench.state()), exp(np.array([0.3, -0.2, 0.9]))
+    for _ in range(count):
+        bench.data.qvel[:] = chance.uniform(-0.3, 0.3, 7)
+        state = bench.state_at_rest()
+        felt.add_command(chance.uniform(-20, 20, 7), state.bias, 0.002)
+        felt.step(state, 0.002)
+        middle, size = chance.uniform(-1, 1, (2, 3))
+        outside = distance_outside(state.tool.position, middle, box, np.abs(size))
+        found.append([*felt.wrench(state), tool_speed(state.jacobian, state.dq), outside])
+    return found
+
+
+def measurements(count: int) -> list[list[float]]:
+    """What an arm makes of link, base, payload and wrist readings."""
+    chance, hand, found = np.random.default_rng(6), Hand(), []
+    for _ in range(count):
+        hand.on_link[:] = chance.uniform(-1, 1, (8, 3))
+        J, joints, wrench, readings = np.zeros((6, 7)), np.zeros((4, 7)), np.zeros(6), chance.uniform(-20, 20, 9)
+        link, base = exp(chance.uniform(-3, 3, 3)), exp(chance.uniform(-3, 3, 3))
+        axes, (centre, position, origin, weight) = chance.uniform(-1, 1, (7, 6)), chance.uniform(-1, 1, (4, 3))
+        low_pass(readings, *chance.uniform(-20, 20, (2, 9)), 0.3)
+        q, dq, bias, noise = chance.uniform(-1, 1, (4, 7))
+        sensing = ArmSensing(
+            joints, hand.in_base, J, wrench, q, dq, bias, hand.on_link, axes, centre, Pose(position, link),
+            Pose(origin, base), weight, chance.uniform(-1, 1, (6, 9)), readings,
+        )  # fmt: skip
+        measure(sensing, noise)
+        dose, tool, (place, origin) = np.zeros((20, 30)), np.array([0.1, 0.05]), chance.uniform(-0.1, 0.1, (2, 3))
+        add_dose(dose, np.linspace(-0.2, 0.2, 30), np.linspace(-0.1, 0.1, 20), origin, base, place, link, tool, 0.01)
+        mass, sines = np.eye(7), Lissajous(*chance.uniform(-1, 1, (3, 3))).at(chance.uniform(0, 5))
+        load_mass(mass, hand.lever, J, 0.3)
+        kept = np.zeros(7)
+        numbers = [take_over(kept, *joints[:3], also, position) for also in (wrench, wrench * np.nan)]
+        seen = (hand.in_base, J, joints, wrench, mass, dose, sines, kept)
+        found.append([*np.concatenate([each.ravel() for each in seen]), *map(float, numbers)])
+    return found
+
+
+def everything(count: int) -> dict[str, list[list[float]]]:
+    """All of it, a row for each input."""
+    results = {robot: laws(robot, count) for robot in LAWS}
+    others = {part.__name__: part(count) for part in (references, curves, watched, measurements, speeds, servos)}
+    return {**results, **others}
+
+
+if __name__ == "__main__":
+    json.dump(everything(int(sys.argv[1])), sys.stdout)

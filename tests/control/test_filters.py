@@ -1,0 +1,83 @@
+"""Filters and limits: rates always hold, lags do not depend on the control rate."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+from rig import Bench
+
+from skillc_runtime.control.controller import ControlError
+from skillc_runtime.control.filters import Lag, RateLimit
+from skillc_runtime.control.limits import JointLimit, TorqueLimit
+
+values = arrays(float, 3, elements=st.floats(-100, 100))
+
+
+@given(values, values, st.floats(0.01, 1.0))
+def test_a_lag_behaves_alike_at_every_rate(start, target, time_constant):
+    results = []
+    for rate in (100, 250, 1000):
+        lag = Lag(start, time_constant, grain=0.0)
+        for _ in range(rate // 2):
+            lag.step(target, 1 / rate)
+        results.append(lag.value)
+    assert np.allclose(results, target + np.exp(-0.5 / time_constant) * (start - target))
+
+
+def test_a_lag_without_time_passes_everything_and_a_slow_one_arrives():
+    assert Lag(np.zeros(2), 0.0).step(np.ones(2), 0.001).tolist() == [1.0, 1.0]
+    slow = Lag(np.zeros(2), 0.1, grain=1e-3)
+    for _ in range(800):
+        slow.step(np.ones(2), 0.001)
+    assert slow.value.tolist() == [1.0, 1.0]
+
+
+@given(st.lists(values, min_size=1, max_size=20), st.floats(0.1, 1000.0))
+def test_a_rate_limit_holds_always(targets, rate):
+    limit, before = RateLimit(np.zeros(3), rate), np.zeros(3)
+    for target in targets:
+        limit.step(target, 0.004)
+        assert (np.abs(limit.value - before) <= rate * 0.004 * (1 + 1e-12) + 1e-12).all()
+        before = limit.value.copy()
+
+
+@given(arrays(float, (10, 7), elements=st.floats(-1e5, 1e5)))
+def test_torques_stay_within_rate_and_effort(wanted):
+    bench = Bench("iiwa14")
+    state, limit = bench.state(), TorqueLimit(bench.limits, 1000.0)
+    before = state.bias
+    for tau in wanted:
+        now = limit.step(tau, state, 0.001)
+        assert (np.abs(now) <= bench.limits.effort).all()
+        assert (np.abs(now - before) <= 1.0 + 1e-9).all()
+        before = now
+
+
+def test_a_joint_near_the_end_of_its_range_is_pushed_back():
+    bench = Bench("iiwa14")
+    bench.data.qpos[1] = bench.limits.range[1, 1]
+    tau = TorqueLimit(bench.limits, 1000.0).step(np.zeros(7), bench.state(), 0.001)
+    assert tau[1] - bench.data.qfrc_bias[1] == pytest.approx(-bench.limits.effort[1] / 4)
+
+
+@given(arrays(float, (10, 6), elements=st.floats(-10, 10)))
+def test_joint_positions_stay_within_speed_and_range(wanted):
+    bench = Bench("ur5e")
+    state = bench.state()
+    limit, before = JointLimit(bench.limits, state.q), state.q
+    for q in wanted:
+        now = limit.step(q, state, 0.001).q
+        assert (np.abs(now - before) <= bench.limits.velocity * 0.001 + 1e-12).all()
+        assert (now >= bench.limits.range[:, 0]).all()
+        assert (now <= bench.limits.range[:, 1]).all()
+        before = now
+
+
+def test_an_arm_that_does_not_follow_is_noticed():
+    bench = Bench("ur5e")
+    state = bench.state()
+    limit = JointLimit(bench.limits, state.q + 0.3)
+    with pytest.raises(ControlError, match=r"0\.30 rad"):
+        limit.step(state.q, state, 0.001)
+    assert (limit.step(state.q, state, 0.001).q == state.q).all()
