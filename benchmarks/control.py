@@ -21,10 +21,10 @@ from skillc_runtime.commands import _library
 from skillc_runtime.motion.path import path
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.segments import MotionLimits
+from skillc_runtime.scene.load import load_scene
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import execute
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.scene import load_scene
+from skillc_runtime.world.state.model import WorldModel
 
 SCENES = ("iiwa_table", "ur5e_whiteboard")
 TASKS = {

@@ -17,7 +17,7 @@ from skillc_runtime.plans.body import plan_body
 from skillc_runtime.plans.order import arranged, numbers
 from skillc_runtime.plans.quickest import quickest
 from skillc_runtime.selection.preflight import preflight
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)

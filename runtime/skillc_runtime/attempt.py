@@ -18,7 +18,7 @@ from skillc_runtime.trace.listeners import Listeners
 from skillc_runtime.trace.outcome import Outcome
 from skillc_runtime.tree.run import Run
 from skillc_runtime.verifying import Claim
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 
 TICK_S = 0.01
 """The tree ticks at 100 Hz of the cell's time, between ten control periods each."""

@@ -19,7 +19,7 @@ from skillc_runtime.trace.failure import Failure
 from skillc_runtime.trace.known import KnownFact, assumed
 from skillc_runtime.trace.listeners import Listeners
 from skillc_runtime.verifying import known_facts
-from skillc_runtime.world.conditions import evaluate
+from skillc_runtime.world.eval.conditions import evaluate
 
 MOST_ATTEMPTS = 4
 """A goal is given up when so many plans have failed."""

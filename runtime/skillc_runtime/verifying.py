@@ -8,12 +8,12 @@ from typing import TypeAlias, assert_never
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.vocabulary import local_name
 from skillc_runtime.trace.known import KnownFact
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.facts import Fact, Related, Typed, Valued, fact_text
-from skillc_runtime.world.grounds import Ground, grounds
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.grounds import Ground, grounds
+from skillc_runtime.world.state.facts import Fact, Related, Typed, Valued, fact_text
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 Claim: TypeAlias = tuple[Condition, Mapping[str, Value]]
 """A condition with what the names in it stand for."""

@@ -7,9 +7,9 @@ from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.trace.events import Event, TaskEnded, WorldChanged
 from skillc_runtime.trace.known import KnownFact
-from skillc_runtime.world.changes import AddRelation
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.terms import CONTAIN, IS_CLEAN
+from skillc_runtime.world.state.changes import AddRelation
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import CONTAIN, IS_CLEAN
 
 
 def bench(clean: bool = False) -> Bench:

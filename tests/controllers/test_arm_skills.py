@@ -12,8 +12,8 @@ from skillc_runtime.primitives.move import MoveJoints, MoveLinear, TakePosture
 from skillc_runtime.primitives.overlay import OverlayCircle
 from skillc_runtime.primitives.path import FollowPath
 from skillc_runtime.primitives.primitive import SkillFailure, Status
-from skillc_runtime.world.changes import SetProperty
-from skillc_runtime.world.terms import (
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.terms import (
     BASE_FRAME_ID,
     JOINT_VALUES,
     ORIENTATION,

@@ -34,8 +34,8 @@ from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import validate
 from skillc_runtime.plans.quickest import ScheduleResult, quickest
 from skillc_runtime.plans.rehearsal import rehearse
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.world_state import WorldState
 from world.lab import holds, iri, parameter
 
 LIBRARY = depot.library()

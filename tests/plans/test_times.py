@@ -15,8 +15,8 @@ from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.plans.quickest import quickest
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.task import execute
-from skillc_runtime.world.changes import AddIndividual
-from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.state.changes import AddIndividual
+from skillc_runtime.world.state.model import WorldModel
 
 PRODUCT = SKIROS + "Product"
 

@@ -24,7 +24,7 @@ from skillc_runtime.robots.cell import Cell
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import execute
 from skillc_runtime.trace.events import Event, NodeEnded, Note, TaskEnded
-from skillc_runtime.world.terms import (
+from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
     BUTTON,
     CONTACT,

@@ -7,8 +7,8 @@ import pytest
 from selection.library import EMPTY, MOUNTED, THERE, force, gripper, impl, library, requirement, scene
 from skillc_compiler.library.conditions import Arithmetic, Compare, Given, Literal, Not, Or, PropertyOf, Variable
 from skillc_runtime.selection.select import NoneFits, Selection, select, why_none
-from skillc_runtime.world.changes import Change
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.state.changes import Change
+from skillc_runtime.world.state.values import Value
 from world.lab import fact, individual, iri, parameter
 
 GRIPPER = {"gripper": iri("gripper")}

@@ -13,12 +13,12 @@ from skillc_compiler.library.skills import Primitive, SkillLibrary
 from skillc_compiler.library.vocabulary import Position
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
+from skillc_runtime.scene.load import load_scene
 from skillc_runtime.selection.preflight import preflight
 from skillc_runtime.selection.python import fitting_class
 from skillc_runtime.selection.select import NoneFits, Selection, select
-from skillc_runtime.world.changes import Change, ClearProperty
-from skillc_runtime.world.scene import load_scene
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.changes import Change, ClearProperty
+from skillc_runtime.world.state.world_state import WorldState
 
 LAB, CORE = "http://example.org/lab#", "https://w3id.org/skillc/core#"
 SKIROS, WIPING = "http://rvmi.aau.dk/ontologies/skiros.owl#", "https://w3id.org/skillc/wiping#"

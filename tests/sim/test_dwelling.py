@@ -15,10 +15,10 @@ from skillc_runtime.commands import _library
 from skillc_runtime.report.result import WipingResult
 from skillc_runtime.report.summary import Choices, summarise
 from skillc_runtime.report.wiping import find_wipings
+from skillc_runtime.scene.load import load_scene
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import execute
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.scene import load_scene
+from skillc_runtime.world.state.model import WorldModel
 
 pytestmark = pytest.mark.sim
 

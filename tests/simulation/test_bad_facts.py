@@ -6,12 +6,12 @@ import pytest
 from cells import vocabulary, world
 
 from skillc_ontology import catalogue
+from skillc_runtime.scene.documents import Document, SceneError
+from skillc_runtime.scene.load import sheets, world_of
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.documents import Document, SceneError
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.scene import sheets, world_of
-from skillc_runtime.world.sheet import Sheet, SheetError
-from skillc_runtime.world.terms import SKILLC
+from skillc_runtime.world.state.data_sheet import Sheet, SheetError
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import SKILLC
 
 READ = [
     ("iiwa_outlet", "skillc:margin 0.01", "skillc:margin -0.01", "it is at least 0"),

@@ -11,12 +11,12 @@ from skillc_runtime.avoidance.body import body
 from skillc_runtime.avoidance.contacts import Contacts
 from skillc_runtime.avoidance.outfit import outfit
 from skillc_runtime.avoidance.scenery import scenery
+from skillc_runtime.scene.documents import Document
+from skillc_runtime.scene.load import sheets, world_of
 from skillc_runtime.simulation import starts
 from skillc_runtime.simulation.chance import chance_of
 from skillc_runtime.simulation.facts import ArmFacts, read_scene
 from skillc_runtime.simulation.starts import draw_start
-from skillc_runtime.world.documents import Document
-from skillc_runtime.world.scene import sheets, world_of
 
 SEEDS = range(40)
 

@@ -27,18 +27,18 @@ from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.plans.touched import EVERYTHING, Fact, read_by
+from skillc_runtime.scene.load import load_scene, read_scene
+from skillc_runtime.scene.shapes import shapes
 from skillc_runtime.selection.reads import is_fixed
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.explain import explain
-from skillc_runtime.world.foreign import EvaluationError
-from skillc_runtime.world.frames import placed
-from skillc_runtime.world.join import solutions
-from skillc_runtime.world.model import WorldError, WorldModel
-from skillc_runtime.world.scene import load_scene, read_scene
-from skillc_runtime.world.shapes import shapes
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.support import facts_of
-from skillc_runtime.world.terms import AT, BASE_FRAME_ID, FURNITURE, SIZE
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.explain import explain
+from skillc_runtime.world.eval.join import solutions
+from skillc_runtime.world.eval.support import facts_of
+from skillc_runtime.world.space.frames import placed
+from skillc_runtime.world.state.model import WorldError, WorldModel
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.terms import AT, BASE_FRAME_ID, FURNITURE, SIZE
+from skillc_runtime.world.state.world_state import WorldState
 from space.rooms import EMPTY, PART, at, lab, linked, skillc, thing, world
 
 ON, INSIDE, CAN_REACH = skillc("restsOn"), skillc("isInside"), skillc("canReach")

@@ -12,7 +12,7 @@ from skillc_compiler.library.skills import Compound, Skill
 from skillc_runtime.primitives.primitive import SkillFailure, Status
 from skillc_runtime.tree.locks import Locks
 from skillc_runtime.tree.run import Run
-from skillc_runtime.world.changes import SetProperty
+from skillc_runtime.world.state.changes import SetProperty
 from tree.stage import (
     DEVICES,
     FLAGS,

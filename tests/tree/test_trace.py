@@ -15,7 +15,7 @@ from skillc_runtime.trace.outcome import Outcome
 from skillc_runtime.trace.reader import TraceReader
 from skillc_runtime.trace.writer import TraceWriter
 from skillc_runtime.tree.run import Run
-from skillc_runtime.world.changes import SetProperty
+from skillc_runtime.world.state.changes import SetProperty
 from tree.stage import FLAGS, ON, Library, Script, Stage, act, call, sel, seq, world
 
 

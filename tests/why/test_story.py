@@ -27,7 +27,7 @@ from skillc_runtime.trace.outcome import Outcome
 from skillc_runtime.trace.record import Body, Records
 from skillc_runtime.trace.story import Call, Story
 from skillc_runtime.tree.run import Run
-from skillc_runtime.world.changes import SetProperty
+from skillc_runtime.world.state.changes import SetProperty
 from tree.stage import FLAGS, ON, PERIOD_S, Library, Script, Stage, act, check, here, par, seq, world
 from tree.strategies import Play, plays
 from why.stories import BEGIN, events_of, known, steps_of

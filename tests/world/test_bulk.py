@@ -13,13 +13,13 @@ from scene.mutations import mutants
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
-from skillc_runtime.world.bulk import Facts, state_of
-from skillc_runtime.world.changes import AddIndividual, AddRelation
-from skillc_runtime.world.documents import Document
-from skillc_runtime.world.quick import quick_world
-from skillc_runtime.world.scene import scene_of
-from skillc_runtime.world.sound import is_sound
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.scene.documents import Document
+from skillc_runtime.scene.load import scene_of
+from skillc_runtime.scene.quick import quick_world
+from skillc_runtime.world.state.bulk import Facts, state_of
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation
+from skillc_runtime.world.state.sound import is_sound
+from skillc_runtime.world.state.world_state import WorldState
 from world.lab import NS, VOCABULARY, fact, individual, iri
 from world.sameness import everything
 from world.test_state import CLASSES, NAMES, additions, vocabularies

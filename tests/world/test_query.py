@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from skillc_runtime.world.documents import Document
-from skillc_runtime.world.query import Answer, QueryError, query
+from skillc_runtime.scene.documents import Document
+from skillc_runtime.scene.query import Answer, QueryError, query
 from world.lab import NS, VOCABULARY
 
 SCENE = Document(

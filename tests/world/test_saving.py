@@ -12,14 +12,14 @@ from hypothesis import strategies as st
 
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
-from skillc_runtime.world import saving
-from skillc_runtime.world.changes import AddIndividual
-from skillc_runtime.world.documents import Document
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.quick import quick_world
-from skillc_runtime.world.saving import SaveError, save, turtle
-from skillc_runtime.world.scene import load_scene, load_sheets, world_of
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.scene import saving
+from skillc_runtime.scene.documents import Document
+from skillc_runtime.scene.load import load_scene, load_sheets, world_of
+from skillc_runtime.scene.quick import quick_world
+from skillc_runtime.scene.saving import SaveError, save, turtle
+from skillc_runtime.world.state.changes import AddIndividual
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.world_state import WorldState
 from store.worlds import commits, facts_of
 from world.lab import SCENE, VOCABULARY, assign, individual, iri
 from world.sameness import everything

@@ -5,10 +5,10 @@ from pathlib import Path
 import pytest
 
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_runtime.world.documents import Document, SceneError
-from skillc_runtime.world.listing import listing
-from skillc_runtime.world.scene import load_scene, world_of
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.scene.documents import Document, SceneError
+from skillc_runtime.scene.load import load_scene, world_of
+from skillc_runtime.world.state.listing import listing
+from skillc_runtime.world.state.world_state import WorldState
 from world.lab import NS, VOCABULARY, iri
 
 PREFIXES = f"""@prefix t: <{NS}> . @prefix lab: <http://example.org/lab#> .

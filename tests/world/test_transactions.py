@@ -8,9 +8,9 @@ from threading import Event, Thread
 
 import pytest
 
-from skillc_runtime.world.between import between
-from skillc_runtime.world.called import NoSuchName
-from skillc_runtime.world.model import UNDOABLE, ChangeEvent, WorldError, WorldModel
+from skillc_runtime.world.state.difference import between
+from skillc_runtime.world.state.model import UNDOABLE, ChangeEvent, WorldError, WorldModel
+from skillc_runtime.world.state.names import NoSuchName
 from store.test_model import two
 from store.worlds import commits
 from world.lab import SCENE, assign, fact, individual, iri

@@ -12,11 +12,11 @@ from skillc_compiler.picture import svg
 from skillc_runtime.commands import _files, _library, _listing, _mission, _world_diff, _world_edit, _world_graph
 from skillc_runtime.commands import _world_show as _show
 from skillc_runtime.commands._keeping import NOT_KEPT, Keeping
-from skillc_runtime.world.called import NoSuchName, individual_of
-from skillc_runtime.world.contents import contents
-from skillc_runtime.world.documents import Document, SceneError
-from skillc_runtime.world.query import QueryError
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.scene.contents import contents
+from skillc_runtime.scene.documents import Document, SceneError
+from skillc_runtime.scene.query import QueryError
+from skillc_runtime.world.state.names import NoSuchName, individual_of
+from skillc_runtime.world.state.world_state import WorldState
 
 
 class NoAnswer(Exception):

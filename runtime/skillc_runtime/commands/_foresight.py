@@ -23,8 +23,8 @@ from skillc_runtime.planning.reachability import UnreachableGoal, explain_unreac
 from skillc_runtime.selection.first import first_refusals
 from skillc_runtime.selection.preflight import Origin, Refusal, preflight
 from skillc_runtime.selection.unfit import Unfit, unfit
-from skillc_runtime.world.individuals import iri_of
-from skillc_runtime.world.scene import Scene
+from skillc_runtime.scene.statements import iri_of
+from skillc_runtime.scene.load import Scene
 
 LABELLED = 6
 """How many individuals are shown beside a message at most."""

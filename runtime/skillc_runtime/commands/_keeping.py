@@ -24,7 +24,7 @@ class Keeping:
     @property
     def name(self) -> str:
         """What the place is called in messages."""
-        from skillc_runtime.world.store.address import shown
+        from skillc_runtime.store.address import shown
 
         return shown(self.place or "")
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Mapping
 
-from skillc_runtime.world.contents import contents
-from skillc_runtime.world.documents import Document
-from skillc_runtime.world.listing import Entry, listing
-from skillc_runtime.world.query import Cell, query
-from skillc_runtime.world.scene import sheets, world_of
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.store.facts import all_facts
-from skillc_runtime.world.values import plain, show
+from skillc_runtime.scene.contents import contents
+from skillc_runtime.scene.documents import Document
+from skillc_runtime.scene.load import sheets, world_of
+from skillc_runtime.scene.query import Cell, query
+from skillc_runtime.store.triples import all_facts
+from skillc_runtime.world.state.listing import Entry, listing
+from skillc_runtime.world.state.values import plain, show
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def labels_of(scene: Document) -> dict[str, str]:

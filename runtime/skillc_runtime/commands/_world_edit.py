@@ -16,10 +16,10 @@ from skillc_compiler.turtle.statements import Node
 from skillc_dsl.encoding import decode
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _writing
-from skillc_runtime.world.documents import BASE, WELL_KNOWN, Document, SceneError
-from skillc_runtime.world.individuals import iri_of
-from skillc_runtime.world.scene import scene_of, sheets
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.scene.documents import BASE, WELL_KNOWN, Document, SceneError
+from skillc_runtime.scene.load import scene_of, sheets
+from skillc_runtime.scene.statements import iri_of
+from skillc_runtime.world.state.world_state import WorldState
 
 FORMS = "`SUBJECT PREDICATE VALUE`, `not SUBJECT PREDICATE VALUE` or `not INDIVIDUAL`"
 

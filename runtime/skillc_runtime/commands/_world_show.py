@@ -7,9 +7,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from skillc_runtime.commands import _listing
-from skillc_runtime.world.element import search
-from skillc_runtime.world.listing import Entry, listing
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.elements import search
+from skillc_runtime.world.state.listing import Entry, listing
+from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,10 +11,10 @@ from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.validation import PlanError, apply_effects, apply_step, check_goal_reached
 from skillc_runtime.plans.body import achieved
 from skillc_runtime.trace.outcome import Outcome
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.expressions import EvaluationError
-from skillc_runtime.world.model import WorldError
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.state.model import WorldError
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.world_state import WorldState
 
 STEP_KINDS = ("call", "if")
 """What a step of a plan is in its body: a call, or one that is skipped where it has nothing to achieve."""

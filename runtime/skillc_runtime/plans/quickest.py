@@ -20,7 +20,7 @@ from skillc_runtime.planning.validation import PlanError, compute_work_s, valida
 from skillc_runtime.plans.least import TOLERANCE_S, at_least_s
 from skillc_runtime.plans.rehearsal import rehearse
 from skillc_runtime.plans.scheduling import scheduled
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 
 BY_LINKS = "each step begins when the part of the plan before it is over"
 SHARE = 0.5

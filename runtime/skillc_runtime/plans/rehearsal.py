@@ -25,9 +25,9 @@ from skillc_runtime.planning.validation import (
 )
 from skillc_runtime.plans.order import touched_by
 from skillc_runtime.plans.touched import Touched
-from skillc_runtime.world.expressions import EvaluationError
-from skillc_runtime.world.model import WorldError
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.model import WorldError
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.world_state import WorldState
 
 INSTANT_S = 1e-6
 """Times that are no further apart are one."""

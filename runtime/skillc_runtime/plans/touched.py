@@ -17,8 +17,8 @@ from skillc_compiler.library.conditions import (
     Variable,
 )
 from skillc_compiler.library.reading import walk
-from skillc_runtime.world.changes import AddRelation, Change, ClearProperty, RemoveRelation, SetProperty
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.changes import AddRelation, Change, ClearProperty, RemoveRelation, SetProperty
+from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)

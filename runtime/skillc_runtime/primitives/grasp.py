@@ -6,9 +6,9 @@ from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.robots.cell import Cell
 from skillc_runtime.robots.tools import working_face
-from skillc_runtime.world.changes import AddRelation, RemoveRelation
-from skillc_runtime.world.frames import placed, pose, size
-from skillc_runtime.world.terms import CONTAIN, FRAME_ID, GRASP_WIDTH
+from skillc_runtime.world.space.frames import placed, pose, size
+from skillc_runtime.world.state.changes import AddRelation, RemoveRelation
+from skillc_runtime.world.state.terms import CONTAIN, FRAME_ID, GRASP_WIDTH
 
 FREE_BY_M = 0.005
 """How much farther than they held a thing the fingers must stand open for it to be free."""

@@ -15,7 +15,7 @@ from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.joint_way import move_clear
 from skillc_runtime.primitives.posture import posture_of
 from skillc_runtime.primitives.primitive import SkillFailure
-from skillc_runtime.world.terms import HAS_POSTURE, HAS_SHEET, POSTURE_NAME
+from skillc_runtime.world.state.terms import HAS_POSTURE, HAS_SHEET, POSTURE_NAME
 
 if TYPE_CHECKING:
     from skillc_runtime.robots.cell import Cell

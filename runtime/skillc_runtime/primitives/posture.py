@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.primitives.primitive import SkillFailure
-from skillc_runtime.world.sheet import SheetError, sheet_of
+from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
 
 if TYPE_CHECKING:
-    from skillc_runtime.world.state import WorldState
+    from skillc_runtime.world.state.world_state import WorldState
 
 
 def posture_of(state: WorldState, arm: str, name: str) -> Array:

@@ -18,7 +18,7 @@ from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import Execution
 from skillc_runtime.trace.events import ImplementationChosen
 from skillc_runtime.trace.outcome import Outcome
-from skillc_runtime.world.terms import COMPLIANT_CONTROLLER
+from skillc_runtime.world.state.terms import COMPLIANT_CONTROLLER
 
 ENDED: Mapping[Status, Literal["success", "failure", "halted"]] = {
     Status.SUCCESS: "success",

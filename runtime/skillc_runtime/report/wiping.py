@@ -12,9 +12,9 @@ from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.metrics import Stroke, Wiped, wiping_metrics
 from skillc_runtime.trace.events import ImplementationChosen
 from skillc_runtime.trace.outcome import Outcome
-from skillc_runtime.world.frames import size
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import SURFACE, TOOL
+from skillc_runtime.world.space.frames import size
+from skillc_runtime.world.state.terms import SURFACE, TOOL
+from skillc_runtime.world.state.world_state import WorldState
 
 PATH_SKILL, PUSH_SKILL = "FollowPath", "Push"
 """The standard skills between which a surface is wiped: a path is followed while the tool is pushed."""

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from skillc_runtime.robots.gripper import Gripper
     from skillc_runtime.robots.inspection import Camera
     from skillc_runtime.robots.watchdog import Watchdog
-    from skillc_runtime.world.model import WorldModel
+    from skillc_runtime.world.state.model import WorldModel
 
 
 class Cell(Protocol):

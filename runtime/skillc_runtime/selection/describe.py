@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from skillc_compiler.library.skills import Parameter
 from skillc_compiler.library.vocabulary import ClassType, ListType, NumberType, ValueType, VectorType, Vocabulary
 from skillc_compiler.library.words import SI_UNITS, quantity_text
-from skillc_runtime.world.values import Value, show
+from skillc_runtime.world.state.values import Value, show
 
 
 def text_of(value: Value, type_: ValueType, vocabulary: Vocabulary) -> str:

@@ -8,9 +8,9 @@ from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Implementation, Parameter, Requirement
 from skillc_runtime.selection.fit import Fitted
 from skillc_runtime.trace.reasons import Deciding, Determined
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.support import facts_of
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.eval.support import facts_of
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def determined(fitted: Fitted, passed: Set[str], state: WorldState) -> tuple[Determined, ...]:

@@ -12,11 +12,11 @@ from skillc_runtime.selection.arguments import problem_with
 from skillc_runtime.selection.describe import bindings_text
 from skillc_runtime.selection.inferred import Inferred, infer_parameters
 from skillc_runtime.trace.failure import Rejected, Stage
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.explain import explain
-from skillc_runtime.world.expressions import value_of
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.explain import explain
+from skillc_runtime.world.eval.expressions import value_of
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)

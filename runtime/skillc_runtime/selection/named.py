@@ -15,8 +15,8 @@ from skillc_compiler.library.reading import walk
 from skillc_compiler.library.skills import Implementation, Primitive, SkillLibrary
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_runtime.selection.python import PrimitiveError, primitive_class
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 Path: TypeAlias = tuple[str, ...]
 """Relations to follow from an individual, and the property whose values are names."""

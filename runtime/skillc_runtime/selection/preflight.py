@@ -19,9 +19,9 @@ from skillc_runtime.selection.python import PrimitiveError, fitting_class
 from skillc_runtime.selection.reads import changing_terms, is_fixed
 from skillc_runtime.selection.select import candidates, why_none
 from skillc_runtime.trace.failure import Rejected
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 Origin: TypeAlias = tuple[Position, str]
 """Where a value is written: an argument's call and name, or an implementation and its parameter or local name."""

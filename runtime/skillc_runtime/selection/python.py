@@ -9,7 +9,7 @@ from functools import cache
 
 from skillc_compiler.library.skills import Parameter
 from skillc_runtime.primitives.primitive import Primitive
-from skillc_runtime.world.foreign import EvaluationError, resolve
+from skillc_runtime.world.state.python_calls import EvaluationError, load_python
 
 
 class PrimitiveError(Exception):
@@ -89,7 +89,7 @@ def _mismatch(python: str, given: tuple[str, ...]) -> str | None:
 def function_problem(python: str, count: int) -> str | None:
     """Return why "module:function" cannot be called with the world and so many values, None when it can."""
     try:
-        function = resolve(python)
+        function = load_python(python)
     except EvaluationError as error:
         return str(error)
     reason = _refused(function, None, *(None,) * count) if callable(function) else "it is no function"

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from skillc_compiler.library.skills import Implementation, SkillLibrary
 from skillc_runtime.selection.fit import Fitted, fit
 from skillc_runtime.trace.failure import Rejected
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)

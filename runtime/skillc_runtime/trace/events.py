@@ -11,7 +11,7 @@ from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.trace.failure import Failure, Rejected
 from skillc_runtime.trace.known import KnownFact
 from skillc_runtime.trace.reasons import Attempted, Determined, Untried
-from skillc_runtime.world.evidence import Evidence
+from skillc_runtime.world.state.evidence import Evidence
 
 FORMAT = 3
 """Raised with every change of what the events mean; 2 says why parameters are what they are and what failures met, 3

@@ -6,7 +6,7 @@ from typing import assert_never
 
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
 from skillc_runtime.trace.events import WorldChanged
-from skillc_runtime.world.changes import (
+from skillc_runtime.world.state.changes import (
     AddIndividual,
     AddRelation,
     Change,
@@ -15,8 +15,8 @@ from skillc_runtime.world.changes import (
     RemoveRelation,
     SetProperty,
 )
-from skillc_runtime.world.model import ChangeEvent
-from skillc_runtime.world.values import show
+from skillc_runtime.world.state.model import ChangeEvent
+from skillc_runtime.world.state.values import show
 
 
 def world_changed(event: ChangeEvent, time: float) -> WorldChanged:

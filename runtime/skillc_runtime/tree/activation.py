@@ -19,12 +19,12 @@ from skillc_runtime.tree.primitive_node import PrimitiveNode
 from skillc_runtime.tree.restore import reverse_of
 from skillc_runtime.tree.sensing import not_sensed, unsensed
 from skillc_runtime.tree.verifying import violation, watched
-from skillc_runtime.world.changes import Change
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.effects import changes_of
-from skillc_runtime.world.expressions import value_of
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.effects import changes_of
+from skillc_runtime.world.eval.expressions import value_of
+from skillc_runtime.world.state.changes import Change
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 Build: TypeAlias = Callable[[tree.Node, Context, Enclosing], Node]
 

@@ -9,7 +9,7 @@ from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.enclosing import Enclosing
 from skillc_runtime.tree.node import RUNNING, SUCCESS, Node
-from skillc_runtime.world.conditions import evaluate
+from skillc_runtime.world.eval.conditions import evaluate
 
 
 class IfNode(Node):

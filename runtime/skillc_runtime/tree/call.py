@@ -21,7 +21,7 @@ from skillc_runtime.tree.node import RUNNING, SUCCESS, Node
 from skillc_runtime.tree.primitive_node import PrimitiveNode
 from skillc_runtime.tree.strand import Strand
 from skillc_runtime.tree.telling import attempted, chosen, facts_at_failure
-from skillc_runtime.world.expressions import value_of
+from skillc_runtime.world.eval.expressions import value_of
 
 _STAGES = ("argument", "inference", "pre", "hold", "lock", "start", "run")
 

@@ -9,8 +9,8 @@ from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.robots.cell import Cell
 from skillc_runtime.trace.events import Listener, Note
 from skillc_runtime.tree.locks import Locks
-from skillc_runtime.world.changes import Change
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.changes import Change
+from skillc_runtime.world.state.world_state import WorldState
 
 
 class Context:

@@ -8,7 +8,7 @@ from typing import TypeAlias
 from skillc_compiler.library.skills import Implementation
 from skillc_runtime.plans.failures import Failures
 from skillc_runtime.tree.undo import Undo
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.state.values import Value
 
 Frame: TypeAlias = dict[str, Value]
 

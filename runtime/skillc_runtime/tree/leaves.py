@@ -13,10 +13,10 @@ from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.enclosing import Enclosing, Frame
 from skillc_runtime.tree.node import RUNNING, Node
 from skillc_runtime.tree.sensing import unsensed
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.effects import changes_of
-from skillc_runtime.world.explain import explain
-from skillc_runtime.world.expressions import value_of
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.effects import changes_of
+from skillc_runtime.world.eval.explain import explain
+from skillc_runtime.world.eval.expressions import value_of
 
 _EPSILON_S = 1e-9
 

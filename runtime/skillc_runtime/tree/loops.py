@@ -12,9 +12,9 @@ from skillc_runtime.tree.context import Context
 from skillc_runtime.tree.enclosing import Enclosing, Frame
 from skillc_runtime.tree.node import RUNNING, SUCCESS, Node
 from skillc_runtime.tree.strand import Strand
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.expressions import value_of
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.expressions import value_of
+from skillc_runtime.world.state.values import Value
 
 
 class LoopNode(Node):

@@ -27,7 +27,7 @@ from skillc_runtime.tree.outcome import outcome
 from skillc_runtime.tree.strand import Strand
 from skillc_runtime.tree.undo import Undo
 from skillc_runtime.verifying import Claim
-from skillc_runtime.world.model import ChangeEvent
+from skillc_runtime.world.state.model import ChangeEvent
 
 _ALIVE = (RUNNING, Status.IDLE)
 

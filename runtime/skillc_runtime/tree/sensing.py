@@ -7,12 +7,12 @@ from collections.abc import Iterator, Sequence
 from skillc_compiler.library.conditions import And, Condition
 from skillc_compiler.library.skills import Post
 from skillc_runtime.tree.enclosing import Frame
-from skillc_runtime.world.changes import AddRelation, Change, RemoveRelation, SetProperty
-from skillc_runtime.world.evidence import Established, statement
-from skillc_runtime.world.facts import fact_text
-from skillc_runtime.world.grounds import Ground, grounds
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.values import equal
+from skillc_runtime.world.eval.grounds import Ground, grounds
+from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
+from skillc_runtime.world.state.evidence import Established, statement
+from skillc_runtime.world.state.facts import fact_text
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.values import equal
 
 
 def unsensed(changes: Sequence[Change], world: WorldModel, begun: int) -> tuple[Change, ...]:

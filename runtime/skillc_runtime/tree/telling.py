@@ -15,10 +15,10 @@ from skillc_runtime.trace.failure import Rejected
 from skillc_runtime.trace.reasons import Attempted, Untried
 from skillc_runtime.tree.activation import Activation
 from skillc_runtime.tree.context import Context
-from skillc_runtime.world.expressions import EvaluationError
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.support import facts_of
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.eval.support import facts_of
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def chosen(

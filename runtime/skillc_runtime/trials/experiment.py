@@ -13,6 +13,7 @@ from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, Refused, prepare
 from skillc_runtime.report.summary import Choices, summarise
 from skillc_runtime.report.wiping import find_wipings
+from skillc_runtime.scene.load import load_scene
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import execute
 from skillc_runtime.trace.events import Listener
@@ -21,12 +22,11 @@ from skillc_runtime.trials.disturbance import Person, reality
 from skillc_runtime.trials.measures.evidence import Evidence
 from skillc_runtime.trials.measuring import works
 from skillc_runtime.trials.trial import Disturbance, Trial
-from skillc_runtime.world.frames import FrameError
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.scene import load_scene
-from skillc_runtime.world.sheet import SheetError, number
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import CONTACT_FORCE_LIMIT
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.state.data_sheet import SheetError, number
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import CONTACT_FORCE_LIMIT
+from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)

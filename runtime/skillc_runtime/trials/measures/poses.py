@@ -8,8 +8,8 @@ import numpy as np
 
 from skillc_runtime.trials.measures.evidence import Evidence
 from skillc_runtime.trials.work import Taught, Work
-from skillc_runtime.world.frames import pose
-from skillc_runtime.world.terms import IS_TAUGHT, TAUGHT_POSE
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.terms import IS_TAUGHT, TAUGHT_POSE
 
 
 def measure(evidence: Evidence) -> Iterator[Work]:

@@ -12,8 +12,8 @@ from skillc_runtime.report.wiping import Wiping
 from skillc_runtime.simulation.recorder import Recording
 from skillc_runtime.trials.measures.evidence import Evidence
 from skillc_runtime.trials.work import Polished, Wiped, Work
-from skillc_runtime.world.sheet import number
-from skillc_runtime.world.terms import POLISH_TIME, POLISHABLE_SURFACE
+from skillc_runtime.world.state.data_sheet import number
+from skillc_runtime.world.state.terms import POLISH_TIME, POLISHABLE_SURFACE
 
 LEAST_SWING_M = 1e-3
 """An overlay that goes less far is none."""
