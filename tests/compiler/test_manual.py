@@ -25,8 +25,14 @@ from skillc_runtime.scene.documents import SceneError
 from skillc_runtime.scene.load import read_scene
 
 ROOT = Path(__file__).parent.parent.parent
-GIVERS = {"Diagnostic", "report", "report_unknown", "Problem", "Breach", "Flaw", "_problem_name"}
-PLACES = ("dsl", "compiler", "runtime/skillc_runtime/world", "runtime/skillc_runtime/commands")
+GIVERS = {"Diagnostic", "report", "report_unknown", "Problem", "AxiomViolation", "SceneViolation", "_problem_name"}
+PLACES = (
+    "dsl",
+    "compiler",
+    "runtime/skillc_runtime/world",
+    "runtime/skillc_runtime/scene",
+    "runtime/skillc_runtime/commands",
+)
 OF_VOCABULARIES = {page.name for page in of_module(vocabularies)}
 OF_SCENES = {page.name for page in of_module(foresight)}
 NAME = re.compile(r"[a-z]+(-[a-z]+)*")

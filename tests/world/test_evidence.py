@@ -18,11 +18,11 @@ from skillc_compiler.library.conditions import (
     Variable,
 )
 from skillc_runtime.world.eval.grounds import grounds
+from skillc_runtime.world.state import evidence
 from skillc_runtime.world.state.changes import AddIndividual, ClearProperty, RemoveIndividual, RemoveRelation
 from skillc_runtime.world.state.evidence import Evidence
 from skillc_runtime.world.state.facts import Fact, Related, Typed, Valued, fact_text
 from skillc_runtime.world.state.model import WorldModel
-from skillc_runtime.world.state import evidence
 from store.memory import MemoryStore
 from store.worlds import model_of
 from world.lab import SCENE, assign, fact, individual, iri

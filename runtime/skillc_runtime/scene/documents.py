@@ -14,7 +14,7 @@ from skillc_compiler.turtle.parser import parse as parse_turtle
 from skillc_compiler.turtle.problems import Place, Problem
 from skillc_compiler.turtle.statements import Parsed, Statement
 from skillc_compiler.turtle.terms import OWL, RDF, RDFS, XSD
-from skillc_runtime.scene.memory import QUICKLY, NoRoom, make_sure
+from skillc_runtime.scene.memory import BULK_BYTES, TooLittleMemory, check_available
 
 BASE = "file:///scene"
 WELL_KNOWN = (
@@ -46,14 +46,14 @@ class Document:
     def read(path: Path) -> Document:
         """Read a file; SceneError when it cannot be read, is not UTF-8, or is too large for the memory there is."""
         try:
-            make_sure(QUICKLY * path.stat().st_size)
+            check_available(BULK_BYTES * path.stat().st_size)
             if not path.is_file():
                 raise OSError(errno.EINVAL, "it is not a regular file")
             data = path.read_bytes()
             text = data.decode("utf-8-sig")
         except OSError as error:
             raise SceneError([unreadable(str(path), error.strerror or str(error))]) from error
-        except NoRoom as error:
+        except TooLittleMemory as error:
             raise SceneError([unreadable(str(path), str(error))]) from error
         except UnicodeDecodeError as error:
             raise SceneError([_not_utf8(path, data, error.start)]) from error

@@ -2,33 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Literal
 
-import pyoxigraph as ox
+import msgspec
 
+from skillc_compiler.collecting import no_collection
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.turtle.problems import Place, Problem
-from skillc_compiler.turtle.statements import Node, Parsed, Statement
-from skillc_compiler.turtle.terms import RDF, RDF_TYPE
+from skillc_compiler.turtle.statements import Parsed, Statement
+from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_ontology.catalogue import sheet_files
-from skillc_runtime.scene.breaches import breaches
-from skillc_runtime.scene.checks.classes import misplaced_classes, of_lost_classes
+from skillc_runtime.scene.checks.classes import are_placed, misplaced_classes, of_lost_classes
 from skillc_runtime.scene.checks.identity import Claims
 from skillc_runtime.scene.checks.ineffective import ineffective, language_tags, without_class
+from skillc_runtime.scene.checks.terms import misspelt_terms, unnamed_things
 from skillc_runtime.scene.documents import Document, SceneError, parse, resolved, unreadable
-from skillc_runtime.scene.flaws import flaws
-from skillc_runtime.scene.memory import CAREFULLY, NoRoom, make_sure
-from skillc_runtime.scene.quick import quick_world
-from skillc_runtime.scene.reading import Reader
-from skillc_runtime.scene.standard_terms import is_misspelt, standard_terms
-from skillc_runtime.scene.statements import facts, iri_of, with_own_classes, with_own_prefixes
-from skillc_runtime.scene.suggestions import suggest
+from skillc_runtime.scene.interpretation import interpret
+from skillc_runtime.scene.memory import PLACED_BYTES, TooLittleMemory, check_available
+from skillc_runtime.scene.mistakes import PlacedFacts
+from skillc_runtime.scene.placing import of_places, of_things, place_axiom_violations, place_scene_violations
+from skillc_runtime.scene.statements import SUBCLASS, facts, iri_of, with_classes, with_own_classes, with_prefixes
+from skillc_runtime.scene.table import read_table
+from skillc_runtime.world.state.bulk import state_of
+from skillc_runtime.world.state.representatives import satisfies_axioms
 from skillc_runtime.world.state.world_state import WorldState
-
-FIRST = f"{RDF}first"
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,22 +53,51 @@ def load_scene(
 ) -> WorldState:
     """Return the world of a scene file and of the packaged data sheets; SceneError with all that is wrong.
 
-    What is doubtful and no error goes to `warn`.
+    It is read in bulk, and again with places only where something is, or may be, wrong. What is doubtful and no error
+    goes to `warn`.
     """
     own = Document.read(path)
-    quick = _quickly(own, [own, *sheets()], vocabulary)
-    if quick is not None:
-        return quick
+    try:
+        state = load_in_bulk([own, *sheets()], vocabulary)
+    except TooLittleMemory as error:
+        raise SceneError([unreadable(own.path, str(error))]) from error
+    if state is not None:
+        return state
     scene = scene_in(own, vocabulary)
-    state = _sound(scene)
+    state = _without_errors(scene)
     if scene.problems:
         warn(scene.problems)
     return state
 
 
+def load_in_bulk(documents: Sequence[Document], vocabulary: Vocabulary) -> WorldState | None:
+    """Return the world of Turtle documents, the first one a scene; None where something is, or may be, wrong.
+
+    TooLittleMemory when the machine has not enough for them.
+    """
+    with no_collection():
+        try:
+            table = read_table(documents, vocabulary)
+        except (SyntaxError, UnicodeEncodeError):
+            return None
+        if table.unusual:
+            return None
+        prefixes = {**table.prefixes, **vocabulary.prefixes}
+        extended = with_classes(vocabulary, table.named[RDF_TYPE], table.named[SUBCLASS])
+        extended = msgspec.structs.replace(extended, prefixes=prefixes)
+        if not are_placed(extended.classes.keys() - vocabulary.classes.keys(), extended):
+            return None
+        meaning = interpret(table, extended)
+        if meaning.mistakes:
+            return None
+        state = state_of(extended, meaning.facts)
+        wrong = not satisfies_axioms(state) or any(True for _ in (*of_things(state), *of_places(state)))
+        return None if wrong else state
+
+
 def world_of(documents: Sequence[Document], vocabulary: Vocabulary) -> WorldState:
     """Return the world of Turtle documents; SceneError with all that is wrong."""
-    return _sound(scene_of(documents, vocabulary))
+    return _without_errors(scene_of(documents, vocabulary))
 
 
 def read_scene(path: Path, vocabulary: Vocabulary) -> Scene:
@@ -96,30 +124,27 @@ def scene_of(documents: Iterable[Document], vocabulary: Vocabulary) -> Scene:
     parsed = [parse(document, vocabulary.namespaces) for document in documents]
     said = [resolved(each, vocabulary.aliases) for document in parsed for each in document.statements]
     written = said[: len(parsed[0].statements)] if parsed else []
-    vocabulary = with_own_prefixes(vocabulary, parsed)
+    vocabulary = with_prefixes(vocabulary, parsed)
     known = vocabulary.classes.keys()
     vocabulary = with_own_classes(vocabulary, said)
     syntax = [problem for document in parsed for problem in document.problems]
     own = frozenset(vocabulary.classes.keys() - known)
-    terms = [*_misused(said, vocabulary), *_unnamed(said, vocabulary), *misplaced_classes(said, own, vocabulary)]
+    terms = [
+        *misspelt_terms(said, vocabulary),
+        *unnamed_things(said, vocabulary),
+        *misplaced_classes(said, own, vocabulary),
+    ]
     lost = of_lost_classes(said, own, vocabulary)
     clear = tuple(each for each in facts(said, vocabulary) if iri_of(each.subject) not in lost)
     scene = _understood(clear, vocabulary, [*syntax, *terms], _doubtful(parsed) | lost)
     return _with_rest(scene, written, own)
 
 
-def _quickly(own: Document, documents: Sequence[Document], vocabulary: Vocabulary) -> WorldState | None:
-    try:
-        return quick_world(documents, vocabulary)
-    except NoRoom as error:
-        raise SceneError([unreadable(own.path, str(error))]) from error
-
-
 def scene_in(own: Document, vocabulary: Vocabulary) -> Scene:
     """Read a scene's text beside the packaged data sheets; SceneError when there is no room for it."""
     try:
-        make_sure(CAREFULLY * len(own.text))
-    except NoRoom as error:
+        check_available(PLACED_BYTES * len(own.text))
+    except TooLittleMemory as error:
         reason = f"something may be wrong with it, and to find what takes a smaller file: {error}"
         raise SceneError([unreadable(own.path, reason)]) from error
     scene = scene_of([own, *sheets()], vocabulary)
@@ -133,11 +158,11 @@ def scene_in(own: Document, vocabulary: Vocabulary) -> Scene:
 def _understood(
     said: tuple[Statement, ...], vocabulary: Vocabulary, problems: list[Problem], doubtful: frozenset[str]
 ) -> Scene:
-    reader = Reader(vocabulary, said, doubtful)
-    written = list(reader.changes())
+    placed = PlacedFacts(said, vocabulary)
+    written = placed.changes()
     state = WorldState.empty(vocabulary).changed(change for change, _ in written)
-    wrong = [*problems, *reader.problems, *breaches(state, written)]
-    wrong += flaws(state, said, wrong, doubtful)
+    wrong = [*problems, *placed.problems(doubtful), *place_axiom_violations(state, written)]
+    wrong += place_scene_violations(state, said, wrong, doubtful)
     return Scene(state, _ordered(wrong), said, doubtful)
 
 
@@ -154,7 +179,7 @@ def _ordered(problems: Iterable[Problem]) -> tuple[Problem, ...]:
     return tuple(sorted(dict.fromkeys(problems), key=lambda each: (each.place, each.name, each.message)))
 
 
-def _sound(scene: Scene) -> WorldState:
+def _without_errors(scene: Scene) -> WorldState:
     if not scene.ok:
         raise SceneError(scene.problems)
     return scene.state
@@ -162,41 +187,3 @@ def _sound(scene: Scene) -> WorldState:
 
 def _doubtful(parsed: Sequence[Parsed]) -> frozenset[str]:
     return frozenset[str]().union(*(document.doubtful for document in parsed))
-
-
-def _misused(said: Iterable[Statement], vocabulary: Vocabulary) -> Iterator[Problem]:
-    """Yield what is wrong with terms of OWL and RDFS, and with things that have no name."""
-    for each in said:
-        cls = iri_of(each.object) if each.predicate == RDF_TYPE else ""
-        if is_misspelt(each.predicate):
-            yield _misspelt("property", each.predicate, each.predicate_place, vocabulary)
-        elif is_misspelt(cls):
-            yield _misspelt("class", cls, each.object_place, vocabulary)
-        elif isinstance(each.subject, ox.BlankNode) and cls in vocabulary.classes:
-            message = f"this {vocabulary.short(cls)} has no name"
-            yield Problem(each.subject_place, "unnamed-individual", message, f"write `:NAME a {vocabulary.short(cls)}`")
-
-
-def _unnamed(said: Sequence[Statement], vocabulary: Vocabulary) -> Iterator[Problem]:
-    """Yield a problem for each thing without a name, and of no class, that a relation or a property is said of."""
-    typed = {each.subject for each in said if each.predicate == RDF_TYPE and iri_of(each.object) in vocabulary.classes}
-    lists = {each.subject for each in said if each.predicate == FIRST}
-    told = set[Node]()
-    for each in said:
-        relation = each.predicate in vocabulary.relations
-        if relation and each.object in lists:
-            message = f"{vocabulary.short(each.predicate)} leads to an individual, and this is a list"
-            help_ = "name its members one after another, with a `,` between them"
-            yield Problem(each.object_place, "relation-range", message, help_)
-        for node, place in ((each.subject, each.subject_place), (each.object, each.object_place)):
-            said_of = relation or (each.predicate in vocabulary.properties and node is each.subject)
-            if said_of and isinstance(node, ox.BlankNode) and node not in typed | lists | told:
-                told.add(node)
-                yield Problem(
-                    place, "unnamed-individual", "this has no name", "give it one, and a class: `:NAME a CLASS`"
-                )
-
-
-def _misspelt(kind: Literal["class", "property"], term: str, place: Place, vocabulary: Vocabulary) -> Problem:
-    near = suggest(term, place, vocabulary, standard_terms(term))
-    return Problem(place, f"unknown-{kind}", f"there is no {kind} {vocabulary.short(term)}", near.help, edit=near.edit)

@@ -6,15 +6,15 @@ import os
 from contextlib import suppress
 from pathlib import Path
 
-QUICKLY, CAREFULLY = 20, 120
-"""Bytes of memory that a byte of Turtle takes when all is well, and when all that is wrong is to be told."""
+BULK_BYTES, PLACED_BYTES = 20, 120
+"""Bytes of memory that a byte of Turtle takes when it is read in bulk, and with the places of all that is wrong."""
 
 _MEMORY = Path("/proc/meminfo")
 _LIMIT, _USED = Path("/sys/fs/cgroup/memory.max"), Path("/sys/fs/cgroup/memory.current")
 _OWN = Path("/proc/self/statm")
 
 
-class NoRoom(Exception):
+class TooLittleMemory(Exception):
     """There is too little memory; the message says how much is needed and how much is free."""
 
 
@@ -27,25 +27,25 @@ def available() -> int | None:
     return max(min(known), 0) if known else None
 
 
-def make_sure(needed: int) -> None:
-    """NoRoom when so many bytes are not available."""
+def check_available(needed: int) -> None:
+    """TooLittleMemory when so many bytes are not available."""
     left = available()
     if left is not None and needed > left:
-        raise NoRoom(f"it takes about {_gigabytes(needed)} of memory, and {_gigabytes(left)} are free")
+        raise TooLittleMemory(f"it takes about {_gigabytes(needed)} of memory, and {_gigabytes(left)} are free")
 
 
-class Watch:
-    """Watches how much memory a piece of work takes."""
+class MemoryGuard:
+    """Compares the memory that a piece of work takes with what is left."""
 
     def __init__(self) -> None:
         self._first = available()
 
-    def look(self) -> None:
-        """NoRoom when less is left than was taken since the watch began: the work may not be half done."""
+    def check(self) -> None:
+        """TooLittleMemory when less is left than was taken since the guard was made: the work may not be half done."""
         left = available()
         if left is not None and self._first is not None and left < self._first - left:
             taken = _gigabytes(self._first - left)
-            raise NoRoom(f"a part of it took {taken} of memory, and {_gigabytes(left)} are free")
+            raise TooLittleMemory(f"a part of it took {taken} of memory, and {_gigabytes(left)} are free")
 
 
 def _of_machine() -> int | None:

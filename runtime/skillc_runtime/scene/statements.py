@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Sequence, Set
+from collections.abc import Collection, Iterable, Sequence
 
 import msgspec
 import pyoxigraph as ox
@@ -32,48 +32,63 @@ SUBCLASS = f"{RDFS}subClassOf"
 NAMED_INDIVIDUAL, ANNOTATION = f"{OWL}NamedIndividual", f"{OWL}AnnotationProperty"
 
 
-def with_own_prefixes(vocabulary: Vocabulary, parsed: Sequence[Parsed]) -> Vocabulary:
-    """Return the vocabulary with the prefixes that the documents declare beside it; the first document's win."""
-    prefixes = {name: base for document in reversed(parsed) for name, base in document.prefixes.items() if name}
-    return msgspec.structs.replace(vocabulary, prefixes={**prefixes, **vocabulary.prefixes})
+class FactFilter:
+    """Which statements are facts about individuals: not those about terms or templates, no annotations.
 
+    `terms` are what is no individual; something without a name, which is empty, is none either.
+    """
 
-def with_own_classes(vocabulary: Vocabulary, said: Sequence[Statement]) -> Vocabulary:
-    """Return the vocabulary with the classes that the documents declare beside it; a relation is no class."""
-    declared = {s for kind in CLASS_DECLARATIONS for s in _typed(said, kind)}
-    parents = ((iri_of(each.subject), iri_of(each.object)) for each in said if each.predicate == SUBCLASS)
-    return with_classes(vocabulary, declared, parents)
+    def __init__(self, vocabulary: Vocabulary, types: Collection[tuple[str, str]]) -> None:
+        """Know what a text says that things are, as pairs of subject and class."""
+        kinds = {cls for cls in {cls for _, cls in types} if is_term_kind(cls)}
+        self.terms = terms_of(vocabulary) | {subject for subject, cls in types if cls in kinds} | {""}
+        notes = {subject for subject, cls in types if cls == ANNOTATION} - vocabulary.properties.keys()
+        self._passed = notes | {TEMPLATE, HAS_TEMPLATE}
 
-
-def with_classes(vocabulary: Vocabulary, declared: Set[str], subclass: Iterable[tuple[str, str]]) -> Vocabulary:
-    """Return the vocabulary with classes that it lacks; pairs say which class is below which."""
-    missing = sorted(declared - terms_of(vocabulary))
-    if not missing:
-        return vocabulary
-    parents: dict[str, list[str]] = defaultdict(list)
-    for cls, parent in subclass:
-        if parent:
-            parents[cls].append(parent)
-    own = {iri: ClassTerm(iri=iri, parents=tuple(parents[iri])) for iri in missing}
-    return msgspec.structs.replace(vocabulary, classes={**vocabulary.classes, **own})
+    def may_state_facts(self, predicate: str) -> bool:
+        """Whether what is said of an individual with the predicate is a fact."""
+        return predicate not in self._passed and not is_remark(predicate)
 
 
 def facts(said: Sequence[Statement], vocabulary: Vocabulary) -> tuple[Statement, ...]:
     """Return what is said of individuals: not of terms, not of templates, no annotations."""
-    terms = terms_of(vocabulary)
-    for each in said:
-        if each.predicate == RDF_TYPE and is_term_kind(iri_of(each.object)):
-            terms.add(iri_of(each.subject))
-    notes = set(_typed(said, ANNOTATION)) - vocabulary.properties.keys() | {TEMPLATE, HAS_TEMPLATE}
+    kept = FactFilter(vocabulary, pairs(said, RDF_TYPE))
     return tuple(
         each
         for each in said
-        if isinstance(each.subject, ox.NamedNode)
-        and each.subject.value not in terms
-        and each.predicate not in notes
-        and not is_remark(each.predicate)
+        if iri_of(each.subject) not in kept.terms
+        and kept.may_state_facts(each.predicate)
         and iri_of(each.object) != NAMED_INDIVIDUAL
     )
+
+
+def with_prefixes(vocabulary: Vocabulary, parsed: Sequence[Parsed]) -> Vocabulary:
+    """Return the vocabulary with the prefixes that documents declare beside it; the first document's win."""
+    prefixes = {name: base for document in reversed(parsed) for name, base in document.prefixes.items() if name}
+    return msgspec.structs.replace(vocabulary, prefixes={**prefixes, **vocabulary.prefixes})
+
+
+def with_classes(
+    vocabulary: Vocabulary, types: Iterable[tuple[str, str]], subclasses: Iterable[tuple[str, str]]
+) -> Vocabulary:
+    """Return the vocabulary with the classes that a text declares beside it; a relation is no class.
+
+    Given are what the text says that things are, as pairs of subject and class, and which class is below which.
+    """
+    missing = {subject for subject, cls in types if cls in CLASS_DECLARATIONS} - terms_of(vocabulary) - {""}
+    if not missing:
+        return vocabulary
+    parents: dict[str, list[str]] = defaultdict(list)
+    for cls, parent in subclasses:
+        if parent:
+            parents[cls].append(parent)
+    own = {iri: ClassTerm(iri=iri, parents=tuple(parents[iri])) for iri in sorted(missing)}
+    return msgspec.structs.replace(vocabulary, classes={**vocabulary.classes, **own})
+
+
+def with_own_classes(vocabulary: Vocabulary, said: Sequence[Statement]) -> Vocabulary:
+    """Return the vocabulary with the classes that statements declare beside it."""
+    return with_classes(vocabulary, pairs(said, RDF_TYPE), pairs(said, SUBCLASS))
 
 
 def terms_of(vocabulary: Vocabulary) -> set[str]:
@@ -101,5 +116,6 @@ def iri_of(node: Node) -> str:
     return node.value if isinstance(node, ox.NamedNode) else ""
 
 
-def _typed(said: Sequence[Statement], kind: str) -> list[str]:
-    return [iri_of(each.subject) for each in said if each.predicate == RDF_TYPE and iri_of(each.object) == kind]
+def pairs(said: Iterable[Statement], predicate: str) -> list[tuple[str, str]]:
+    """Return subjects and objects of the statements with a predicate; what has no IRI is empty."""
+    return [(iri_of(each.subject), iri_of(each.object)) for each in said if each.predicate == predicate]

@@ -10,14 +10,14 @@ from skillc_compiler.turtle.statements import Statement
 from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_runtime.scene.documents import Document, SceneError, parse, resolved
 from skillc_runtime.scene.load import sheets
-from skillc_runtime.scene.reading import Reader
+from skillc_runtime.scene.mistakes import PlacedFacts
 from skillc_runtime.scene.statements import (
     NAMED_INDIVIDUAL,
     facts,
     iri_of,
     is_remark,
     with_own_classes,
-    with_own_prefixes,
+    with_prefixes,
 )
 from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.templates import Templates
@@ -33,15 +33,15 @@ def templates_of(documents: Iterable[Document], vocabulary: Vocabulary) -> Templ
     """Return the templates of Turtle documents; SceneError with what is wrong with them or the documents."""
     parsed = [parse(document, vocabulary.namespaces) for document in documents]
     said = [resolved(each, vocabulary.aliases) for document in parsed for each in document.statements]
-    vocabulary = with_own_classes(with_own_prefixes(vocabulary, parsed), said)
+    vocabulary = with_own_classes(with_prefixes(vocabulary, parsed), said)
     templates = {
         iri_of(each.subject) for each in said if each.predicate == RDF_TYPE and iri_of(each.object) == TEMPLATE
     }
-    reader = Reader(vocabulary, [*facts(said, vocabulary), *_patterns(said, templates)], ())
+    placed = PlacedFacts([*facts(said, vocabulary), *_patterns(said, templates)], vocabulary)
     patterns: dict[str, list[Change]] = {each: [] for each in sorted(templates)}
-    for change, statement in reader.changes():
+    for change, statement in placed.changes():
         patterns.get(iri_of(statement.subject), []).append(change)
-    problems = [problem for document in parsed for problem in document.problems] + list(reader.problems)
+    problems = [problem for document in parsed for problem in document.problems] + list(placed.problems(()))
     if problems:
         raise SceneError(problems)
     return Templates(vocabulary, {each: tuple(changes) for each, changes in patterns.items()})

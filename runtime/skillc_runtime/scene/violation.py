@@ -8,7 +8,7 @@ from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)
-class Flaw:
+class SceneViolation:
     """What is wrong with an individual: the predicate of the statement that shows it, None where one is missing."""
 
     individual: str

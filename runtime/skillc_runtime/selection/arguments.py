@@ -15,7 +15,7 @@ from skillc_compiler.library.vocabulary import (
 )
 from skillc_compiler.library.words import type_text
 from skillc_runtime.selection.describe import text_of
-from skillc_runtime.world.eval.typed import is_of
+from skillc_runtime.world.state.value_types import is_of
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.vectors import is_vector
 from skillc_runtime.world.state.world_state import WorldState

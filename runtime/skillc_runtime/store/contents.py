@@ -12,7 +12,7 @@ import pyoxigraph as ox
 from skillc_compiler.library.vocabulary import ClassTerm, Vocabulary
 from skillc_runtime.store.literals import LiteralError, read
 from skillc_runtime.store.triples import CLASS, PREFIX, SUBCLASS, TYPE
-from skillc_runtime.world.state.axiom_violations import broken
+from skillc_runtime.world.state.axiom_violations import axiom_violations
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.transactions import StoreError
 from skillc_runtime.world.state.world_state import WorldState
@@ -41,7 +41,7 @@ def world_of(triples: Iterable[ox.Triple], library: Vocabulary, store: str) -> W
     problems: list[str] = []
     changes = tuple(_changes(contents, vocabulary, problems))
     state = WorldState.empty(vocabulary).changed(changes)
-    problems += [breach.message for change in changes for breach in broken(state, change)]
+    problems += [breach.message for change in changes for breach in axiom_violations(state, change)]
     if problems:
         distinct = list(dict.fromkeys(problems))
         more = f"; and {len(distinct) - MOST_TOLD} more" if len(distinct) > MOST_TOLD else ""

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_runtime.scene.violation import Flaw
+from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.state.terms import CONTAIN, HAS_A
 from skillc_runtime.world.state.world_state import WorldState
 
 
-def circular(state: WorldState) -> Iterator[Flaw]:
+def check_containment(state: WorldState) -> Iterator[SceneViolation]:
     """Yield each circle of things of which each contains or has the next, once."""
     holders = [(relation, state.asserted[relation]) for relation in (CONTAIN, HAS_A) if relation in state.asserted]
     held: dict[str, dict[str, str]] = {}
@@ -27,7 +27,7 @@ def circular(state: WorldState) -> Iterator[Flaw]:
             message = f"{first} is held by itself" + (f", by way of {' and '.join(others)}" if others else "")
             stated = circle[1 % len(circle)] in state.asserted[links[0]].forward.get(circle[0])
             help_ = "nothing is in itself; remove one of the links"
-            yield Flaw(circle[0], links[0] if stated else None, "containment-circle", message, help_)
+            yield SceneViolation(circle[0], links[0] if stated else None, "containment-circle", message, help_)
 
 
 def _breaks_axiom(links: list[str], state: WorldState) -> bool:

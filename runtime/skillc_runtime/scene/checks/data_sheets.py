@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import chain
 
-from skillc_runtime.scene.violation import Flaw
+from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
     ARM_SHEET,
@@ -36,7 +36,7 @@ KINDS = (
 """Kinds of devices and of sheets that describe them; of sheets of other kinds nothing is known here."""
 
 
-def unsuited(state: WorldState) -> Iterator[Flaw]:
+def check_data_sheets(state: WorldState) -> Iterator[SceneViolation]:
     """Yield the sheets that cannot describe their device, or any; where the vocabulary has no sheets there is none."""
     if {HAS_SHEET, HAS_POSTURE} <= state.facts.keys():
         yield from _other_kinds(state)
@@ -44,7 +44,7 @@ def unsuited(state: WorldState) -> Iterator[Flaw]:
             yield from _joints(state, sheet)
 
 
-def _other_kinds(state: WorldState) -> Iterator[Flaw]:
+def _other_kinds(state: WorldState) -> Iterator[SceneViolation]:
     short, known = state.vocabulary.short, set(chain.from_iterable(kinds for _, kinds in KINDS))
     for device, sheet in sorted(state.pairs(HAS_SHEET)):
         needed = {kind for cls, kinds in KINDS if state.is_a(device, cls) for kind in kinds}
@@ -53,20 +53,20 @@ def _other_kinds(state: WorldState) -> Iterator[Flaw]:
             message = f"{short(sheet)} is a {_names(state, told)}, and {short(device)} needs a {_names(state, needed)}"
             fitting = sorted({short(each) for kind in needed for each in state.instances(kind)})
             cure = f"there is {', '.join(fitting)}" if fitting else ""
-            yield Flaw(device, HAS_SHEET, "wrong-sheet", message, cure)
+            yield SceneViolation(device, HAS_SHEET, "wrong-sheet", message, cure)
 
 
 def _names(state: WorldState, classes: set[str]) -> str:
     return " or ".join(sorted(map(state.vocabulary.short, classes)))
 
 
-def _joints(state: WorldState, sheet: str) -> Iterator[Flaw]:
+def _joints(state: WorldState, sheet: str) -> Iterator[SceneViolation]:
     """Each list of a sheet is numbers, one for each joint; the speeds say how many joints there are."""
     postures = ((posture, JOINT_VALUES) for posture in sorted(state.objects(sheet, HAS_POSTURE)))
     for owner, term in ((sheet, JOINT_SPEEDS), (sheet, JOINT_ACCELERATIONS), *postures):
         told = _miscounted(state, sheet, owner, term)
         if told is not None:
-            yield Flaw(owner, term, "joint-numbers", *told)
+            yield SceneViolation(owner, term, "joint-numbers", *told)
 
 
 def _miscounted(state: WorldState, sheet: str, owner: str, term: str) -> tuple[str, str] | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches
 
-from skillc_runtime.scene.violation import Flaw, stored
+from skillc_runtime.scene.violation import SceneViolation, stored
 from skillc_runtime.world.space.frame_tree import WORLD_FRAME
 from skillc_runtime.world.state.terms import (
     AREA,
@@ -30,7 +30,7 @@ PLACED = (AREA, ARM_DEVICE, FIXTURE, FURNITURE, MOBILE_ROBOT, PERSON, SURFACE, T
 """What takes up space in a simulation, stands on something that does, or leads to a place."""
 
 
-def misplaced(state: WorldState) -> Iterator[Flaw]:
+def check_frames(state: WorldState) -> Iterator[SceneViolation]:
     """Yield what keeps things from being somewhere; rules about terms that the vocabulary lacks find nothing."""
     owners = _owners(state)
     parents = _parents(state, owners)
@@ -40,7 +40,7 @@ def misplaced(state: WorldState) -> Iterator[Flaw]:
     yield from _nowhere(state, parents)
 
 
-def _unknown_frames(state: WorldState, owners: Mapping[str, Sequence[str]]) -> Iterator[Flaw]:
+def _unknown_frames(state: WorldState, owners: Mapping[str, Sequence[str]]) -> Iterator[SceneViolation]:
     short = state.vocabulary.short
     for individual, base in stored(state, BASE_FRAME_ID):
         found = owners.get(str(base), [])
@@ -50,10 +50,11 @@ def _unknown_frames(state: WorldState, owners: Mapping[str, Sequence[str]]) -> I
         near = get_close_matches(str(base), [WORLD_FRAME, *owners], n=1)
         cure = f"did you mean `{near[0]}`?" if near else f"there is {', '.join(sorted([WORLD_FRAME, *owners]))}"
         message = f"{short(individual)} is placed in the frame `{base}`, but {reason}"
-        yield Flaw(individual, BASE_FRAME_ID, "unknown-frame", message, "give each its own" if found else cure)
+        cure = "give each its own" if found else cure
+        yield SceneViolation(individual, BASE_FRAME_ID, "unknown-frame", message, cure)
 
 
-def _circles(state: WorldState, parents: Mapping[str, str]) -> Iterator[Flaw]:
+def _circles(state: WorldState, parents: Mapping[str, str]) -> Iterator[SceneViolation]:
     reported = set[str]()
     for individual, _ in stored(state, BASE_FRAME_ID):
         path, at = [individual], parents.get(individual)
@@ -64,7 +65,8 @@ def _circles(state: WorldState, parents: Mapping[str, str]) -> Iterator[Flaw]:
             reported.update(path)
             names = " and ".join(map(state.vocabulary.short, path))
             message = f"the frames of {names} form a circle" if len(path) > 1 else f"{names} is placed in its own frame"
-            yield Flaw(individual, BASE_FRAME_ID, "frame-circle", message, f"place one of them in `{WORLD_FRAME}`")
+            cure = f"place one of them in `{WORLD_FRAME}`"
+            yield SceneViolation(individual, BASE_FRAME_ID, "frame-circle", message, cure)
 
 
 def _carrier(state: WorldState, parents: Mapping[str, str], thing: str) -> str | None:
@@ -75,7 +77,7 @@ def _carrier(state: WorldState, parents: Mapping[str, str], thing: str) -> str |
     return next((min(found) for found in holders if found), None)
 
 
-def _partial_poses(state: WorldState) -> Iterator[Flaw]:
+def _partial_poses(state: WorldState) -> Iterator[SceneViolation]:
     """A pose in a frame has all of its numbers."""
     short = state.vocabulary.short
     for individual, _ in stored(state, BASE_FRAME_ID):
@@ -84,10 +86,10 @@ def _partial_poses(state: WorldState) -> Iterator[Flaw]:
         if lost:
             message = f"{short(individual)} has a {short(BASE_FRAME_ID)} and no {', '.join(lost)}"
             cure = "write all of its position and orientation; for no turn write OrientationW 1.0 and three times 0.0"
-            yield Flaw(individual, BASE_FRAME_ID, "partial-pose", message, cure)
+            yield SceneViolation(individual, BASE_FRAME_ID, "partial-pose", message, cure)
 
 
-def _nowhere(state: WorldState, parents: Mapping[str, str]) -> Iterator[Flaw]:
+def _nowhere(state: WorldState, parents: Mapping[str, str]) -> Iterator[SceneViolation]:
     """What takes up space has a frame that it is placed in, or is at a place that has one."""
     if BASE_FRAME_ID not in state.stored or AT not in state.facts:
         return
@@ -98,7 +100,7 @@ def _nowhere(state: WorldState, parents: Mapping[str, str]) -> Iterator[Flaw]:
     for thing in sorted(needed - based - parents.keys()):
         message = f"the scene does not say where {short(thing)} is"
         cure = f'place it in a frame, `{short(BASE_FRAME_ID)} "{WORLD_FRAME}"`, or at a place, `{short(AT)} PLACE`'
-        yield Flaw(thing, None, "no-place", message, cure)
+        yield SceneViolation(thing, None, "no-place", message, cure)
 
 
 def _parents(state: WorldState, owners: Mapping[str, Sequence[str]]) -> dict[str, str]:

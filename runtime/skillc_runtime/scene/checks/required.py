@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 from skillc_compiler.library.vocabulary import NumberType, PlainType
 from skillc_compiler.library.words import SI_UNITS
-from skillc_runtime.scene.violation import Flaw
+from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.state.world_state import WorldState
 
 
-def incomplete(state: WorldState) -> Iterator[Flaw]:
+def check_required(state: WorldState) -> Iterator[SceneViolation]:
     """Yield the individuals that lack what their classes require, each once with all that it lacks."""
     short = state.vocabulary.short
     for individual, required in _required(state):
@@ -20,7 +20,7 @@ def incomplete(state: WorldState) -> Iterator[Flaw]:
             names = ", ".join(map(short, sorted(lost)))
             message = f"{short(individual)} has no {names}, as every {of} must"
             cure = " ".join(f"`{short(name)} {_form(state, name)} ;`" for name in sorted(lost))
-            yield Flaw(individual, None, "missing-property", message, f"write {cure}")
+            yield SceneViolation(individual, None, "missing-property", message, f"write {cure}")
 
 
 def _required(state: WorldState) -> list[tuple[str, tuple[tuple[str, str], ...]]]:

@@ -9,7 +9,7 @@ from math import acos, atan2, degrees, pi
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.scene.violation import Flaw
+from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import seen_from
 from skillc_runtime.world.state.terms import HAS_HOLE, HAS_PATCH, ORIENTATION, POSITION, SIZE
@@ -51,7 +51,7 @@ class _Area:
         return bool((np.abs(self.pose.position[:2]) >= (self.surface_size + self.box) / 2).any())
 
 
-def astray(state: WorldState) -> Iterator[Flaw]:
+def check_surface_regions(state: WorldState) -> Iterator[SceneViolation]:
     """Yield the areas that cannot be worked on or around as they lie; those whose place is not known are left out."""
     for each in (*_areas(state, HAS_HOLE), *_areas(state, HAS_PATCH)):
         if each.tilt > TURN_RAD:
@@ -79,13 +79,13 @@ def _size(state: WorldState, individual: str) -> Array | None:
     return np.array(found) if len(found) == 2 else None
 
 
-def _tilted(state: WorldState, each: _Area) -> Flaw:
+def _tilted(state: WorldState, each: _Area) -> SceneViolation:
     short = state.vocabulary.short
     message = f"{short(each.area)} is tilted by {degrees(each.tilt):.0f} degrees out of {short(each.surface)}"
     return _flaw(state, each, ORIENTATION[0], "turned-area", message, "its z points as the surface's z does")
 
 
-def _turned(state: WorldState, each: _Area) -> Flaw:
+def _turned(state: WorldState, each: _Area) -> SceneViolation:
     short, (x, y) = state.vocabulary.short, each.box
     message = f"{short(each.area)} is turned by {degrees(each.turn):.0f} degrees on {short(each.surface)}"
     message += ", and lanes go around holes at right angles"
@@ -93,14 +93,14 @@ def _turned(state: WorldState, each: _Area) -> Flaw:
     return _flaw(state, each, ORIENTATION[0], "turned-area", message, cure)
 
 
-def _beside(state: WorldState, each: _Area) -> Flaw:
+def _beside(state: WorldState, each: _Area) -> SceneViolation:
     short, (x, y), (u, v) = state.vocabulary.short, each.pose.position[:2], each.surface_size / 2
     message = f"{short(each.area)} lies beside {short(each.surface)}: {x:.3g} m along its x, {y:.3g} m along its y"
     cure = f"from its middle the surface reaches {u:.3g} m along x and {v:.3g} m along y, both ways"
     return _flaw(state, each, POSITION[0], "area-beside-surface", message, cure)
 
 
-def _flaw(state: WorldState, each: _Area, predicate: str, name: str, message: str, cure: str) -> Flaw:
+def _flaw(state: WorldState, each: _Area, predicate: str, name: str, message: str, cure: str) -> SceneViolation:
     """Return a flaw at what the area says of its pose, else at its class."""
     said = predicate if state.value(each.area, predicate) is not None else None
-    return Flaw(each.area, said, name, message, cure)
+    return SceneViolation(each.area, said, name, message, cure)

@@ -22,9 +22,9 @@ from skillc_compiler.library.conditions import (
 from skillc_compiler.library.vocabulary import local_name
 from skillc_compiler.library.words import type_text
 from skillc_runtime.world.eval.identity_cache import ByIdentity
-from skillc_runtime.world.eval.typed import is_of
 from skillc_runtime.world.state.properties import property_of, value_from_python
 from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.value_types import is_of
 from skillc_runtime.world.state.values import Value, show
 from skillc_runtime.world.state.world_state import WorldState
 

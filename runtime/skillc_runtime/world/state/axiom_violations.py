@@ -1,26 +1,14 @@
-"""The axioms a version of the world must obey: what a write breaks is refused, with the axiom and the facts."""
+"""The axioms that a version of the world must satisfy: what violates one, in a change or anywhere, with the facts."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from itertools import combinations
+from itertools import chain, combinations
 from typing import TypeAlias, assert_never
 
-from skillc_compiler.library.vocabulary import (
-    THING,
-    ClassType,
-    DirectionType,
-    ListType,
-    NumberType,
-    PlainType,
-    PropertyTerm,
-    RelationTerm,
-    ValueType,
-    VectorType,
-)
+from skillc_compiler.library.vocabulary import THING, RelationTerm
 from skillc_compiler.turtle.terms import RDF_TYPE
-from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.state.changes import (
     AddIndividual,
     AddRelation,
@@ -30,8 +18,8 @@ from skillc_runtime.world.state.changes import (
     RemoveRelation,
     SetProperty,
 )
-from skillc_runtime.world.state.values import Value, finite, show
-from skillc_runtime.world.state.vectors import is_direction, is_vector
+from skillc_runtime.world.state.value_types import value_error
+from skillc_runtime.world.state.values import Value, show
 from skillc_runtime.world.state.world_state import WorldState
 
 Fact: TypeAlias = tuple[str, str, str]
@@ -39,8 +27,8 @@ Fact: TypeAlias = tuple[str, str, str]
 
 
 @dataclass(frozen=True, slots=True)
-class Breach:
-    """An axiom that a change breaks, by name, and the axiom with the facts in words.
+class AxiomViolation:
+    """An axiom that a change violates, by name, and the axiom with the facts in words.
 
     `rivals` are facts that cannot be true beside the change, `causes` those that explain it. `misfit` is the
     individual that is of the wrong class, if that is what is wrong.
@@ -53,7 +41,7 @@ class Breach:
     misfit: str | None = None
 
 
-def broken(state: WorldState, change: Change) -> Iterator[Breach]:
+def axiom_violations(state: WorldState, change: Change) -> Iterator[AxiomViolation]:
     """Yield what is wrong with a change in the version it led to."""
     match change:
         case AddIndividual(individual, types):
@@ -68,7 +56,7 @@ def broken(state: WorldState, change: Change) -> Iterator[Breach]:
             assert_never(change)
 
 
-def unknown(state: WorldState, change: Change) -> str | None:
+def unknown_term(state: WorldState, change: Change) -> str | None:
     """Return the IRI of a relation or property that the vocabulary lacks, None when all is known."""
     match change:
         case AddRelation(_, relation, _) | RemoveRelation(_, relation, _):
@@ -87,7 +75,7 @@ def _disjoint_classes(state: WorldState, types: Iterable[str]) -> tuple[str, str
     return next(((one, other) for one, other in pairs if state.vocabulary.disjoint(one, other)), None)
 
 
-def _misfit(state: WorldState, term: RelationTerm, subject: str, object_: str) -> Breach | None:
+def _misfit(state: WorldState, term: RelationTerm, subject: str, object_: str) -> AxiomViolation | None:
     """Say what a relation takes, when it takes neither signature's subject and object; None when one fits."""
     fits = (state.is_a(subject, each.domain) and state.is_a(object_, each.range) for each in term.signatures)
     if not term.signatures or any(fits):
@@ -96,7 +84,7 @@ def _misfit(state: WorldState, term: RelationTerm, subject: str, object_: str) -
     accepted = " or ".join(f"({_class(state, each.domain)}, {_class(state, each.range)})" for each in term.signatures)
     wrong_subject = not any(state.is_a(subject, each.domain) for each in term.signatures)
     misfit = subject if wrong_subject else object_
-    return Breach(
+    return AxiomViolation(
         "relation-domain" if wrong_subject else "relation-range",
         f"{short(term.iri)} takes {accepted}; {_described(state, subject)}, {_described(state, object_)}",
         causes=_types(state, misfit),
@@ -104,81 +92,68 @@ def _misfit(state: WorldState, term: RelationTerm, subject: str, object_: str) -
     )
 
 
-def wrong_value(term: PropertyTerm, value: Value) -> str | None:
-    """Say what a property takes when the value is none of it, None when it fits; several values are checked alone."""
-    if not finite(value):
-        return "NaN and infinity are no values"
-    expected = _expected(term.type, value)
-    if expected is not None:
-        return f"it takes {expected}"
-    if term.values and value not in term.values:
-        return "it is one of " + ", ".join(term.values)
-    if term.bounds is not None and isinstance(value, int | float) and not term.bounds.hold(value):
-        return f"it is {term.bounds}"
-    return None
-
-
-def _classes(state: WorldState, individual: str, types: tuple[str, ...]) -> Iterator[Breach]:
+def _classes(state: WorldState, individual: str, types: tuple[str, ...]) -> Iterator[AxiomViolation]:
     short = state.vocabulary.short
     for cls in types:
         if cls not in state.vocabulary.ancestors:
-            yield Breach("unknown-class", f"{short(individual)} cannot be a {short(cls)}: there is no such class")
+            message = f"{short(individual)} cannot be a {short(cls)}: there is no such class"
+            yield AxiomViolation("unknown-class", message)
     clash = _disjoint_classes(state, state.types(individual))
     if clash:
         one, other = map(short, clash)
         both = f"{short(individual)} cannot be both a {one} and a {other}"
         facts = tuple((individual, RDF_TYPE, cls) for cls in clash)
-        yield Breach("disjoint-classes", f"{both}: the classes are disjoint", rivals=facts)
+        yield AxiomViolation("disjoint-classes", f"{both}: the classes are disjoint", rivals=facts)
 
 
-def _relation(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[Breach]:
-    short = state.vocabulary.short
-    fact = f"{short(subject)} {short(relation)} {short(object_)}"
+def _relation(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
+    fact, short = (subject, relation, object_), state.vocabulary.short
     absent = [each for each in (subject, object_) if not state.exists(each)]
     if absent:
-        yield Breach("unknown-individual", f"`{fact}`: there is no individual {short(absent[0])}")
+        yield AxiomViolation("unknown-individual", f"{_quoted(state, fact)}: there is no individual {short(absent[0])}")
         return
     if relation in state.axioms.computed:
-        yield Breach("computed-property", f"`{fact}`: the relation is computed from other facts and cannot be stated")
+        reason = "the relation is computed from other facts and cannot be stated"
+        yield AxiomViolation("computed-property", f"{_quoted(state, fact)}: {reason}")
         return
-    if not state.holds(subject, relation, object_):
-        reason, rivals = _rival(state, subject, relation, object_)
-        yield Breach("functional-relation", f"`{fact}`: {reason}", rivals=rivals)
+    rivalry = _rivalry(state, fact)
+    if rivalry is not None:
+        reason, rivals = rivalry
+        yield AxiomViolation("functional-relation", f"{_quoted(state, fact)}: {reason}", rivals=rivals)
         return
-    own = fault(state, (subject, relation, object_))
-    opposite = list(_asymmetric(state, subject, relation, object_))[:1]
-    yield from (own,) if own else (replace(breach, message=f"`{fact}`: {breach.message}") for breach in opposite)
+    violation = lone_violation(state, fact) or _stated(state, fact, next(_asymmetric(state, *fact), None))
+    if violation is not None:
+        yield violation
 
 
-def fault(state: WorldState, fact: Fact) -> Breach | None:
+def lone_violation(state: WorldState, fact: Fact) -> AxiomViolation | None:
     """Return what is wrong with a relation between individuals by itself, whatever else is said."""
-    short = state.vocabulary.short
-    written = " ".join(map(short, fact))
-    found = (breach for kind in (_irreflexive, _misfits) for breach in kind(state, *fact))
-    return next((replace(breach, message=f"`{written}`: {breach.message}") for breach in found), None)
+    return _stated(state, fact, next(chain(_irreflexive(state, *fact), _misfits(state, *fact)), None))
 
 
-def _irreflexive(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[Breach]:
+def _irreflexive(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
     for term, start, end in _implied(state, subject, relation, object_):
         if (term.irreflexive or term.asymmetric) and start == end:
             short, kind = state.vocabulary.short, "irreflexive" if term.irreflexive else "asymmetric"
-            yield Breach("irreflexive-relation", f"{short(term.iri)} is {kind}, nothing has it to itself")
+            yield AxiomViolation("irreflexive-relation", f"{short(term.iri)} is {kind}, nothing has it to itself")
 
 
-def _asymmetric(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[Breach]:
+def _asymmetric(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
     for term, start, end in _implied(state, subject, relation, object_):
         if term.asymmetric and start != end and state.holds(end, term.iri, start):
             short = state.vocabulary.short
             opposite = f"{short(end)} {short(term.iri)} {short(start)}"
-            rivals = _written(state, end, term.iri, start)
-            yield Breach("asymmetric-relation", f"{short(term.iri)} is asymmetric, and `{opposite}` holds", rivals)
+            rivals = written_facts(state, end, term.iri, start)
+            yield AxiomViolation(
+                "asymmetric-relation", f"{short(term.iri)} is asymmetric, and `{opposite}` holds", rivals
+            )
 
 
-def _misfits(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[Breach]:
+def _misfits(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
     for term, start, end in _implied(state, subject, relation, object_):
-        breach = _misfit(state, term, start, end)
-        if breach is not None:
-            yield breach
+        misfit = _misfit(state, term, start, end)
+        if misfit is not None:
+            yield misfit
 
 
 def _implied(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[tuple[RelationTerm, str, str]]:
@@ -188,7 +163,7 @@ def _implied(state: WorldState, subject: str, relation: str, object_: str) -> It
         yield state.vocabulary.relations[implied], start, end
 
 
-def _written(state: WorldState, subject: str, relation: str, object_: str) -> tuple[Fact, ...]:
+def written_facts(state: WorldState, subject: str, relation: str, object_: str) -> tuple[Fact, ...]:
     """Return the facts, as they were written, from which one follows without transitivity."""
     found = (
         (source, object_, subject) if flipped else (source, subject, object_)
@@ -197,43 +172,59 @@ def _written(state: WorldState, subject: str, relation: str, object_: str) -> tu
     return tuple((start, iri, end) for iri, start, end in found if end in state.asserted[iri].forward.get(start))
 
 
-def _rival(state: WorldState, subject: str, relation: str, object_: str) -> tuple[str, tuple[Fact, ...]]:
-    """Say which fact took the place of one that was written, and why both cannot be."""
-    short = state.vocabulary.short
-    for term, start, end in _implied(state, subject, relation, object_):
-        if term.functional and (others := state.objects(start, term.iri) - {end}):
-            rival = start, term.iri, min(others)
-        elif term.inverse_functional and (others := state.subjects(term.iri, end) - {start}):
-            rival = min(others), term.iri, end
-        else:
-            continue
-        kind = "functional" if term.functional else "inverse functional"
-        said = f"{short(rival[0])} {short(term.iri)} {short(rival[2])}"
-        return f"{short(term.iri)} is {kind}, and `{said}` is said too", _written(state, *rival)
-    return "the same write takes it back", ()
+def _rivalry(state: WorldState, fact: Fact) -> tuple[str, tuple[Fact, ...]] | None:
+    """Say which other fact a functional relation cannot hold beside this one; None where this one stands alone.
+
+    A fact that was written and does not hold has lost its place to another of the same write.
+    """
+    short, stands = state.vocabulary.short, state.holds(*fact)
+    for term, start, end in _implied(state, *fact):
+        others = state.objects(start, term.iri) - {end} if term.functional else frozenset[str]()
+        holders = state.subjects(term.iri, end) - {start} if term.inverse_functional else frozenset[str]()
+        rivals = [(start, term.iri, other) for other in sorted(others)] or [
+            (holder, term.iri, end) for holder in sorted(holders)
+        ]
+        for rival in rivals[: None if stands else 1]:
+            written = written_facts(state, *rival)
+            if written or not stands:
+                kind, said = "functional" if term.functional else "inverse functional", " ".join(map(short, rival))
+                return f"{short(term.iri)} is {kind}, and `{said}` is said too", written
+    return None if stands else ("the same write takes it back", ())
+
+
+def _stated(state: WorldState, fact: Fact, violation: AxiomViolation | None) -> AxiomViolation | None:
+    """Return a violation with the fact that was written before its message."""
+    return violation and replace(violation, message=f"{_quoted(state, fact)}: {violation.message}")
+
+
+def _quoted(state: WorldState, fact: Fact) -> str:
+    return f"`{' '.join(map(state.vocabulary.short, fact))}`"
 
 
 def _types(state: WorldState, individual: str) -> tuple[Fact, ...]:
     return tuple((individual, RDF_TYPE, cls) for cls in sorted(state.types(individual)))
 
 
-def _property(state: WorldState, individual: str, property_: str, value: Value) -> Iterator[Breach]:
+def _property(state: WorldState, individual: str, property_: str, value: Value) -> Iterator[AxiomViolation]:
     short, term = state.vocabulary.short, state.vocabulary.properties[property_]
-    fact = f"{short(individual)}.{short(property_)} = {show(value)}"
+
+    def stating(reason: str) -> str:
+        return f"`{short(individual)}.{short(property_)} = {show(value)}`: {reason}"
+
     if not state.exists(individual):
-        yield Breach("unknown-individual", f"`{fact}`: there is no individual {short(individual)}")
+        yield AxiomViolation("unknown-individual", stating(f"there is no individual {short(individual)}"))
         return
     if term.computed_by is not None:
-        yield Breach("computed-property", f"`{fact}`: the property is computed from other facts and cannot be set")
+        reason = "the property is computed from other facts and cannot be set"
+        yield AxiomViolation("computed-property", stating(reason))
     if term.domains and not any(state.is_a(individual, domain) for domain in term.domains):
         owners = " or ".join(_class(state, domain) for domain in term.domains)
-        message = f"`{fact}`: it belongs to {owners}; {_described(state, individual)}"
-        yield Breach("property-domain", message, causes=_types(state, individual), misfit=individual)
-    several = not term.functional and isinstance(value, tuple)
-    for one in value if several and isinstance(value, tuple) else (value,):
-        wrong = wrong_value(term, one)
+        message = stating(f"it belongs to {owners}; {_described(state, individual)}")
+        yield AxiomViolation("property-domain", message, causes=_types(state, individual), misfit=individual)
+    for one in value if isinstance(value, tuple) and not term.functional else (value,):
+        wrong = value_error(term, one)
         if wrong:
-            yield Breach("wrong-data-type", f"`{fact}`: {wrong}")
+            yield AxiomViolation("wrong-data-type", stating(wrong))
 
 
 def _class(state: WorldState, iri: str) -> str:
@@ -243,29 +234,3 @@ def _class(state: WorldState, iri: str) -> str:
 def _described(state: WorldState, individual: str) -> str:
     short = state.vocabulary.short
     return f"{short(individual)} is a {' and a '.join(sorted(map(short, state.types(individual))))}"
-
-
-def _expected(type_: ValueType, value: Value) -> str | None:
-    """Return what a type takes when the value is not of it."""
-    number = isinstance(value, int | float) and not isinstance(value, bool)
-    match type_:
-        case NumberType():
-            return None if number else "a number"
-        case PlainType("Bool"):
-            return None if isinstance(value, bool) else "true or false"
-        case PlainType("Int"):
-            return None if number and isinstance(value, int | float) and value == int(value) else "a whole number"
-        case PlainType("Text"):
-            return None if isinstance(value, str) else "a text"
-        case PlainType("Pose"):
-            return None if isinstance(value, Pose) else "a pose"
-        case VectorType():
-            return None if is_vector(value) else "a vector of three numbers"
-        case DirectionType():
-            return None if is_direction(value) else "a direction: a vector of length 1"
-        case ClassType():
-            return None if isinstance(value, str) else "an individual"
-        case ListType():
-            return None if isinstance(value, tuple) else "a list"
-        case _:
-            raise AssertionError(f"no such type: {type_}")

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from threading import RLock
 
-from skillc_runtime.world.state.axiom_violations import broken, unknown
+from skillc_runtime.world.state.axiom_violations import axiom_violations, unknown_term
 from skillc_runtime.world.state.changes import (
     AddIndividual,
     AddRelation,
@@ -153,11 +153,11 @@ class WorldModel:
     def _checked(self, made: tuple[Change, ...], origin: str, known: Evidence | None) -> ChangeEvent:
         """Return what the changes would make of the current version; WorldError when that is refused."""
         before = self._state
-        strange = [iri for change in made if (iri := unknown(before, change)) is not None]
+        strange = [iri for change in made if (iri := unknown_term(before, change)) is not None]
         if strange:
             raise WorldError(f"there is no relation or property {before.vocabulary.short(strange[0])}")
         after = before.changed(made)
-        problems = [breach.message for change in _lasting(made) for breach in broken(after, change)]
+        problems = [breach.message for change in _lasting(made) for breach in axiom_violations(after, change)]
         if problems:
             raise WorldError("; ".join(dict.fromkeys(problems)))
         return ChangeEvent(made, origin, before, after, known)

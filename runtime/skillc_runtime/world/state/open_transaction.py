@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from skillc_runtime.world.state.axiom_violations import unknown
+from skillc_runtime.world.state.axiom_violations import unknown_term
 from skillc_runtime.world.state.changes import (
     AddIndividual,
     AddRelation,
@@ -72,7 +72,7 @@ class OpenTransaction:
     def add(self, *changes: Change) -> None:
         """Make changes after those so far."""
         short = self._begun.vocabulary.short
-        strange = [iri for change in changes if (iri := unknown(self._begun, change)) is not None]
+        strange = [iri for change in changes if (iri := unknown_term(self._begun, change)) is not None]
         if strange:
             raise ValueError(f"there is no relation or property {short(strange[0])}")
         self._state = self._state.changed(changes)
