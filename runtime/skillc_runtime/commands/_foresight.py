@@ -20,11 +20,11 @@ from skillc_runtime.commands._arm_sheets import unfit_sheets
 from skillc_runtime.commands._controllers import unknown_controllers
 from skillc_runtime.commands._scenes import Populated
 from skillc_runtime.planning.reachability import UnreachableGoal, explain_unreachable
+from skillc_runtime.scene.load import Scene
+from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.selection.first import first_refusals
 from skillc_runtime.selection.preflight import Origin, Refusal, preflight
 from skillc_runtime.selection.unfit import Unfit, unfit
-from skillc_runtime.scene.statements import iri_of
-from skillc_runtime.scene.load import Scene
 
 LABELLED = 6
 """How many individuals are shown beside a message at most."""
