@@ -33,7 +33,7 @@ from skillc_runtime.selection.reads import is_fixed
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.join import solutions
-from skillc_runtime.world.eval.support import facts_of
+from skillc_runtime.world.eval.support import deciding_facts
 from skillc_runtime.world.space.frames import placed
 from skillc_runtime.world.state.model import WorldError, WorldModel
 from skillc_runtime.world.state.python_calls import EvaluationError
@@ -88,9 +88,9 @@ def test_why_it_does_not_hold_is_told_with_numbers_and_what_decided_is_told_as_a
     condition = Holds(i("Lamp"), ON, i("Table"))
     told = explain(condition, ROOM, {}, ROOM.vocabulary)
     assert told.endswith("restsOn " + lab("Table") + f"` does not hold: {lab('Lamp')} is 1.200 m above {lab('Table')}")
-    assert facts_of([condition], ROOM, {}) == (f"not {lab('Lamp')} restsOn {lab('Table')}",)
+    assert deciding_facts([condition], ROOM, {}) == (f"not {lab('Lamp')} restsOn {lab('Table')}",)
     lost = ROOM.changed(placed(lab("Lamp"), at(0, 0, 0), "Lamp"))
-    assert facts_of([condition], lost, {}) == ()
+    assert deciding_facts([condition], lost, {}) == ()
     with pytest.raises(EvaluationError, match="form a circle"):
         evaluate(condition, lost, {})
 

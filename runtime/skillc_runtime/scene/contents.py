@@ -22,7 +22,7 @@ class Contents:
     labels: dict[str, str]
 
 
-def contents(documents: Iterable[Document]) -> Contents:
+def read_contents(documents: Iterable[Document]) -> Contents:
     """Return what the documents speak of; SceneError for one that is not Turtle."""
     said = [each for document in documents for each in statements_of(document)]
     labels: dict[str, str] = {}

@@ -52,9 +52,9 @@ class Document:
             data = path.read_bytes()
             text = data.decode("utf-8-sig")
         except OSError as error:
-            raise SceneError([unreadable(str(path), error.strerror or str(error))]) from error
+            raise SceneError([unreadable_problem(str(path), error.strerror or str(error))]) from error
         except TooLittleMemory as error:
-            raise SceneError([unreadable(str(path), str(error))]) from error
+            raise SceneError([unreadable_problem(str(path), str(error))]) from error
         except UnicodeDecodeError as error:
             raise SceneError([_not_utf8(path, data, error.start)]) from error
         if "\0" in text[:2]:
@@ -75,7 +75,7 @@ def statements_of(document: Document) -> tuple[Statement, ...]:
     return parsed.statements
 
 
-def resolved(statement: Statement, aliases: Mapping[str, str]) -> Statement:
+def with_own_terms(statement: Statement, aliases: Mapping[str, str]) -> Statement:
     """Return the statement with terms called by their own names."""
     changed = statement._replace(predicate=aliases.get(statement.predicate, statement.predicate))
     if isinstance(statement.object, ox.NamedNode) and statement.object.value in aliases:
@@ -83,7 +83,7 @@ def resolved(statement: Statement, aliases: Mapping[str, str]) -> Statement:
     return changed
 
 
-def unreadable(path: str, reason: str, line: int = 1, column: int = 1) -> Problem:
+def unreadable_problem(path: str, reason: str, line: int = 1, column: int = 1) -> Problem:
     """Return the problem of a file that there is no reading."""
     place = Place(path, line, column, line, column + 1)
     return Problem(place, "unreadable-scene", f"cannot read {path}: {reason}", "save it as UTF-8" * ("UTF" in reason))
@@ -97,8 +97,8 @@ def _parsed(document: Document, prefixes: tuple[tuple[str, str], ...]) -> Parsed
 def _not_utf8(path: Path, data: bytes, start: int) -> Problem:
     """Return the problem of a file at its first byte that is not UTF-8."""
     if data[:2] in (b"\xff\xfe", b"\xfe\xff") or b"\0" in data[:2]:
-        return unreadable(str(path), "it is UTF-16 or UTF-32, not UTF-8")
+        return unreadable_problem(str(path), "it is UTF-16 or UTF-32, not UTF-8")
     start += 3 * data.startswith(b"\xef\xbb\xbf")
     before = data[:start].decode("utf-8-sig", "replace")
     line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
-    return unreadable(str(path), "it is not UTF-8 text", line, column)
+    return unreadable_problem(str(path), "it is not UTF-8 text", line, column)

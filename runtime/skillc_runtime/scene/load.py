@@ -18,7 +18,7 @@ from skillc_runtime.scene.checks.classes import are_placed, misplaced_classes, o
 from skillc_runtime.scene.checks.identity import Claims
 from skillc_runtime.scene.checks.ineffective import ineffective, language_tags, without_class
 from skillc_runtime.scene.checks.terms import misspelt_terms, unnamed_things
-from skillc_runtime.scene.documents import Document, SceneError, parse, resolved, unreadable
+from skillc_runtime.scene.documents import Document, SceneError, parse, unreadable_problem, with_own_terms
 from skillc_runtime.scene.interpretation import interpret
 from skillc_runtime.scene.memory import PLACED_BYTES, TooLittleMemory, check_available
 from skillc_runtime.scene.mistakes import PlacedFacts
@@ -58,9 +58,9 @@ def load_scene(
     """
     own = Document.read(path)
     try:
-        state = load_in_bulk([own, *sheets()], vocabulary)
+        state = load_in_bulk([own, *sheet_documents()], vocabulary)
     except TooLittleMemory as error:
-        raise SceneError([unreadable(own.path, str(error))]) from error
+        raise SceneError([unreadable_problem(own.path, str(error))]) from error
     if state is not None:
         return state
     scene = scene_in(own, vocabulary)
@@ -107,10 +107,10 @@ def read_scene(path: Path, vocabulary: Vocabulary) -> Scene:
 
 def load_sheets(vocabulary: Vocabulary) -> WorldState:
     """Return the world of the packaged data sheets alone, to which scenes add."""
-    return world_of(sheets(), vocabulary)
+    return world_of(sheet_documents(), vocabulary)
 
 
-def sheets() -> list[Document]:
+def sheet_documents() -> list[Document]:
     """Return the packaged vocabularies and data sheets, and the data sheets in folders of the user's."""
     return [Document(name, text) for name, text in sheet_files()]
 
@@ -122,7 +122,7 @@ def scene_of(documents: Iterable[Document], vocabulary: Vocabulary) -> Scene:
     templates and annotations are passed over.
     """
     parsed = [parse(document, vocabulary.namespaces) for document in documents]
-    said = [resolved(each, vocabulary.aliases) for document in parsed for each in document.statements]
+    said = [with_own_terms(each, vocabulary.aliases) for document in parsed for each in document.statements]
     written = said[: len(parsed[0].statements)] if parsed else []
     vocabulary = with_prefixes(vocabulary, parsed)
     known = vocabulary.classes.keys()
@@ -146,8 +146,8 @@ def scene_in(own: Document, vocabulary: Vocabulary) -> Scene:
         check_available(PLACED_BYTES * len(own.text))
     except TooLittleMemory as error:
         reason = f"something may be wrong with it, and to find what takes a smaller file: {error}"
-        raise SceneError([unreadable(own.path, reason)]) from error
-    scene = scene_of([own, *sheets()], vocabulary)
+        raise SceneError([unreadable_problem(own.path, reason)]) from error
+    scene = scene_of([own, *sheet_documents()], vocabulary)
     if scene.problems or any(each.lines.path == own.path for each in scene.said):
         return scene
     place = Place(own.path, 1, 1, 1, 1)

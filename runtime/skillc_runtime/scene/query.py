@@ -13,7 +13,7 @@ import pyoxigraph as ox
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.turtle.terms import OWL, RDF, RDFS, XSD
 from skillc_runtime.scene.documents import Document, statements_of
-from skillc_runtime.scene.query_errors import federated, misunderstood
+from skillc_runtime.scene.query_errors import federation_error, syntax_error_message
 from skillc_runtime.store.literals import INTEGERS, NUMBERS
 
 Cell: TypeAlias = bool | int | float | str | None
@@ -34,21 +34,21 @@ class Answer:
     rows: tuple[tuple[Cell, ...], ...]
 
 
-def query(documents: Iterable[Document], sparql: str, vocabulary: Vocabulary) -> Answer:
+def run_query(documents: Iterable[Document], sparql: str, vocabulary: Vocabulary) -> Answer:
     """Return the answer of a query over documents; the vocabulary's prefixes need no declaration.
 
     QueryError for a text that is not SPARQL, an update, a question to another server, a failure of the evaluation;
     SceneError for a document that is not Turtle.
     """
     vocabulary = msgspec.structs.replace(vocabulary, prefixes={**WELL_KNOWN, **vocabulary.prefixes})
-    refusal = federated(sparql)
+    refusal = federation_error(sparql)
     if refusal is not None:
         raise QueryError(refusal)
     store = _store(documents)
     try:
         return _answer(store.query(sparql, prefixes=dict(vocabulary.prefixes)), vocabulary)
     except SyntaxError as error:
-        raise QueryError(misunderstood(sparql, str(error), vocabulary.prefixes)) from error
+        raise QueryError(syntax_error_message(sparql, str(error), vocabulary.prefixes)) from error
     except (OSError, RuntimeError, ValueError) as error:
         raise QueryError(f"the query cannot be answered: {error}") from error
 

@@ -32,7 +32,7 @@ class _Token:
     start: int
 
 
-def federated(query: str) -> str | None:
+def federation_error(query: str) -> str | None:
     """Return the complaint about a query that asks another server, None for one that does not."""
     asking = (token for token in _tokens(query) if token.kind == "word" and token.text.upper().startswith("SERVICE"))
     first = next(asking, None)
@@ -41,7 +41,7 @@ def federated(query: str) -> str | None:
     return _complaint(query, first.start, "SERVICE asks another server, and queries do not use the network")
 
 
-def misunderstood(query: str, parser: str, prefixes: Iterable[str]) -> str:
+def syntax_error_message(query: str, parser: str, prefixes: Iterable[str]) -> str:
     """Return what to say of a text that is not SPARQL; `parser` is the parser's message, `prefixes` are known."""
     tokens = list(_tokens(query))
     body = list(_without_prologue(tokens))

@@ -13,7 +13,7 @@ import pyoxigraph as ox
 
 from skillc_compiler.library.vocabulary import NumberType, Vocabulary
 from skillc_compiler.turtle.terms import RDF_TYPE
-from skillc_runtime.scene.documents import Document, resolved, statements_of
+from skillc_runtime.scene.documents import Document, statements_of, with_own_terms
 from skillc_runtime.scene.statements import facts, iri_of, with_own_classes
 from skillc_runtime.store.triples import CLASS, SUBCLASS, TYPE
 from skillc_runtime.world.state.values import Value, has, show
@@ -107,7 +107,7 @@ def _classes(state: WorldState, library: Vocabulary) -> Iterator[ox.Triple]:
 
 def _besides(source: Document, state: WorldState) -> Iterator[ox.Triple]:
     """Yield what a scene says beside its facts."""
-    said = [resolved(each, state.vocabulary.aliases) for each in statements_of(source)]
+    said = [with_own_terms(each, state.vocabulary.aliases) for each in statements_of(source)]
     about = facts(said, with_own_classes(state.vocabulary, said))
     gone = {iri_of(each.subject) for each in about} - state.individuals
     told = {(each.subject_at, each.predicate_at, each.object_at) for each in about}

@@ -8,8 +8,8 @@ from pathlib import Path
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.turtle.statements import Statement
 from skillc_compiler.turtle.terms import RDF_TYPE
-from skillc_runtime.scene.documents import Document, SceneError, parse, resolved
-from skillc_runtime.scene.load import sheets
+from skillc_runtime.scene.documents import Document, SceneError, parse, with_own_terms
+from skillc_runtime.scene.load import sheet_documents
 from skillc_runtime.scene.mistakes import PlacedFacts
 from skillc_runtime.scene.statements import (
     NAMED_INDIVIDUAL,
@@ -26,13 +26,13 @@ from skillc_runtime.world.state.terms import HAS_TEMPLATE, TEMPLATE
 
 def load_templates(path: Path, vocabulary: Vocabulary) -> Templates:
     """Return the templates of a scene file, which may speak of the packaged data sheets; SceneError for mistakes."""
-    return templates_of([Document.read(path), *sheets()], vocabulary)
+    return templates_of([Document.read(path), *sheet_documents()], vocabulary)
 
 
 def templates_of(documents: Iterable[Document], vocabulary: Vocabulary) -> Templates:
     """Return the templates of Turtle documents; SceneError with what is wrong with them or the documents."""
     parsed = [parse(document, vocabulary.namespaces) for document in documents]
-    said = [resolved(each, vocabulary.aliases) for document in parsed for each in document.statements]
+    said = [with_own_terms(each, vocabulary.aliases) for document in parsed for each in document.statements]
     vocabulary = with_own_classes(with_prefixes(vocabulary, parsed), said)
     templates = {
         iri_of(each.subject) for each in said if each.predicate == RDF_TYPE and iri_of(each.object) == TEMPLATE

@@ -8,7 +8,7 @@ from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Implementation, Parameter, Requirement
 from skillc_runtime.selection.fit import Fitted
 from skillc_runtime.trace.reasons import Deciding, Determined
-from skillc_runtime.world.eval.support import facts_of
+from skillc_runtime.world.eval.support import deciding_facts
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -44,5 +44,5 @@ def _conditions(
 
 
 def _deciding(requirement: Requirement, bindings: Mapping[str, Value], state: WorldState) -> Deciding:
-    facts = facts_of([requirement.condition], state, bindings)
+    facts = deciding_facts([requirement.condition], state, bindings)
     return Deciding(text=requirement.text, source=requirement.source, facts=facts)

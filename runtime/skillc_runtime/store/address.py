@@ -13,7 +13,7 @@ HIDDEN = "***"
 _BEFORE_HOST = re.compile(r"(?s)^(.*?://).*@")
 
 
-def shown(place: str) -> str:
+def without_credentials(place: str) -> str:
     """Return the place of a store without what may be a secret: what stands before an `@`, and a query."""
     if "://" not in place:
         return place
@@ -33,7 +33,7 @@ class Address:
     @staticmethod
     def of(text: str) -> Address:
         """Return the address that a text is; StoreError where it is none."""
-        name = shown(text)
+        name = without_credentials(text)
         try:
             parts = urlsplit(text)
             usable = parts.scheme in ("http", "https") and bool(parts.hostname) and parts.port != 0

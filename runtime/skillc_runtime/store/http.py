@@ -7,7 +7,7 @@ import ssl
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from skillc_runtime.store.address import Address, shown
+from skillc_runtime.store.address import Address, without_credentials
 from skillc_runtime.store.deadline import Deadline, TimedSocket
 from skillc_runtime.world.state.transactions import StoreError
 
@@ -128,7 +128,7 @@ class HttpEndpoint:
         connection.request("POST", url.target, text.encode(), headers)
         response = connection.getresponse()
         content = response.headers.get_content_type() if "Content-Type" in response.headers else ""
-        elsewhere = shown(response.headers.get("Location", ""))
+        elsewhere = without_credentials(response.headers.get("Location", ""))
         return _Answer(response.status, response.reason, content, _body(response), elsewhere)
 
 

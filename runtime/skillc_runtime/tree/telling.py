@@ -15,7 +15,7 @@ from skillc_runtime.trace.failure import Rejected
 from skillc_runtime.trace.reasons import Attempted, Untried
 from skillc_runtime.tree.activation import Activation
 from skillc_runtime.tree.context import Context
-from skillc_runtime.world.eval.support import facts_of
+from skillc_runtime.world.eval.support import deciding_facts
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
@@ -72,4 +72,4 @@ def facts_at_failure(
     implementations = tried if running is None else (running.implementation,)
     conditions = [each.condition for one in implementations for each in (*one.pre, *one.hold)]
     conditions += [post.condition for post in (running.implementation.post if running is not None else ())]
-    return facts_of(conditions, state, arguments if running is None else running.frame)
+    return deciding_facts(conditions, state, arguments if running is None else running.frame)

@@ -38,7 +38,7 @@ LISTED = 4
 _Names: TypeAlias = Mapping[str, Value]
 
 
-def facts_of(conditions: Iterable[Condition], state: WorldState, bindings: _Names) -> tuple[str, ...]:
+def deciding_facts(conditions: Iterable[Condition], state: WorldState, bindings: _Names) -> tuple[str, ...]:
     """Return the facts that the conditions read, each once, as `lab:Store contain lab:Eraser-1` or `not ..`.
 
     Names that are not bound stand for anybody. What cannot be decided is left out.

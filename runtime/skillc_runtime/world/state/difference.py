@@ -20,7 +20,7 @@ from skillc_runtime.world.state.world_state import WorldState
 _Fact: TypeAlias = tuple[str, str, str]
 
 
-def between(before: WorldState, after: WorldState, about: Iterable[str] | None = None) -> tuple[Change, ...]:
+def changes_between(before: WorldState, after: WorldState, about: Iterable[str] | None = None) -> tuple[Change, ...]:
     """Return the changes that make `after` of `before`, two sound versions with one vocabulary, in a fixed order.
 
     Only facts about the individuals `about` are looked at, all where they are not given.

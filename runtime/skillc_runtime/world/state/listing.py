@@ -19,7 +19,7 @@ class Entry:
     properties: tuple[tuple[str, Value], ...]
 
 
-def listing(state: WorldState, individuals: Iterable[str]) -> tuple[Entry, ...]:
+def list_entries(state: WorldState, individuals: Iterable[str]) -> tuple[Entry, ...]:
     """Return an entry for each of the individuals, sorted by IRI."""
     return tuple(_entry(state, individual) for individual in sorted(individuals))
 

@@ -17,7 +17,7 @@ from skillc_runtime.world.state.changes import (
     SetProperty,
     about,
 )
-from skillc_runtime.world.state.difference import between
+from skillc_runtime.world.state.difference import changes_between
 from skillc_runtime.world.state.evidence import Established, Evidence, Ledger
 from skillc_runtime.world.state.facts import Fact
 from skillc_runtime.world.state.open_transaction import OpenTransaction
@@ -107,7 +107,7 @@ class WorldModel:
                 raise WorldError("there is nothing to take back: nothing was written here since others wrote")
             last = self._past[-1]
             named = {individual for change in last.changes for individual in about(change)}
-            event = self._checked(between(self._state, last.before, named), origin, None)
+            event = self._checked(changes_between(self._state, last.before, named), origin, None)
             if not self._store.append(event, self._sequence):
                 raise WorldError("others wrote to the world meanwhile: nothing was taken back")
             self._advance(event)

@@ -15,7 +15,7 @@ class NoSuchName(LookupError):
     """A name of nothing in the world or its vocabulary; the message says what it may have been meant to be."""
 
 
-def called(name: str, vocabulary: Vocabulary) -> str:
+def expand_name(name: str, vocabulary: Vocabulary) -> str:
     """Return the IRI of a name, the term's own where it is another name of a term; NoSuchName for unknown prefixes."""
     prefix, colon, local = name.partition(":")
     if not colon:
@@ -29,7 +29,7 @@ def called(name: str, vocabulary: Vocabulary) -> str:
 
 def individual_of(name: str, state: WorldState) -> str:
     """Return the IRI of an individual that there is; NoSuchName says which are called alike."""
-    iri = called(name, state.vocabulary)
+    iri = expand_name(name, state.vocabulary)
     if state.exists(iri):
         return iri
     short = state.vocabulary.short
@@ -41,7 +41,7 @@ def individual_of(name: str, state: WorldState) -> str:
 
 def term_of(name: str, vocabulary: Vocabulary) -> str:
     """Return the IRI of a class, relation or property that there is; NoSuchName says which are called alike."""
-    iri = called(name, vocabulary)
+    iri = expand_name(name, vocabulary)
     known = vocabulary.ancestors.keys() | vocabulary.relations.keys() | vocabulary.properties.keys()
     if iri in known:
         return iri

@@ -12,7 +12,7 @@ from skillc_runtime.world.state.changes import (
     RemoveRelation,
     SetProperty,
 )
-from skillc_runtime.world.state.names import called
+from skillc_runtime.world.state.names import expand_name
 from skillc_runtime.world.state.templates import Templates
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
@@ -79,4 +79,4 @@ class OpenTransaction:
         self.changes += changes
 
     def _iri(self, name: str) -> str:
-        return called(name, self._begun.vocabulary)
+        return expand_name(name, self._begun.vocabulary)

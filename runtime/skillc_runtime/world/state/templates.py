@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from skillc_compiler.library.vocabulary import Vocabulary, local_name
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
-from skillc_runtime.world.state.names import NoSuchName, called
+from skillc_runtime.world.state.names import NoSuchName, expand_name
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -24,7 +24,7 @@ class Templates:
         Of each template that it refers to an individual is made as well, called after both. NoSuchName when there is
         no such template, ValueError when there is such an individual already.
         """
-        wanted = called(template, self.vocabulary)
+        wanted = expand_name(template, self.vocabulary)
         if wanted not in self.patterns:
             known = ", ".join(map(self.vocabulary.short, sorted(self.patterns))) or "none"
             raise NoSuchName(f"there is no template {self.vocabulary.short(wanted)}; there is {known}")
