@@ -20,15 +20,15 @@ from skillc_compiler.library.conditions import Condition, HasProperty, Holds, Is
 from skillc_compiler.library.skills import Parameter, Requirement
 from skillc_compiler.library.vocabulary import ClassType, Position
 from skillc_runtime.commands import _library
-from skillc_runtime.world.changes import AddIndividual, AddRelation, SetProperty
-from skillc_runtime.world.conditions import compile_condition
-from skillc_runtime.world.documents import Document
-from skillc_runtime.world.element import element
-from skillc_runtime.world.inference import Found, infer
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.saving import save
-from skillc_runtime.world.scene import load_scene, load_sheets, scene_of, sheets
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.scene.documents import Document
+from skillc_runtime.scene.load import load_scene, load_sheets, scene_of, sheet_documents
+from skillc_runtime.scene.saving import save
+from skillc_runtime.world.eval.conditions import compile_condition
+from skillc_runtime.world.eval.inference import Found, infer
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, SetProperty
+from skillc_runtime.world.state.elements import element
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.world_state import WorldState
 
 Result = TypeVar("Result")
 LAB, SKIROS = "http://example.org/lab#", "http://rvmi.aau.dk/ontologies/skiros.owl#"
@@ -82,7 +82,7 @@ def measured(objects: int) -> dict[str, float]:
         found |= reading(state) | writing(WorldModel(state))
         found["save s"], _ = timed(lambda: save(state, Path(folder, "saved.ttl"), load_sheets(vocabulary)))
         if objects <= CAREFUL_AT_MOST:
-            documents = [Document.read(path), *sheets()]
+            documents = [Document.read(path), *sheet_documents()]
             found["load, all that is wrong told s"], _ = timed(lambda: scene_of(documents, vocabulary))
     found["most memory of the process MB"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     return found

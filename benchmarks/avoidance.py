@@ -17,10 +17,10 @@ from skillc_runtime.avoidance.outfit import outfit
 from skillc_runtime.avoidance.scenery import Block, Place, scenery
 from skillc_runtime.avoidance.ways import Known, NoWay, way
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.frames import pose
-from skillc_runtime.world.scene import load_scene
-from skillc_runtime.world.sheet import sheet_of
-from skillc_runtime.world.terms import ARM_DEVICE, HAS_GRIPPER
+from skillc_runtime.scene.load import load_scene
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.data_sheet import sheet_of
+from skillc_runtime.world.state.terms import ARM_DEVICE, HAS_GRIPPER
 
 PILLARS = {"iiwa_table": (0.42, 0.33), "ur5e_whiteboard": (0.34, 0.3)}
 """Where in the arm's base frame a pillar stands in the way, m."""

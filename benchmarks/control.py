@@ -22,9 +22,9 @@ from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.motion.path import path
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.segments import MotionLimits
+from skillc_runtime.scene.load import load_scene
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.scene import load_scene
+from skillc_runtime.world.state.model import WorldModel
 
 SCENES = ("iiwa_table", "ur5e_whiteboard")
 TASKS = {

@@ -25,8 +25,8 @@ from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.neighbourhood import NARROW
 from skillc_runtime.planning.problem.pose import Posed, pose_problem
 from skillc_runtime.planning.solve import solve
-from skillc_runtime.world.bulk import Facts, state_of
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.bulk import Facts, state_of
+from skillc_runtime.world.state.world_state import WorldState
 from world.lab import VOCABULARY, holds, iri, parameter, requirement
 
 SIZES = (10, 30, 100, 300, 500, 1_000, 3_000, 10_000, 25_000, 250_000)

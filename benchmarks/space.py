@@ -12,9 +12,9 @@ from itertools import cycle
 from pathlib import Path
 from time import process_time
 
-from skillc_runtime.world.changes import Change
-from skillc_runtime.world.frames import moved, placed, pose, seen_from
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.space.frames import moved, placed, pose, seen_from
+from skillc_runtime.world.state.changes import Change
+from skillc_runtime.world.state.world_state import WorldState
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 from space.rooms import EMPTY, at, lab, skillc, thing

@@ -18,12 +18,11 @@ from skillc_runtime.avoidance.ways import Known
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.names import box_geom
-from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
-from skillc_runtime.world.frames import placed, pose
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.sheet import sheet_of
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import (
+from skillc_runtime.world.space.frames import placed, pose
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.state.data_sheet import sheet_of
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import (
     FURNITURE,
     HAS_GRIPPER,
     HAS_POSTURE,
@@ -33,6 +32,7 @@ from skillc_runtime.world.terms import (
     SIZE,
     SKILLC,
 )
+from skillc_runtime.world.state.world_state import WorldState
 
 Numbers: TypeAlias = tuple[float, ...]
 

@@ -14,7 +14,7 @@ from skillc_runtime.avoidance import ways
 from skillc_runtime.primitives.move import MoveJoints, TakePosture
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.changes import Change
+from skillc_runtime.world.state.changes import Change
 
 
 def gaps(there: SimulatedCell, scene: str, primitive: Primitive) -> list[float]:

@@ -9,9 +9,9 @@ from simulation.cells import ARM, ERASER, GRIPPER, LAB, PLACE
 from skillc_runtime.avoidance.outfit import Outfit, outfit
 from skillc_runtime.avoidance.scenery import scenery
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, RemoveRelation, SetProperty
-from skillc_runtime.world.frames import placed, pose
-from skillc_runtime.world.terms import CONTAIN, SIZE, WORKSPACE
+from skillc_runtime.world.space.frames import placed, pose
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, RemoveRelation, SetProperty
+from skillc_runtime.world.state.terms import CONTAIN, SIZE, WORKSPACE
 
 SCENE = "iiwa_table"
 IN_HAND = Pose.of((0.0, 0.0, 0.03), (0.0, 1.0, 0.0, 0.0))

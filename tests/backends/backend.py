@@ -17,9 +17,9 @@ from skillc_runtime.devices.arm import Arm
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.names import part
-from skillc_runtime.world.changes import SetProperty
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.terms import COMPLIANT_CONTROLLER
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import COMPLIANT_CONTROLLER
 
 WALL_N_M, WALL_N_S_M = 4000.0, 40.0
 """Stiffness and damping of the wall."""

@@ -11,10 +11,10 @@ from simulation.cells import ARM, LAB, world
 from skillc_runtime.simulation.arm import SimulatedArm
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.drivers import driver
-from skillc_runtime.world.changes import Change, RemoveRelation, SetProperty
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.sheet import SheetError
-from skillc_runtime.world.terms import COMPLIANT_CONTROLLER, HAS_SENSOR, SKILLC
+from skillc_runtime.world.state.changes import Change, RemoveRelation, SetProperty
+from skillc_runtime.world.state.data_sheet import SheetError
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import COMPLIANT_CONTROLLER, HAS_SENSOR, SKILLC
 
 UR5E, IIWA = "ur5e_whiteboard", "iiwa_table"
 

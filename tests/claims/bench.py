@@ -18,10 +18,9 @@ from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Primitive, Status
 from skillc_runtime.recording.events import Event
-from skillc_runtime.world.changes import AddIndividual, AddRelation, SetProperty
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import (
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, SetProperty
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import (
     ARRIVAL_TOLERANCE,
     AT,
     BASE_FRAME_ID,
@@ -36,6 +35,7 @@ from skillc_runtime.world.terms import (
     SKIROS,
     WIPING,
 )
+from skillc_runtime.world.state.world_state import WorldState
 
 LAB = "http://example.org/lab#"
 RPARTS = "http://www.inf.ufrgs.br/phi-group/ontologies/RParts.owl#"

@@ -7,10 +7,10 @@ from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Event, TaskEnded, WorldChanged
 from skillc_runtime.recording.known import KnownFact
-from skillc_runtime.world.changes import AddRelation
 from skillc_runtime.world.labelled import format_fact
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.terms import CONTAIN, IS_CLEAN
+from skillc_runtime.world.state.changes import AddRelation
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import CONTAIN, IS_CLEAN
 
 
 def bench(clean: bool = False) -> Bench:

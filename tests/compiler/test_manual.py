@@ -21,12 +21,18 @@ from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
 from skillc_runtime.commands import _checking, _files
-from skillc_runtime.world.documents import SceneError
-from skillc_runtime.world.scene import read_scene
+from skillc_runtime.scene.documents import SceneError
+from skillc_runtime.scene.load import read_scene
 
 ROOT = Path(__file__).parent.parent.parent
-GIVERS = {"Diagnostic", "report", "report_unknown", "Breach", "Flaw", "_problem_name"}
-PLACES = ("dsl", "compiler", "runtime/skillc_runtime/world", "runtime/skillc_runtime/commands")
+GIVERS = {"Diagnostic", "report", "report_unknown", "AxiomViolation", "SceneViolation", "_problem_name"}
+PLACES = (
+    "dsl",
+    "compiler",
+    "runtime/skillc_runtime/world",
+    "runtime/skillc_runtime/scene",
+    "runtime/skillc_runtime/commands",
+)
 NAME = re.compile(r"[a-z]+(-[a-z]+)*")
 LAB = "http://example.org/lab#"
 SCENE = {

@@ -8,10 +8,9 @@ from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
 from skillc_runtime.primitives.primitive import SkillFailure, Status
-from skillc_runtime.world.changes import AddIndividual, AddRelation, SetProperty
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import (
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, SetProperty
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
     HAS_POSTURE,
     HAS_SHEET,
@@ -20,6 +19,7 @@ from skillc_runtime.world.terms import (
     SKILLC,
     SURFACE,
 )
+from skillc_runtime.world.state.world_state import WorldState
 
 ARM, BOARD, SHEET, HOME = (f"http://example.org/lab#{name}" for name in ("Arm", "Board", "Sheet", "Home"))
 DATA_SHEET, POSTURE = SKILLC + "ArmSheet", SKILLC + "Posture"

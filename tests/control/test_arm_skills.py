@@ -12,13 +12,8 @@ from skillc_runtime.primitives.overlay import OverlayCircle
 from skillc_runtime.primitives.path import FollowPath
 from skillc_runtime.primitives.primitive import SkillFailure, Status
 from skillc_runtime.primitives.surface_location import correct_pose
-from skillc_runtime.world.changes import SetProperty
-from skillc_runtime.world.terms import (
-    BASE_FRAME_ID,
-    JOINT_VALUES,
-    ORIENTATION,
-    POSITION,
-)
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.terms import BASE_FRAME_ID, JOINT_VALUES, ORIENTATION, POSITION
 
 FORCE_N = {"iiwa14": 18.0, "ur5e": 8.0}
 

@@ -13,9 +13,9 @@ from skillc_runtime.primitives.move import MoveLinear
 from skillc_runtime.primitives.overlay import OverlayCircle, OverlayLissajous, OverlaySine, OverlaySpiral
 from skillc_runtime.primitives.path import FollowPath
 from skillc_runtime.primitives.primitive import SkillFailure
-from skillc_runtime.world.changes import SetProperty
-from skillc_runtime.world.frames import placed
-from skillc_runtime.world.terms import SIZE
+from skillc_runtime.world.space.frames import placed
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.terms import SIZE
 
 UP = np.array([0.0, 0.0, 1.0])
 

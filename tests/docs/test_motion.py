@@ -6,7 +6,7 @@ import re
 
 from docs.pages import ROOT
 from skillc_runtime.commands import _library
-from skillc_runtime.world.terms import SKILLC
+from skillc_runtime.world.state.terms import SKILLC
 
 PAGE = (ROOT / "docs/motion.md").read_text(encoding="utf-8")
 ROW = re.compile(r"^\| `(Overlay\w+)` \| `([\w/.]+)` \|[^|]*\| (.*) \|$", re.MULTILINE)

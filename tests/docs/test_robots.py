@@ -12,9 +12,9 @@ import pytest
 from docs.pages import ROOT, Reader
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
-from skillc_runtime.world.scene import load_scene
-from skillc_runtime.world.sheet import Sheet
-from skillc_runtime.world.terms import SKILLC
+from skillc_runtime.scene.load import load_scene
+from skillc_runtime.world.state.data_sheet import Sheet
+from skillc_runtime.world.state.terms import SKILLC
 
 PAGE = ROOT / "docs/robots.md"
 ROW = re.compile(r"^\| [^|]+ \| `skillc:(\w+)` \| `(\w+/(\w+)\.xml)` \| ([^|]+) \|$", re.MULTILINE)

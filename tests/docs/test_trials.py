@@ -9,7 +9,7 @@ from docs.pages import ROOT
 from skillc_runtime.commands import _library
 from skillc_runtime.evaluation.trials.targets import METRICS
 from skillc_runtime.evaluation.trials.trial import Disturbance
-from skillc_runtime.world.terms import CONTACT, SKILLC
+from skillc_runtime.world.state.terms import CONTACT, SKILLC
 
 PAGE = (ROOT / "docs/trials.md").read_text(encoding="utf-8")
 

@@ -17,9 +17,9 @@ from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.reading import walk
 from skillc_compiler.library.skills import Compound, SkillLibrary, Task
-from skillc_runtime.world.changes import SetProperty
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.expressions import value_of
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.expressions import value_of
+from skillc_runtime.world.state.changes import SetProperty
 from tree.stage import ON, PERIOD_S, Script, here, world
 from tree.strategies import Play, plays
 from tree.test_against_reference import TICKS, by_reference

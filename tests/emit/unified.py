@@ -22,7 +22,7 @@ from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.planning.problem.initial_state import InitialState
 from skillc_runtime.planning.problem.pose import Posed
 from skillc_runtime.planning.validation import PlanError, validate
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 
 get_environment().credits_stream = None
 GAP_S = 0.01

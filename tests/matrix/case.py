@@ -11,9 +11,9 @@ from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.pipeline import compile
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
-from skillc_runtime.world.documents import Document
-from skillc_runtime.world.scene import world_of
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.scene.documents import Document
+from skillc_runtime.scene.load import world_of
+from skillc_runtime.world.state.world_state import WorldState
 
 HERE = Path(__file__).parent
 MARK = "#="

@@ -18,10 +18,10 @@ from skillc_runtime.execution.selection.binding import BoundImplementation, bind
 from skillc_runtime.execution.selection.python_targets import import_primitive
 from skillc_runtime.primitives.primitive import Primitive as Running
 from skillc_runtime.primitives.primitive import SkillFailure, Status
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.effects import changes_of
-from skillc_runtime.world.expressions import value_of
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.effects import changes_of
+from skillc_runtime.world.eval.expressions import value_of
+from skillc_runtime.world.state.values import Value
 from tree.stage import Stage
 
 Path = tuple[str, ...]

@@ -23,8 +23,8 @@ from skillc_compiler.library.tree import Node
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.world_state import WorldState
 from tree.stage import PERIOD_S, Stage
 
 TICKS = 200

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 from tree.stage import Script, Scripted, Stage
 
 SCRIPTS = {

@@ -10,11 +10,11 @@ from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
-from skillc_runtime.world.documents import Document, SceneError
-from skillc_runtime.world.scene import world_of
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import SKILLC, SKIROS
-from skillc_runtime.world.values import Value
+from skillc_runtime.scene.documents import Document, SceneError
+from skillc_runtime.scene.load import world_of
+from skillc_runtime.world.state.terms import SKILLC, SKIROS
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 LAB = "http://example.org/lab#"
 PREFIXES = f"""@prefix lab: <{LAB}> . @prefix skillc: <{SKILLC}> . @prefix skiros: <{SKIROS}> .

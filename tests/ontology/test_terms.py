@@ -9,7 +9,7 @@ from packaged import FILES, SCENES, name, vocabulary, with_scene
 from rdflib import OWL, RDF, RDFS, Graph, URIRef
 from rdflib.namespace import VANN
 
-from skillc_runtime.world import terms
+from skillc_runtime.world.state import terms
 
 KINDS = (OWL.Class, OWL.ObjectProperty, OWL.DatatypeProperty, OWL.AnnotationProperty, RDFS.Datatype)
 BASES = tuple(str(base) for base in vocabulary().objects(None, VANN.preferredNamespaceUri))
@@ -24,7 +24,7 @@ PREFIXES = "".join(
         ("lab", "http://example.org/lab#"),
     )
 )
-RUNTIME = Path(terms.__file__).parents[1]
+RUNTIME = Path(terms.__file__).parents[2]
 
 
 def undeclared(graph: Graph, declared: Graph) -> set[str]:

@@ -23,7 +23,7 @@ from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.plan_text import read_step
 from skillc_runtime.planning.problem.pose import Posed, pose_problem
 from skillc_runtime.planning.search.grounding import GroundAction, Grounding
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def disagreements(library: SkillLibrary, state: WorldState) -> Iterator[str]:

@@ -35,8 +35,8 @@ from skillc_compiler.library.vocabulary import (
     Signature,
     Vocabulary,
 )
-from skillc_runtime.world.changes import AddIndividual, AddRelation, SetProperty
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, SetProperty
+from skillc_runtime.world.state.world_state import WorldState
 from world.lab import NS, iri, parameter, requirement
 
 RELATIONS = ("at", "holds", "heldBy", "linked", "touches", "grips")

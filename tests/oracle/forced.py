@@ -14,9 +14,10 @@ from skillc_compiler.library.vocabulary import ClassType
 from skillc_runtime.execution.selection.binding import BoundImplementation, bind_implementation
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.planning.validation import PlanError, validate
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.expressions import EvaluationError, value_of
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.expressions import value_of
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.world_state import WorldState
 
 LIMIT = 4000
 """So many states are looked at."""

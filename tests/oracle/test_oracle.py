@@ -24,7 +24,7 @@ from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.planning.reachability import explain_unreachable
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 
 EXAMPLES = int(os.environ.get("SKILLC_EXAMPLES", "0"))
 LONG_S = 60.0

@@ -31,7 +31,7 @@ from skillc_compiler.library.skills import Skill, SkillLibrary
 from skillc_compiler.library.vocabulary import ClassType, Vocabulary, local_name
 from skillc_compiler.pipeline import compile
 from skillc_dsl.source import Source
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def text_of(skills: Sequence[Skill]) -> str:

@@ -38,9 +38,9 @@ from skillc_compiler.library.vocabulary import (
     Vocabulary,
     local_name,
 )
-from skillc_runtime.world.changes import AddIndividual, AddRelation
-from skillc_runtime.world.model import WorldError, WorldModel
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation
+from skillc_runtime.world.state.model import WorldError, WorldModel
+from skillc_runtime.world.state.world_state import WorldState
 from world.lab import NS, iri, parameter, requirement
 
 CLASSES = {

@@ -34,8 +34,8 @@ from skillc_runtime.planning.search.device_work import price_device_work
 from skillc_runtime.planning.search.h_max import critical_path_s
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import validate
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.world_state import WorldState
 from world.lab import holds, iri, parameter
 
 LIBRARY = depot.library()

@@ -22,7 +22,7 @@ from skillc_runtime.planning.schedule import Schedule, TimedStep
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import PlanError
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 
 WORLD = depot.world({"carl": "a", "dora": "b"}, {"crate": "a", "box": "b"}, "a b c")
 BOTH = depot.goal("lab:c contain lab:crate and lab:a contain lab:box", WORLD)

@@ -22,8 +22,8 @@ from skillc_compiler.library.conditions import (
 from skillc_compiler.library.pddl.names import pddl_names
 from skillc_compiler.library.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_runtime.world.changes import SetProperty
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.world_state import WorldState
 from world.lab import HERE, VOCABULARY, holds, individual, iri, parameter, requirement
 from world.lab import fact as fact_of
 

@@ -15,8 +15,8 @@ from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
-from skillc_runtime.world.changes import AddIndividual
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.changes import AddIndividual
+from skillc_runtime.world.state.world_state import WorldState
 from world.lab import iri, parameter
 
 AT, CONTAIN, ROBOT, GRIPPER = iri("at"), iri("contain"), Individual(iri("robot")), Individual(iri("gripper"))

@@ -23,8 +23,8 @@ from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import PlanError, validate
-from skillc_runtime.world.changes import RemoveIndividual, RemoveRelation
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.changes import RemoveIndividual, RemoveRelation
+from skillc_runtime.world.state.world_state import WorldState
 from world.lab import assign, fact, individual, iri
 
 X = Variable("x")

@@ -16,9 +16,9 @@ from skillc_runtime.execution.assignment import AchieveGoal, Assignment, Prepare
 from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.recording.events import Event
-from skillc_runtime.world.changes import AddIndividual, AddRelation
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.world_state import WorldState
 
 LAB = "http://example.org/lab#"
 SKIROS, SKILLC = "http://rvmi.aau.dk/ontologies/skiros.owl#", "https://w3id.org/skillc/core#"

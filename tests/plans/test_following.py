@@ -5,8 +5,8 @@ from __future__ import annotations
 from plans.depot import LAB, Depot, carried_out, contain, iri, world
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Event, Replanned
-from skillc_runtime.world.changes import RemoveIndividual
-from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.state.changes import RemoveIndividual
+from skillc_runtime.world.state.model import WorldModel
 
 MOVED = "lab:b contain lab:crate"
 

@@ -15,8 +15,8 @@ from skillc_runtime.planning.plan import Plan, PlanResult, Solved, Step
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.world.changes import AddIndividual
-from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.state.changes import AddIndividual
+from skillc_runtime.world.state.model import WorldModel
 
 PRODUCT = SKIROS + "Product"
 

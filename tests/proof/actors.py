@@ -8,9 +8,9 @@ from random import Random
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.world_state import WorldState
 
 NS = "https://w3id.org/skillc/library/play#"
 ITEMS, SPOTS = tuple(f"{NS}item{n}" for n in range(3)), tuple(f"{NS}spot{n}" for n in range(2))

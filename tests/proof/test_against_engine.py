@@ -36,8 +36,8 @@ from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Event, ImplementationChosen, NodeEnded, NodeStarted
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.state.world_state import WorldState
 
 EXAMPLES = int(os.environ.get("PROOF_EXAMPLES", "16"))
 RUNS, TICKS = 6, 60

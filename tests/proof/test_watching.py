@@ -14,8 +14,8 @@ from skillc_compiler.library.skills import Compound, Parameter, Skill, SkillLibr
 from skillc_compiler.library.vocabulary import ClassTerm, ClassType, Vocabulary
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.world.changes import SetProperty
-from skillc_runtime.world.terms import ARM_DEVICE
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.terms import ARM_DEVICE
 from tree.stage import DEVICE, DEVICES, FLAGS, ON, THE_FLAG, Library, Script, Stage, act, call, here, is_on, world
 
 THE_ARM = Parameter(name="arm", direction="in", type=ClassType(DEVICE), source=here())

@@ -17,7 +17,7 @@ from skillc_runtime.evaluation.report.wiping import Wiping, find_wipings
 from skillc_runtime.recording.events import ImplementationChosen, NodeEnded, NodeStarted
 from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.world.labelled import Iri, LabelledValue, Quantity
-from skillc_runtime.world.terms import SURFACE, TOOL
+from skillc_runtime.world.state.terms import SURFACE, TOOL
 
 HERE = Position("wash.skill", 1, 1)
 CLASSES = {"http://lab#Window": SURFACE, "http://lab#Sponge": TOOL, "http://lab#Arm": ""}

@@ -24,7 +24,7 @@ from skillc_runtime.primitives.overlay import AddedMotion
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.recording.events import Event, NodeEnded, Note, TaskEnded
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.terms import (
+from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
     BUTTON,
     CONTACT,

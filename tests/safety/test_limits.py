@@ -15,10 +15,10 @@ from skillc_runtime.primitives.overlay import OverlayCircle
 from skillc_runtime.primitives.primitive import SkillFailure
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.names import part
-from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
-from skillc_runtime.world.frames import placed
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.terms import FRAME_ID, HAS_SHEET, HAS_WORKSPACE, SIZE, SKILLC, TOOL_SPEED_LIMIT
+from skillc_runtime.world.space.frames import placed
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import FRAME_ID, HAS_SHEET, HAS_WORKSPACE, SIZE, SKILLC, TOOL_SPEED_LIMIT
 
 
 def cell_with(scene: str, changes: list[Change]) -> SimulatedCell:

@@ -10,7 +10,7 @@ import pytest
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
-from skillc_runtime.world.scene import read_scene
+from skillc_runtime.scene.load import read_scene
 
 CASES = sorted((Path(__file__).parent / "cases").glob("*.ttl"))
 EXPECTED = re.compile(r'#! ([a-z-]+) "((?:[^"\\]|\\.)*)"?')

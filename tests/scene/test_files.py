@@ -9,8 +9,8 @@ import pytest
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
-from skillc_runtime.world.documents import SceneError
-from skillc_runtime.world.scene import load_scene
+from skillc_runtime.scene.documents import SceneError
+from skillc_runtime.scene.load import load_scene
 
 TEXT = catalogue.scene("iiwa_table").read_bytes()
 LABEL = b'"rough table"'

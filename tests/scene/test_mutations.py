@@ -11,8 +11,8 @@ from scene.mutations import Mutant, mutants
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
-from skillc_runtime.world.documents import Document
-from skillc_runtime.world.scene import scene_of
+from skillc_runtime.scene.documents import Document
+from skillc_runtime.scene.load import scene_of
 
 SEEDS = int(os.environ.get("SCENE_SEEDS", "6"))
 SHEETS = tuple(Document(name, text) for name, text in catalogue.vocabulary_files())

@@ -14,9 +14,9 @@ from rdflib.term import Node
 
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
-from skillc_runtime.world.documents import Document
-from skillc_runtime.world.scene import scene_of
-from skillc_runtime.world.shapes import shapes
+from skillc_runtime.scene.documents import Document
+from skillc_runtime.scene.load import scene_of
+from skillc_runtime.scene.shapes import shapes
 
 pytestmark = pytest.mark.reasoner
 

@@ -19,8 +19,8 @@ from skillc_compiler.library.skills import (
 from skillc_compiler.library.skills import Primitive as PrimitiveBody
 from skillc_compiler.library.vocabulary import ClassTerm, NumberType, Position, Vocabulary
 from skillc_runtime.primitives.primitive import Primitive, Status
-from skillc_runtime.world.changes import Change
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.changes import Change
+from skillc_runtime.world.state.world_state import WorldState
 from world.lab import CLASSES, FUNCTIONS, PROPERTIES, RELATIONS, assign, fact, holds, individual, iri, parameter
 
 MOVES = PrimitiveBody("selection.library:Moves")

@@ -21,7 +21,7 @@ from skillc_compiler.library.conditions import (
 )
 from skillc_compiler.library.skills import Compound, Implementation, Let, Post, Primitive
 from skillc_runtime.execution.selection.preflight import preflight
-from skillc_runtime.world.changes import Change, RemoveRelation
+from skillc_runtime.world.state.changes import Change, RemoveRelation
 from world.lab import assign, fact, individual, iri, parameter
 
 PICK = call("Pick", arm=Individual(iri("arm")), object=Individual(iri("eraser")))

@@ -16,8 +16,8 @@ from skillc_runtime.execution.selection.select import (
     explain_none_selected,
     select_implementation,
 )
-from skillc_runtime.world.changes import Change
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.state.changes import Change
+from skillc_runtime.world.state.values import Value
 from world.lab import fact, individual, iri, parameter
 
 GRIPPER = {"gripper": iri("gripper")}

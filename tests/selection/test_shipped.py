@@ -16,9 +16,9 @@ from skillc_runtime.commands import _library
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.execution.selection.python_targets import import_matching_primitive
 from skillc_runtime.execution.selection.select import NoneSelected, SelectedImplementation, select_implementation
-from skillc_runtime.world.changes import Change, ClearProperty
-from skillc_runtime.world.scene import load_scene
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.scene.load import load_scene
+from skillc_runtime.world.state.changes import Change, ClearProperty
+from skillc_runtime.world.state.world_state import WorldState
 
 LAB, CORE = "http://example.org/lab#", "https://w3id.org/skillc/core#"
 SKIROS, WIPING = "http://rvmi.aau.dk/ontologies/skiros.owl#", "https://w3id.org/skillc/wiping#"

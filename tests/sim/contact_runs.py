@@ -14,11 +14,11 @@ from skillc_runtime.commands import _library
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.scene.load import load_scene
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.changes import SetProperty
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.scene import load_scene
-from skillc_runtime.world.state import Value
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.values import Value
 
 LAB = "http://example.org/lab#"
 CONTACT = "https://w3id.org/skillc/contact#"

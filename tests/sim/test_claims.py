@@ -16,15 +16,14 @@ from skillc_runtime.evaluation.trials.disturbance import reality
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.scene.load import load_scene
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.facts import SceneFacts
 from skillc_runtime.simulation.variation import Variation, draw, with_obstacles
-from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.labelled import format_fact
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.scene import load_scene
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import (
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import (
     BASE_FRAME_ID,
     CONTACT_SHARE,
     CONTAIN,
@@ -37,6 +36,7 @@ from skillc_runtime.world.terms import (
     SKIROS,
     WEIGHT,
 )
+from skillc_runtime.world.state.world_state import WorldState
 
 pytestmark = pytest.mark.sim
 

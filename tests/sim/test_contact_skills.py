@@ -8,7 +8,7 @@ from contact_runs import LAB, at_rest, displace, run, strongest, tell, vanish
 
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.frames import pose
+from skillc_runtime.world.space.frames import pose
 
 pytestmark = pytest.mark.sim
 

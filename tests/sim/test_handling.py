@@ -12,10 +12,10 @@ from skillc_runtime.commands import _library
 from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.scene.load import load_scene
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.frames import pose
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.scene import load_scene
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.model import WorldModel
 
 pytestmark = pytest.mark.sim
 

@@ -16,12 +16,12 @@ from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.scene.load import load_scene
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, RemoveRelation, SetProperty
-from skillc_runtime.world.frames import placed
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.scene import load_scene
-from skillc_runtime.world.terms import ALONG_AXIS, HAS_HOLE, HAS_PATCH, SIZE, SKILLC
+from skillc_runtime.world.space.frames import placed
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, RemoveRelation, SetProperty
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import ALONG_AXIS, HAS_HOLE, HAS_PATCH, SIZE, SKILLC
 
 pytestmark = pytest.mark.sim
 

@@ -21,9 +21,9 @@ from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.scene.load import load_scene
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.scene import load_scene
+from skillc_runtime.world.state.model import WorldModel
 
 pytestmark = pytest.mark.sim
 

@@ -17,13 +17,13 @@ from skillc_runtime.primitives.grasp import Grasp
 from skillc_runtime.primitives.gripper import ParallelGripper, ThreeFingerGripper
 from skillc_runtime.primitives.move import MoveJoints, MoveLinear
 from skillc_runtime.primitives.primitive import Primitive, Status
+from skillc_runtime.scene.load import load_scene
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.changes import AddRelation, Change
-from skillc_runtime.world.frames import pose
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.scene import load_scene
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import AT
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.changes import AddRelation, Change
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import AT
+from skillc_runtime.world.state.world_state import WorldState
 
 LAB = "http://example.org/lab#"
 ERASER = LAB + "Eraser-1"

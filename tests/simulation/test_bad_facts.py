@@ -6,12 +6,12 @@ import pytest
 from cells import vocabulary, world
 
 from skillc_ontology import catalogue
+from skillc_runtime.scene.documents import Document, SceneError
+from skillc_runtime.scene.load import sheet_documents, world_of
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.documents import Document, SceneError
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.scene import sheets, world_of
-from skillc_runtime.world.sheet import Sheet, SheetError
-from skillc_runtime.world.terms import SKILLC
+from skillc_runtime.world.state.data_sheet import Sheet, SheetError
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import SKILLC
 
 READ = [
     ("iiwa_outlet", "skillc:margin 0.01", "skillc:margin -0.01", "it is at least 0"),
@@ -56,7 +56,7 @@ def changed(scene: str, old: str, new: str, more: str = "") -> Document:
 @pytest.mark.parametrize(("scene", "old", "new", "words"), READ)
 def test_a_wrong_fact_is_told_when_the_scene_is_read(scene: str, old: str, new: str, words: str) -> None:
     with pytest.raises(SceneError) as caught:
-        world_of([changed(scene, old, new), *sheets()], vocabulary())
+        world_of([changed(scene, old, new), *sheet_documents()], vocabulary())
     assert words in str(caught.value)
 
 
@@ -65,7 +65,7 @@ def test_facts_that_do_not_go_together_are_told_before_anything_moves(
     scene: str, old: str, new: str, words: str, sheet: str
 ) -> None:
     more = sheet.format("skillc:model ") + " .\n" if sheet else ""
-    state = world_of([changed(scene, old, new, more), *sheets()], vocabulary())
+    state = world_of([changed(scene, old, new, more), *sheet_documents()], vocabulary())
     with pytest.raises(SheetError, match=words):
         SimulatedCell(WorldModel(state))
 

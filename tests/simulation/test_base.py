@@ -9,7 +9,7 @@ from skillc_runtime.primitives.drive import DriveBase
 from skillc_runtime.simulation.base import SimulatedBase
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.facts import BaseFacts
-from skillc_runtime.world.frames import pose
+from skillc_runtime.world.space.frames import pose
 
 HERON = LAB + "Heron-1"
 

@@ -10,18 +10,18 @@ from cells import ARM, ERASER, SCENES, SURFACE, cell, vocabulary, world
 
 from skillc_ontology import catalogue
 from skillc_runtime.motion.pose import Pose
+from skillc_runtime.scene.load import load_scene
 from skillc_runtime.simulation import noise
 from skillc_runtime.simulation.build import build
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.facts import read_scene
 from skillc_runtime.simulation.names import obstacle
 from skillc_runtime.simulation.variation import OBSTACLE_M, deserted, draw, with_obstacles
-from skillc_runtime.world.changes import Change, ClearProperty, RemoveRelation, SetProperty
-from skillc_runtime.world.frames import pose
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.scene import load_scene
-from skillc_runtime.world.sheet import SheetError
-from skillc_runtime.world.terms import (
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.changes import Change, ClearProperty, RemoveRelation, SetProperty
+from skillc_runtime.world.state.data_sheet import SheetError
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import (
     COMPLIANT_CONTROLLER,
     FRICTION,
     FRICTION_HIGH,

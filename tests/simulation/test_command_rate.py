@@ -6,7 +6,7 @@ from cells import ARM, world
 
 from skillc_runtime.devices.arm import JointPosition, Torque
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.state.model import WorldModel
 
 SCENE = "ur5e_whiteboard"
 

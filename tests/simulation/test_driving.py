@@ -15,8 +15,8 @@ from skillc_runtime.execution.selection.select import NoneSelected, select_imple
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.terms import AT
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import AT
 
 ROBOT, DOCK, STORE = LAB + "Heron-1", LAB + "Dock", LAB + "Store"
 

@@ -7,8 +7,8 @@ from cells import ARM, SCENES, cell
 
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.changes import SetProperty
-from skillc_runtime.world.model import ChangeEvent, WorldModel
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.model import ChangeEvent, WorldModel
 
 DEVICE_STATE = "https://w3id.org/skillc/core#deviceState"
 

@@ -25,9 +25,10 @@ from skillc_runtime.primitives.grasp import Release
 from skillc_runtime.primitives.gripper import ParallelGripper
 from skillc_runtime.primitives.primitive import SkillFailure, Status
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.changes import AddRelation, ClearProperty
-from skillc_runtime.world.frames import WORLD_FRAME, FrameError, placed, pose
-from skillc_runtime.world.terms import BASE_FRAME_ID, CONTAIN, FRAME_ID, POSITION, SKILLC
+from skillc_runtime.world.space.frame_tree import WORLD_FRAME, FrameError
+from skillc_runtime.world.space.frames import placed, pose
+from skillc_runtime.world.state.changes import AddRelation, ClearProperty
+from skillc_runtime.world.state.terms import BASE_FRAME_ID, CONTAIN, FRAME_ID, POSITION, SKILLC
 
 
 def release(there: SimulatedCell, scene: str) -> Release:

@@ -7,9 +7,9 @@ from cells import ARM, ERASER, GRIPPER, HANDS, at_the_eraser, eraser_height, gra
 from skillc_runtime.primitives.fact_monitor import FactMonitor
 from skillc_runtime.primitives.primitive import SkillFailure
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.changes import AddRelation, SetProperty
-from skillc_runtime.world.frames import pose
-from skillc_runtime.world.terms import CONTAIN, WEIGHT
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.changes import AddRelation, SetProperty
+from skillc_runtime.world.state.terms import CONTAIN, WEIGHT
 
 FORCE, FRICTION = 20.0, 1.0
 """N; of rubber pads on a painted handle, as the grippers' models have it."""

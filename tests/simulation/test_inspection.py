@@ -6,7 +6,7 @@ from cells import SURFACE, cell
 
 from skillc_runtime.primitives.inspect import CLEAN_THRESHOLD, COVERAGE, IS_CLEAN, Inspect
 from skillc_runtime.primitives.primitive import SkillFailure, Status
-from skillc_runtime.world.changes import ClearProperty, SetProperty
+from skillc_runtime.world.state.changes import ClearProperty, SetProperty
 
 TABLE = SURFACE["iiwa_table"]
 

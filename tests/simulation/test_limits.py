@@ -12,10 +12,10 @@ from cells import vocabulary
 from skillc_ontology import catalogue
 from skillc_runtime.control.kinematics import JOINT_RAMP_S
 from skillc_runtime.motion.joint import joint_motion
-from skillc_runtime.world.scene import load_scene
-from skillc_runtime.world.sheet import Sheet
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import SKILLC
+from skillc_runtime.scene.load import load_scene
+from skillc_runtime.world.state.data_sheet import Sheet
+from skillc_runtime.world.state.terms import SKILLC
+from skillc_runtime.world.state.world_state import WorldState
 
 DEGREES = np.pi / 180
 

@@ -16,13 +16,13 @@ from menagerie import COLOUR, OURS, QUARTERS, SCALE, tetrahedron, write_collecti
 from skillc_ontology import catalogue
 from skillc_runtime.cache_folder import VARIABLE
 from skillc_runtime.motion.pose import Array, Pose, exp
+from skillc_runtime.scene.load import load_scene
 from skillc_runtime.simulation.build import build, described
 from skillc_runtime.simulation.facts import SceneFacts, read_scene
 from skillc_runtime.simulation.looks import Collection, Looks, LooksError, read_looks
 from skillc_runtime.simulation.looks_cache import model_file
 from skillc_runtime.simulation.looks_meshes import dressed
 from skillc_runtime.simulation.variation import draw
-from skillc_runtime.world.scene import load_scene
 
 SCENES = {"ur5e_whiteboard": ["ur5e"], "iiwa_table": ["iiwa14"], "panda_desk": ["panda_nohand", "hand"]}
 

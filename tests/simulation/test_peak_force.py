@@ -6,7 +6,7 @@ from cells import world
 
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.observer import PeakForce
-from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.state.model import WorldModel
 
 
 @pytest.mark.parametrize("scene", ["iiwa_table", "ur5e_whiteboard"])

@@ -11,12 +11,12 @@ from skillc_runtime.avoidance.body import body
 from skillc_runtime.avoidance.contacts import Contacts
 from skillc_runtime.avoidance.outfit import outfit
 from skillc_runtime.avoidance.scenery import scenery
+from skillc_runtime.scene.documents import Document
+from skillc_runtime.scene.load import sheet_documents, world_of
 from skillc_runtime.simulation import starts
 from skillc_runtime.simulation.facts import ArmFacts, read_scene
 from skillc_runtime.simulation.rng import rng_for
 from skillc_runtime.simulation.starts import draw_start
-from skillc_runtime.world.documents import Document
-from skillc_runtime.world.scene import sheets, world_of
 
 SEEDS = range(40)
 
@@ -35,7 +35,9 @@ def first_draw(arm: ArmFacts, seed: int) -> tuple[float, ...]:
 def arm_in(old: str, new: str) -> ArmFacts:
     text = catalogue.scene("iiwa_table").read_text("utf-8")
     assert text.count(old) == 1
-    return read_scene(world_of([Document("scene.ttl", text.replace(old, new)), *sheets()], vocabulary())).arms[0]
+    return read_scene(world_of([Document("scene.ttl", text.replace(old, new)), *sheet_documents()], vocabulary())).arms[
+        0
+    ]
 
 
 def test_a_start_that_touches_something_is_drawn_again_and_no_other() -> None:

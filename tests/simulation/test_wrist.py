@@ -7,9 +7,9 @@ from cells import ARM, GRIPPER, LAB, world
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.simulation.arm import Payload
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.changes import SetProperty
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.terms import FORCE_NOISE, TORQUE_NOISE
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import FORCE_NOISE, TORQUE_NOISE
 
 SCENE = "ur5e_whiteboard"
 SENSOR = LAB + "ForceTorque-1"

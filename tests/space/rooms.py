@@ -7,10 +7,10 @@ from hypothesis import strategies as st
 
 from skillc_runtime.commands import _library
 from skillc_runtime.motion.pose import Array, Pose, exp
-from skillc_runtime.world.changes import AddIndividual, AddRelation, Change, SetProperty
-from skillc_runtime.world.frames import placed
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import FRAME_ID, SIZE, SKILLC, SKIROS
+from skillc_runtime.world.space.frames import placed
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.state.terms import FRAME_ID, SIZE, SKILLC, SKIROS
+from skillc_runtime.world.state.world_state import WorldState
 
 LAB = "http://example.org/lab#"
 PART = SKIROS + "Part"

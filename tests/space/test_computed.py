@@ -27,18 +27,18 @@ from skillc_runtime.commands import _library
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.explain import explain
-from skillc_runtime.world.foreign import EvaluationError
-from skillc_runtime.world.frames import placed
-from skillc_runtime.world.join import solutions
+from skillc_runtime.scene.load import load_scene, read_scene
+from skillc_runtime.scene.shapes import shapes
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.explain import explain
+from skillc_runtime.world.eval.join import solutions
+from skillc_runtime.world.eval.support import deciding_facts
 from skillc_runtime.world.labelled import format_fact
-from skillc_runtime.world.model import WorldError, WorldModel
-from skillc_runtime.world.scene import load_scene, read_scene
-from skillc_runtime.world.shapes import shapes
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.support import facts_of
-from skillc_runtime.world.terms import AT, BASE_FRAME_ID, FURNITURE, SIZE
+from skillc_runtime.world.space.frames import placed
+from skillc_runtime.world.state.model import WorldError, WorldModel
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.terms import AT, BASE_FRAME_ID, FURNITURE, SIZE
+from skillc_runtime.world.state.world_state import WorldState
 from space.rooms import EMPTY, PART, at, lab, linked, skillc, thing, world
 
 ON, INSIDE, CAN_REACH = skillc("restsOn"), skillc("isInside"), skillc("canReach")
@@ -88,9 +88,10 @@ def test_why_it_does_not_hold_is_told_with_numbers_and_what_decided_is_told_as_a
     condition = Holds(i("Lamp"), ON, i("Table"))
     told = explain(condition, ROOM, {}, ROOM.vocabulary)
     assert told.endswith("restsOn " + lab("Table") + f"` does not hold: {lab('Lamp')} is 1.200 m above {lab('Table')}")
-    assert tuple(map(format_fact, facts_of([condition], ROOM, {}))) == (f"not {lab('Lamp')} restsOn {lab('Table')}",)
+    decided = deciding_facts([condition], ROOM, {})
+    assert tuple(map(format_fact, decided)) == (f"not {lab('Lamp')} restsOn {lab('Table')}",)
     lost = ROOM.changed(placed(lab("Lamp"), at(0, 0, 0), "Lamp"))
-    assert facts_of([condition], lost, {}) == ()
+    assert deciding_facts([condition], lost, {}) == ()
     with pytest.raises(EvaluationError, match="form a circle"):
         evaluate(condition, lost, {})
 

@@ -11,21 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from skillc_runtime.motion.pose import Array, Pose, quaternion_of, rotation_of
-from skillc_runtime.world.changes import ClearProperty, SetProperty
-from skillc_runtime.world.frames import (
-    FrameError,
-    MissingFact,
-    Unplaced,
-    carried_by,
-    moved,
-    placed,
-    pose,
-    seen_from,
-    size,
-)
-from skillc_runtime.world.space.space import space_of
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import (
+from skillc_runtime.world.space.frame_tree import FrameError, MissingFact, Unplaced, frame_tree_of
+from skillc_runtime.world.space.frames import carried_by, moved, placed, pose, seen_from, size
+from skillc_runtime.world.state.changes import ClearProperty, SetProperty
+from skillc_runtime.world.state.terms import (
     AT,
     BASE_FRAME_ID,
     CONTAIN,
@@ -37,6 +26,7 @@ from skillc_runtime.world.terms import (
     SIZE,
     SKIROS,
 )
+from skillc_runtime.world.state.world_state import WorldState
 from space.rooms import at, lab, linked, poses, same, skillc, thing, world
 
 NAMES = ("a", "b", "c", "d", "e", "f")
@@ -177,9 +167,9 @@ def test_versions_that_agree_about_space_share_its_tree_and_no_version_is_kept_f
     state = world(thing("a", at(0, 0, 0)), thing("b", at(0, 0, 1), "a"))
     pose(state, lab("b"))
     told = state.changed([SetProperty(lab("a"), SKIROS + "Weight", 1.0)])
-    assert space_of(told) is space_of(state)
+    assert frame_tree_of(told) is frame_tree_of(state)
     lifted = state.changed(placed(lab("a"), at(0, 0, 5)))
-    assert space_of(lifted) is not space_of(state)
+    assert frame_tree_of(lifted) is not frame_tree_of(state)
     assert np.allclose(pose(lifted, lab("b")).position, (0, 0, 6))
     assert np.allclose(pose(state, lab("b")).position, (0, 0, 1))
     former = ref(state)

@@ -9,13 +9,13 @@ from hypothesis import strategies as st
 
 from skillc_ontology import catalogue
 from skillc_runtime.motion.pose import Array, Pose, exp
-from skillc_runtime.world.changes import ClearProperty, RemoveIndividual, RemoveRelation
-from skillc_runtime.world.foreign import EvaluationError
-from skillc_runtime.world.frames import placed, pose
-from skillc_runtime.world.scene import load_scene
+from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.boxes import TOUCH_M, box
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import AT, BASE_FRAME_ID, CONTAIN, FURNITURE, HAS_SHEET, SIZE, WORKSTATION
+from skillc_runtime.world.space.frames import placed, pose
+from skillc_runtime.world.state.changes import ClearProperty, RemoveIndividual, RemoveRelation
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.terms import AT, BASE_FRAME_ID, CONTAIN, FURNITURE, HAS_SHEET, SIZE, WORKSTATION
+from skillc_runtime.world.state.world_state import WorldState
 from space.rooms import EMPTY, LAB, at, lab, linked, poses, skillc, thing, vectors, world
 
 INSIDE, ABOVE, RESTS_ON, REACHES, CAN_REACH = map(skillc, ("isInside", "isAbove", "restsOn", "reaches", "canReach"))

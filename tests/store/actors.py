@@ -9,11 +9,11 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from random import Random
 
-from skillc_runtime.world.model import WorldError, WorldModel
-from skillc_runtime.world.store.contents import world_of
-from skillc_runtime.world.store.disk import JOURNAL, DiskStore
-from skillc_runtime.world.store.opening import open_store
-from skillc_runtime.world.store.store import StoreError
+from skillc_runtime.store.contents import world_of
+from skillc_runtime.store.disk import JOURNAL, DiskStore
+from skillc_runtime.store.opening import open_store
+from skillc_runtime.world.state.model import WorldError, WorldModel
+from skillc_runtime.world.state.transactions import StoreError
 from store.worlds import facts_of, model_of, random_write
 from world.lab import VOCABULARY, assign
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from skillc_runtime.world.event import ChangeEvent
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.store.facts import all_facts
-from skillc_runtime.world.store.store import Kept, StoreError, Transaction
+from skillc_runtime.store.store import StoredWorld
+from skillc_runtime.store.triples import all_facts
+from skillc_runtime.world.state.transactions import ChangeEvent, StoreError, Transaction
+from skillc_runtime.world.state.world_state import WorldState
 
 
 class MemoryStore:
@@ -19,9 +19,9 @@ class MemoryStore:
         self.interfere: Callable[[], None] = lambda: None
         self.broken = False
 
-    def read(self) -> Kept:
+    def read(self) -> StoredWorld:
         triples = () if self.state is None else tuple(all_facts(self.state))
-        return Kept(len(self.written), self.written[0].origin if self.written else "", triples)
+        return StoredWorld(len(self.written), self.written[0].origin if self.written else "", triples)
 
     def append(self, event: ChangeEvent, after: int) -> bool:
         interfere, self.interfere = self.interfere, lambda: None

@@ -7,10 +7,10 @@ from pathlib import Path
 import pyoxigraph as ox
 import pytest
 
-from skillc_runtime.world.store import base
-from skillc_runtime.world.store.disk import FACTS, FORMAT, JOURNAL, MARK, DiskStore
-from skillc_runtime.world.store.opening import open_store
-from skillc_runtime.world.store.store import StoreError
+from skillc_runtime.store import base
+from skillc_runtime.store.disk import FACTS, FORMAT, JOURNAL, MARK, DiskStore
+from skillc_runtime.store.opening import open_store
+from skillc_runtime.world.state.transactions import StoreError
 from store.actors import use_as_a_guest, write_to_a_full_disk
 from store.processes import Actor
 from store.worlds import facts_of, model_of

@@ -11,14 +11,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from skillc_compiler.library.vocabulary import ClassTerm
-from skillc_runtime.world.changes import AddIndividual, Change, SetProperty
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.store.contents import world_of
-from skillc_runtime.world.store.facts import all_facts, difference
-from skillc_runtime.world.store.store import StoreError
-from skillc_runtime.world.store.wire import KINDS, as_text, changes_of
-from skillc_runtime.world.values import equal
+from skillc_runtime.store.contents import world_of
+from skillc_runtime.store.triples import all_facts, difference
+from skillc_runtime.store.wire import KINDS, as_text, changes_of
+from skillc_runtime.world.state.changes import AddIndividual, Change, SetProperty
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.transactions import StoreError
+from skillc_runtime.world.state.values import equal
+from skillc_runtime.world.state.world_state import WorldState
 from store.worlds import commits, facts_of, filling, random_write
 from world.lab import SCENE, VOCABULARY, assign, individual, iri
 

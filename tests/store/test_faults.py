@@ -12,14 +12,13 @@ import pyoxigraph as ox
 import pytest
 
 from skillc_runtime.commands._keeping import Keeping
-from skillc_runtime.world.event import ChangeEvent
-from skillc_runtime.world.store import http
-from skillc_runtime.world.store.address import Address
-from skillc_runtime.world.store.finding import find_endpoint
-from skillc_runtime.world.store.http import Garbled, HttpEndpoint, Refused, Unreachable
-from skillc_runtime.world.store.opening import open_store
-from skillc_runtime.world.store.sparql import SparqlStore
-from skillc_runtime.world.store.store import StoreError
+from skillc_runtime.store import http
+from skillc_runtime.store.address import Address
+from skillc_runtime.store.finding import find_endpoint
+from skillc_runtime.store.http import Garbled, HttpEndpoint, Refused, Unreachable
+from skillc_runtime.store.opening import open_store
+from skillc_runtime.store.sparql import SparqlStore
+from skillc_runtime.world.state.transactions import ChangeEvent, StoreError
 from store.proxy import FAULTS, Fault, Proxy, proxy_to
 from store.servers import oxigraph
 from store.worlds import commits, facts_of, model_of

@@ -7,9 +7,9 @@ from random import Random
 
 import pytest
 
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.store.disk import DiskStore
-from skillc_runtime.world.store.store import Transaction
+from skillc_runtime.store.disk import DiskStore
+from skillc_runtime.world.state.transactions import Transaction
+from skillc_runtime.world.state.world_state import WorldState
 from store.actors import write, write_and_tidy_up
 from store.processes import Actor
 from store.worlds import facts_of, model_of

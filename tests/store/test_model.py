@@ -2,9 +2,8 @@
 
 import pytest
 
-from skillc_runtime.world.event import ChangeEvent
-from skillc_runtime.world.model import WorldError, WorldModel
-from skillc_runtime.world.store.store import StoreError
+from skillc_runtime.world.state.model import WorldError, WorldModel
+from skillc_runtime.world.state.transactions import ChangeEvent, StoreError
 from store.memory import MemoryStore
 from store.worlds import facts_of, model_of
 from world.lab import assign, fact, iri

@@ -3,7 +3,7 @@
 from itertools import pairwise
 from pathlib import Path
 
-from skillc_runtime.world.store.disk import DiskStore
+from skillc_runtime.store.disk import DiskStore
 from store.actors import write
 from store.processes import Actor
 from store.worlds import facts_of, model_of

@@ -7,10 +7,10 @@ from random import Random
 
 import pytest
 
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.store.http import HttpEndpoint
-from skillc_runtime.world.store.opening import open_store
-from skillc_runtime.world.store.store import StoreError
+from skillc_runtime.store.http import HttpEndpoint
+from skillc_runtime.store.opening import open_store
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.transactions import StoreError
 from store.actors import write
 from store.processes import Actor
 from store.servers import SERVERS

@@ -3,7 +3,10 @@
 from collections.abc import Iterator
 from random import Random
 
-from skillc_runtime.world.changes import (
+from skillc_runtime.store.contents import world_of
+from skillc_runtime.store.store import Store
+from skillc_runtime.store.triples import all_facts
+from skillc_runtime.world.state.changes import (
     AddIndividual,
     AddRelation,
     Change,
@@ -11,12 +14,9 @@ from skillc_runtime.world.changes import (
     RemoveIndividual,
     RemoveRelation,
 )
-from skillc_runtime.world.event import ChangeEvent
-from skillc_runtime.world.model import WorldError, WorldModel
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.store.contents import world_of
-from skillc_runtime.world.store.facts import all_facts
-from skillc_runtime.world.store.store import Store
+from skillc_runtime.world.state.model import WorldError, WorldModel
+from skillc_runtime.world.state.transactions import ChangeEvent
+from skillc_runtime.world.state.world_state import WorldState
 from world.lab import SCENE, VOCABULARY, assign, fact, iri
 
 PLACES = ("shelf", "table")

@@ -35,9 +35,9 @@ from skillc_compiler.library.vocabulary import (
 )
 from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.world.changes import AddIndividual, SetProperty
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.changes import AddIndividual, SetProperty
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.world_state import WorldState
 
 NS = "http://example.org/stage#"
 FLAG, DEVICE, ON = NS + "Flag", NS + "Device", NS + "on"

@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, event, given, settings
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.world.changes import SetProperty
+from skillc_runtime.world.state.changes import SetProperty
 from tree.reference import run, unwind
 from tree.reference_model import Model, Result, Scope
 from tree.stage import FLAGS, ON, PERIOD_S, Stage, world

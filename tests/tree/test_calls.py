@@ -14,7 +14,7 @@ from skillc_compiler.library.skills import Primitive as PrimitiveBody
 from skillc_compiler.library.vocabulary import ClassType
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Primitive, Status
-from skillc_runtime.world.changes import SetProperty
+from skillc_runtime.world.state.changes import SetProperty
 from tree.stage import (
     FLAG,
     FLAGS,

@@ -12,7 +12,7 @@ from skillc_compiler.library.skills import Compound, Skill
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import SkillFailure, Status
-from skillc_runtime.world.changes import SetProperty
+from skillc_runtime.world.state.changes import SetProperty
 from tree.stage import (
     DEVICES,
     FLAGS,

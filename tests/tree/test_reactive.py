@@ -6,7 +6,7 @@ from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Individual
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.world.changes import SetProperty
+from skillc_runtime.world.state.changes import SetProperty
 from tree.stage import FLAGS, ON, Library, Script, Stage, act, call, check, here, is_on, par, sel, seq, world
 
 IS_ON = is_on(Individual(FLAGS[0]))

@@ -25,7 +25,6 @@ from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.recording.reader import TraceReader
 from skillc_runtime.recording.reasons import FailedCallContext
 from skillc_runtime.recording.writer import TraceWriter
-from skillc_runtime.world.changes import SetProperty
 from skillc_runtime.world.labelled import (
     ClassFact,
     IdentityFact,
@@ -40,6 +39,7 @@ from skillc_runtime.world.labelled import (
     ValueList,
     Vector,
 )
+from skillc_runtime.world.state.changes import SetProperty
 from tree.stage import FLAGS, ON, Library, Script, Stage, act, call, sel, seq, world
 
 

@@ -13,8 +13,8 @@ from skillc_runtime.recording.events import FORMAT, Event, TaskEnded, TaskStarte
 from skillc_runtime.recording.history import read_story
 from skillc_runtime.recording.story import Call, Story
 from skillc_runtime.recording.writer import TraceWriter
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.world_state import WorldState
 from tree.stage import PERIOD_S, Stage
 
 BEGIN = TaskStarted(time=0.0, format=FORMAT, task="play", library="stage")

@@ -11,7 +11,7 @@ from click.testing import CliRunner, Result
 from selection.library import call, library, scene
 from skillc_compiler.library.conditions import Individual
 from skillc_runtime.commands.main import skillc
-from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.state.model import WorldModel
 from tree.stage import Stage
 from why.stories import events_of, written
 from world.lab import iri

@@ -10,7 +10,7 @@ from skillc_compiler.library.conditions import Individual
 from skillc_runtime.commands import _why
 from skillc_runtime.recording.question import QuestionError, find_answer
 from skillc_runtime.recording.story import Story
-from skillc_runtime.world.changes import Change, RemoveRelation
+from skillc_runtime.world.state.changes import Change, RemoveRelation
 from why.stories import in_world
 from world.lab import fact, individual, iri
 

@@ -15,8 +15,8 @@ from skillc_compiler.library.vocabulary import (
     Signature,
     Vocabulary,
 )
-from skillc_runtime.world.changes import AddIndividual, AddRelation, SetProperty
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, SetProperty
+from skillc_runtime.world.state.world_state import WorldState
 
 NS = "http://example.org/test#"
 HERE = Position("test.skill", 1, 1)

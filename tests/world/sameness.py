@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def everything(state: WorldState) -> dict[str, Any]:

@@ -6,8 +6,8 @@ import pytest
 
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
-from skillc_runtime.world.documents import Document
-from skillc_runtime.world.scene import scene_in
+from skillc_runtime.scene.documents import Document
+from skillc_runtime.scene.load import scene_in
 
 VOCABULARY = _library.compile_library(_library.find(_library.SHIPPED / "wiping")).value.vocabulary
 SCENE = catalogue.scene("iiwa_outlet").read_text(encoding="utf-8")

@@ -13,13 +13,12 @@ from scene.mutations import mutants
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
-from skillc_runtime.world.bulk import Facts, state_of
-from skillc_runtime.world.changes import AddIndividual, AddRelation
-from skillc_runtime.world.documents import Document
-from skillc_runtime.world.quick import quick_world
-from skillc_runtime.world.scene import scene_of
-from skillc_runtime.world.sound import is_sound
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.scene.documents import Document
+from skillc_runtime.scene.load import load_in_bulk, scene_of
+from skillc_runtime.world.state.bulk import Facts, state_of
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation
+from skillc_runtime.world.state.representatives import satisfies_axioms
+from skillc_runtime.world.state.world_state import WorldState
 from world.lab import NS, VOCABULARY, fact, individual, iri
 from world.sameness import everything
 from world.test_state import CLASSES, NAMES, additions, vocabularies
@@ -65,7 +64,7 @@ def shipped() -> Vocabulary:
 @pytest.mark.parametrize("name", SCENES)
 def test_shipped_scenes_are_read_quickly_and_alike(name: str, shipped: Vocabulary) -> None:
     documents = [Document.read(catalogue.scene(name)), *SHEETS]
-    found = quick_world(documents, shipped)
+    found = load_in_bulk(documents, shipped)
     assert found is not None and everything(found) == everything(scene_of(documents, shipped).state)
 
 
@@ -75,7 +74,7 @@ def test_what_is_wrong_with_a_changed_scene_is_never_passed_over(name: str, ship
     wrong = right = 0
     for mutant in mutants(text, range(SEEDS)):
         documents = [Document("scene.ttl", mutant.text), *SHEETS]
-        careful, found = scene_of(documents, shipped), quick_world(documents, shipped)
+        careful, found = scene_of(documents, shipped), load_in_bulk(documents, shipped)
         if careful.problems:
             wrong += 1
             assert found is None, (mutant.kind, mutant.line, mutant.before, mutant.after, careful.problems)
@@ -129,14 +128,14 @@ def test_the_quick_reader_passes_over_nothing(more: str, problems: list[str], sh
     documents = [Document("s.ttl", f"{prefixes}lab:A a skiros:Product .\n{more}")]
     found = scene_of(documents, shipped).problems
     assert [each.name for each in found] == problems
-    assert not problems or quick_world(documents, shipped) is None
+    assert not problems or load_in_bulk(documents, shipped) is None
 
 
 def test_random_scenes_are_read_alike() -> None:
     wrong = right = 0
     for seed in range(SEEDS * 20):
         documents = [Document("scene.ttl", random_scene(Random(seed)))]
-        careful, found = scene_of(documents, VOCABULARY), quick_world(documents, VOCABULARY)
+        careful, found = scene_of(documents, VOCABULARY), load_in_bulk(documents, VOCABULARY)
         if careful.problems:
             wrong += 1
             assert found is None, (documents[0].text, careful.problems)
@@ -159,5 +158,5 @@ UNSOUND = [
 
 def test_a_sound_world_is_one_whose_every_fact_obeys() -> None:
     empty = WorldState.empty(VOCABULARY)
-    assert is_sound(empty.changed(SOUND))
-    assert UNSOUND and not any(is_sound(empty.changed([*SOUND, *changes])) for changes in UNSOUND)  # type: ignore[list-item]
+    assert satisfies_axioms(empty.changed(SOUND))
+    assert UNSOUND and not any(satisfies_axioms(empty.changed([*SOUND, *changes])) for changes in UNSOUND)  # type: ignore[list-item]

@@ -23,9 +23,10 @@ from skillc_compiler.library.conditions import (
     Same,
     Variable,
 )
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.explain import explain
-from skillc_runtime.world.expressions import EvaluationError, value_of
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.explain import explain
+from skillc_runtime.world.eval.expressions import value_of
+from skillc_runtime.world.state.python_calls import EvaluationError
 from world.lab import SCENE, VOCABULARY, assign, fact, holds, individual, iri
 
 STATE = SCENE.changed([fact("gripper", "contain", "eraser"), individual("shelf-2", "Location")])

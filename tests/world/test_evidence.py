@@ -17,13 +17,13 @@ from skillc_compiler.library.conditions import (
     PropertyOf,
     Variable,
 )
-from skillc_runtime.world import evidence
-from skillc_runtime.world.changes import AddIndividual, ClearProperty, RemoveIndividual, RemoveRelation
-from skillc_runtime.world.evidence import Evidence
-from skillc_runtime.world.facts import Fact, Related, Typed, Valued
-from skillc_runtime.world.grounds import grounds
+from skillc_runtime.world.eval.grounds import grounds
 from skillc_runtime.world.labelled import format_fact, label_fact
-from skillc_runtime.world.model import WorldModel
+from skillc_runtime.world.state import evidence
+from skillc_runtime.world.state.changes import AddIndividual, ClearProperty, RemoveIndividual, RemoveRelation
+from skillc_runtime.world.state.evidence import Evidence
+from skillc_runtime.world.state.facts import Fact, Related, Typed, Valued
+from skillc_runtime.world.state.model import WorldModel
 from store.memory import MemoryStore
 from store.worlds import model_of
 from world.lab import SCENE, assign, fact, individual, iri

@@ -29,10 +29,10 @@ from skillc_compiler.library.conditions import (
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Parameter, Requirement
 from skillc_compiler.library.vocabulary import THING
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.inference import Ambiguous, Found, NoneFound, infer
-from skillc_runtime.world.nearest import FEW, NearMiss
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.inference import Ambiguous, Found, NoneFound, infer
+from skillc_runtime.world.eval.nearest import FEW, NearMiss
+from skillc_runtime.world.state.world_state import WorldState
 from world.lab import SCENE, assign, fact, individual, iri, parameter, requirement
 
 EXAMPLES = int(os.environ.get("SKILLC_INFERENCES", "40"))

@@ -7,7 +7,7 @@ import pytest
 
 from skillc_compiler.library.vocabulary import PlainType, PropertyTerm, VectorType
 from skillc_compiler.turtle.terms import XSD
-from skillc_runtime.world.literals import LiteralError, read
+from skillc_runtime.store.literals import LiteralError, read
 
 
 def literal(text: str, kind: str) -> ox.Literal:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 
 from skillc_compiler.turtle.terms import RDF_TYPE
-from skillc_runtime.world.called import NoSuchName
-from skillc_runtime.world.changes import AddRelation, RemoveRelation
-from skillc_runtime.world.contexts import Context, Contexts
-from skillc_runtime.world.element import Quantity, element, find, search
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.changes import AddRelation, RemoveRelation
+from skillc_runtime.world.state.contexts import Context, Contexts
+from skillc_runtime.world.state.elements import Quantity, element, find, search
+from skillc_runtime.world.state.names import NoSuchName
+from skillc_runtime.world.state.world_state import WorldState
 from world.lab import SCENE, VOCABULARY, assign, fact, individual, iri
 
 

@@ -5,9 +5,9 @@ import math
 import pytest
 
 from skillc_compiler.library.conditions import Anything, Assert, Assign, Individual, Literal, Retract, Variable
-from skillc_runtime.world.changes import AddRelation, Change, RemoveRelation
-from skillc_runtime.world.effects import changes_of
-from skillc_runtime.world.model import ChangeEvent, WorldError, WorldModel
+from skillc_runtime.world.eval.effects import changes_of
+from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation
+from skillc_runtime.world.state.model import ChangeEvent, WorldError, WorldModel
 from world.lab import SCENE, VOCABULARY, assign, fact, individual, iri
 
 REFUSED = [

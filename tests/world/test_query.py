@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from skillc_runtime.world.documents import Document
-from skillc_runtime.world.query import Answer, QueryError, query
+from skillc_runtime.scene.documents import Document
+from skillc_runtime.scene.query import Answer, QueryError, run_query
 from world.lab import NS, VOCABULARY
 
 SCENE = Document(
@@ -18,7 +18,7 @@ SCENE = Document(
 
 
 def ask(sparql: str) -> Answer:
-    return query([SCENE], sparql, VOCABULARY)
+    return run_query([SCENE], sparql, VOCABULARY)
 
 
 def test_answers_are_typed_and_individuals_are_short() -> None:

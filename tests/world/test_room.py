@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from skillc_runtime.world import room
-from skillc_runtime.world.documents import SceneError
-from skillc_runtime.world.scene import load_scene, read_scene
+from skillc_runtime.scene import memory as room
+from skillc_runtime.scene.documents import SceneError
+from skillc_runtime.scene.load import load_scene, read_scene
 from world.lab import NS, VOCABULARY
 
 MEGABYTE = 1_000_000
@@ -57,9 +57,9 @@ def test_a_process_with_a_limit_says_so_and_ends(tmp_path: Path) -> None:
     text = f"""
 import resource, sys
 from pathlib import Path
-from skillc_runtime.world.documents import SceneError
-from skillc_runtime.world import room
-from skillc_runtime.world.scene import load_scene
+from skillc_runtime.scene.documents import SceneError
+from skillc_runtime.scene import memory as room
+from skillc_runtime.scene.load import load_scene
 from world.lab import VOCABULARY
 used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
 resource.setrlimit(resource.RLIMIT_AS, (used + {20 * MEGABYTE}, resource.RLIM_INFINITY))

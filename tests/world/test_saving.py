@@ -12,14 +12,13 @@ from hypothesis import strategies as st
 
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
-from skillc_runtime.world import saving
-from skillc_runtime.world.changes import AddIndividual
-from skillc_runtime.world.documents import Document
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.quick import quick_world
-from skillc_runtime.world.saving import SaveError, save, turtle
-from skillc_runtime.world.scene import load_scene, load_sheets, world_of
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.scene import saving
+from skillc_runtime.scene.documents import Document
+from skillc_runtime.scene.load import load_in_bulk, load_scene, load_sheets, world_of
+from skillc_runtime.scene.saving import SaveError, save, turtle
+from skillc_runtime.world.state.changes import AddIndividual
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.world_state import WorldState
 from store.worlds import commits, facts_of
 from world.lab import SCENE, VOCABULARY, assign, individual, iri
 from world.sameness import everything
@@ -60,7 +59,7 @@ def test_shipped_scenes_come_back_with_labels_and_without_data_sheets(name: str)
     state, sheets = load_scene(catalogue.scene(name), vocabulary), load_sheets(vocabulary)
     source = Document.read(catalogue.scene(name))
     text = turtle(state, sheets, source)
-    found = quick_world([Document("s", text), *(Document(*each) for each in catalogue.vocabulary_files())], vocabulary)
+    found = load_in_bulk([Document("s", text), *(Document(*each) for each in catalogue.vocabulary_files())], vocabulary)
     assert found is not None and everything(found) == everything(state)
     assert text.count("rdfs:label") == source.text.count("rdfs:label") > 0
     assert "JointValues" not in text and turtle(found, sheets, Document("s", text)) == text

@@ -5,10 +5,10 @@ from pathlib import Path
 import pytest
 
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_runtime.world.documents import Document, SceneError
-from skillc_runtime.world.listing import listing
-from skillc_runtime.world.scene import load_scene, world_of
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.scene.documents import Document, SceneError
+from skillc_runtime.scene.load import load_scene, world_of
+from skillc_runtime.world.state.listing import list_entries
+from skillc_runtime.world.state.world_state import WorldState
 from world.lab import NS, VOCABULARY, iri
 
 PREFIXES = f"""@prefix t: <{NS}> . @prefix lab: <http://example.org/lab#> .
@@ -154,7 +154,7 @@ def test_a_file_that_cannot_be_read_is_an_error_of_the_scene(tmp_path: Path, con
 
 def test_the_listing_shows_what_was_written() -> None:
     state = world(GOOD)
-    entries = {entry.individual: entry for entry in listing(state, state.individuals)}
+    entries = {entry.individual: entry for entry in list_entries(state, state.individuals)}
     assert entries[LAB + "Table"].relations == ((iri("contain"), LAB + "Box"), (iri("contain"), LAB + "Eraser"))
     assert entries[LAB + "Eraser"].types == (iri("Eraser"),)
     assert entries[LAB + "Eraser"].properties == ((iri("weight"), 0.5),)

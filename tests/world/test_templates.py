@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from skillc_runtime.world.called import NoSuchName
-from skillc_runtime.world.documents import Document, SceneError
-from skillc_runtime.world.model import WorldError, WorldModel
-from skillc_runtime.world.scene import world_of
-from skillc_runtime.world.templates import Templates, templates_of
+from skillc_runtime.scene.documents import Document, SceneError
+from skillc_runtime.scene.load import world_of
+from skillc_runtime.scene.templates import templates_of
+from skillc_runtime.world.state.model import WorldError, WorldModel
+from skillc_runtime.world.state.names import NoSuchName
+from skillc_runtime.world.state.templates import Templates
 from world.lab import NS, VOCABULARY, iri
 
 HEAD = f"""@prefix t: <{NS}> . @prefix lab: <http://lab#> .

@@ -8,9 +8,9 @@ from threading import Event, Thread
 
 import pytest
 
-from skillc_runtime.world.between import between
-from skillc_runtime.world.called import NoSuchName
-from skillc_runtime.world.model import UNDOABLE, ChangeEvent, WorldError, WorldModel
+from skillc_runtime.world.state.difference import changes_between
+from skillc_runtime.world.state.model import UNDOABLE, ChangeEvent, WorldError, WorldModel
+from skillc_runtime.world.state.names import NoSuchName
 from store.test_model import two
 from store.worlds import commits
 from world.lab import SCENE, assign, fact, individual, iri
@@ -104,9 +104,9 @@ def test_undoing_leads_back_through_every_version(seed: int) -> None:
 def test_changes_between_two_versions_lead_from_one_to_the_other(seed: int) -> None:
     *_, one = commits(WorldModel(SCENE), Random(seed), 10)
     *_, other = commits(WorldModel(SCENE), Random(seed + 1000), 10)
-    found = between(one.after, other.after)
+    found = changes_between(one.after, other.after)
     assert everything(one.after.changed(found)) == everything(other.after)
-    assert between(one.after, one.after) == () and found == between(one.after, other.after)
+    assert changes_between(one.after, one.after) == () and found == changes_between(one.after, other.after)
 
 
 def test_what_others_wrote_since_is_not_taken_back() -> None:

@@ -8,10 +8,9 @@ import numpy as np
 
 from skillc_runtime.avoidance.scenery import Block, place_of
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.world.frames import size
-from skillc_runtime.world.sheet import number, sheet_of
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import (
+from skillc_runtime.world.space.frames import size
+from skillc_runtime.world.state.data_sheet import number, sheet_of
+from skillc_runtime.world.state.terms import (
     BASE_FRAME_ID,
     CLEARANCE,
     CONTAIN,
@@ -21,6 +20,7 @@ from skillc_runtime.world.terms import (
     POSITION,
     SIZE,
 )
+from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)

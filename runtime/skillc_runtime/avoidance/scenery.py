@@ -10,11 +10,12 @@ from typing import TypeAlias
 import numpy as np
 
 from skillc_runtime.motion.pose import Pose, quaternion_of
-from skillc_runtime.world.frames import FrameError, pose
-from skillc_runtime.world.sheet import SheetError, sheet_of
 from skillc_runtime.world.space.boxes import solid
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import FIXTURE, SIZE, WORKSPACE
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
+from skillc_runtime.world.state.terms import FIXTURE, SIZE, WORKSPACE
+from skillc_runtime.world.state.world_state import WorldState
 
 FAR_M = 3.0
 """What is farther than this from an arm's base is left out."""

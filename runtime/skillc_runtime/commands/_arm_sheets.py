@@ -8,11 +8,11 @@ from difflib import get_close_matches
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_runtime.commands._diagnostics import with_shown_path
 from skillc_runtime.control.gains import UnknownController, read_gains
-from skillc_runtime.world.individuals import iri_of
-from skillc_runtime.world.scene import Scene
-from skillc_runtime.world.sheet import Sheet, SheetError
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import ARM_DEVICE, COMPLIANT_CONTROLLER, HAS_SHEET, POSTURE_NAME
+from skillc_runtime.scene.load import Scene
+from skillc_runtime.scene.statements import iri_of
+from skillc_runtime.world.state.data_sheet import Sheet, SheetError
+from skillc_runtime.world.state.terms import ARM_DEVICE, COMPLIANT_CONTROLLER, HAS_SHEET, POSTURE_NAME
+from skillc_runtime.world.state.world_state import WorldState
 
 HOME = "home"
 """The posture that every arm has."""

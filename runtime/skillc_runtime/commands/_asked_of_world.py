@@ -12,11 +12,11 @@ from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.commands import _files, _library, _listing, _mission, _world_diff, _world_edit, _world_graph
 from skillc_runtime.commands import _world_show as _show
 from skillc_runtime.commands._keeping import NOT_KEPT, Keeping
-from skillc_runtime.world.called import NoSuchName, individual_of
-from skillc_runtime.world.contents import contents
-from skillc_runtime.world.documents import Document, SceneError
-from skillc_runtime.world.query import QueryError
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.scene.contents import read_contents
+from skillc_runtime.scene.documents import Document, SceneError
+from skillc_runtime.scene.query import QueryError
+from skillc_runtime.world.state.names import NoSuchName, individual_of
+from skillc_runtime.world.state.world_state import WorldState
 
 
 class NoAnswer(Exception):
@@ -40,7 +40,7 @@ def open_world(scene: Path | None, library: Path | None, keeping: Keeping, every
     compiled = _mission.compiled(_library.find(library or _beside(path) or _library.SHIPPED / "wiping"))
     state = _mission.world_for(keeping, path, compiled).snapshot()
     document = Document.read(path) if path and not keeping.place else _listing.kept(keeping.name, state)
-    own = contents([document]).subjects & state.individuals
+    own = read_contents([document]).subjects & state.individuals
     return World(path, compiled, document, state, state.individuals if everything else own)
 
 

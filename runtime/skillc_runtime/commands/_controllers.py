@@ -12,8 +12,8 @@ from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean
 from skillc_dsl.source import Span
 from skillc_runtime.commands._diagnostics import with_shown_path
 from skillc_runtime.control.gains import CONTROLLERS
-from skillc_runtime.world.scene import Scene
-from skillc_runtime.world.terms import COMPLIANT_CONTROLLER
+from skillc_runtime.scene.load import Scene
+from skillc_runtime.world.state.terms import COMPLIANT_CONTROLLER
 
 
 def unknown_controllers(scene: Scene, path: str) -> Iterator[Diagnostic]:

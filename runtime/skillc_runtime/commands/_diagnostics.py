@@ -10,8 +10,8 @@ from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Source, Span
 from skillc_ontology import catalogue
-from skillc_runtime.world.documents import Document, SceneError
-from skillc_runtime.world.scene import load_scene
+from skillc_runtime.scene.documents import Document, SceneError
+from skillc_runtime.scene.load import load_scene
 
 
 def of_scene(scene: Path, vocabulary: Vocabulary) -> list[Diagnostic]:

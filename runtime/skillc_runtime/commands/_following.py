@@ -5,8 +5,8 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.store.store import StoreError
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.transactions import StoreError
 
 PERIOD_S = 0.2
 """How often a store is asked, by the clock: a server takes a millisecond or more to answer."""

@@ -23,8 +23,8 @@ from skillc_runtime.execution.selection.initial_calls import initial_call_refusa
 from skillc_runtime.execution.selection.preflight import Origin, Refusal, preflight
 from skillc_runtime.execution.selection.unsupported import UnsupportedIndividual, unsupported_individuals
 from skillc_runtime.planning.reachability import UnreachableGoal, explain_unreachable
-from skillc_runtime.world.individuals import iri_of
-from skillc_runtime.world.scene import Scene
+from skillc_runtime.scene.load import Scene
+from skillc_runtime.scene.statements import iri_of
 
 LABELLED = 6
 """How many individuals are shown beside a message at most."""

@@ -24,9 +24,9 @@ class Keeping:
     @property
     def name(self) -> str:
         """What the place is called in messages."""
-        from skillc_runtime.world.store.address import shown
+        from skillc_runtime.store.address import without_credentials
 
-        return shown(self.place or "")
+        return without_credentials(self.place or "")
 
 
 NOT_KEPT = Keeping()

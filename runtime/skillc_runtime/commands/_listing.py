@@ -5,24 +5,24 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Mapping
 
-from skillc_runtime.world.contents import contents
-from skillc_runtime.world.documents import Document
-from skillc_runtime.world.listing import Entry, listing
-from skillc_runtime.world.query import Cell, query
-from skillc_runtime.world.scene import sheets, world_of
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.store.facts import all_facts
-from skillc_runtime.world.values import plain, show
+from skillc_runtime.scene.contents import read_contents
+from skillc_runtime.scene.documents import Document
+from skillc_runtime.scene.load import sheet_documents, world_of
+from skillc_runtime.scene.query import Cell, run_query
+from skillc_runtime.store.triples import all_facts
+from skillc_runtime.world.state.listing import Entry, list_entries
+from skillc_runtime.world.state.values import plain, show
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def labels_of(scene: Document) -> dict[str, str]:
     """Return the labels of a scene's individuals and of those that ship with skillc."""
-    return {**contents(sheets()).labels, **contents([scene]).labels}
+    return {**read_contents(sheet_documents()).labels, **read_contents([scene]).labels}
 
 
 def listed(state: WorldState, labels: Mapping[str, str], individuals: Iterable[str], as_json: bool) -> str:
     """Return what is written of individuals: as text a paragraph for each, as JSON a list of objects."""
-    entries = listing(state, individuals)
+    entries = list_entries(state, individuals)
     if as_json:
         return json.dumps([as_object(entry, labels.get(entry.individual), state) for entry in entries], indent=2)
     return "\n\n".join(paragraph(entry, labels.get(entry.individual), state) for entry in entries)
@@ -30,13 +30,13 @@ def listed(state: WorldState, labels: Mapping[str, str], individuals: Iterable[s
 
 def kept(place: str, state: WorldState) -> Document:
     """Return as a document what a world that a store keeps says beside the shipped ontology."""
-    shipped = frozenset(all_facts(world_of(sheets(), state.vocabulary)))
+    shipped = frozenset(all_facts(world_of(sheet_documents(), state.vocabulary)))
     return Document(place, "".join(sorted(f"{fact} .\n" for fact in all_facts(state) if fact not in shipped)))
 
 
 def answer(scene: Document, sparql: str, state: WorldState, as_json: bool) -> str:
     """Answer a query over the scene and the shipped ontology, as a table or as a list of objects."""
-    result = query([scene, *sheets()], sparql, state.vocabulary)
+    result = run_query([scene, *sheet_documents()], sparql, state.vocabulary)
     if as_json:
         return json.dumps([dict(zip(result.columns, row, strict=True)) for row in result.rows], indent=2)
     rows = [result.columns, *(tuple(map(_text, row)) for row in result.rows)]

@@ -17,10 +17,10 @@ from skillc_dsl.source import Source
 from skillc_runtime.commands import _diagnostics, _files, _library, _scenes, _telling
 from skillc_runtime.commands._keeping import NOT_KEPT, Keeping
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody
-from skillc_runtime.world.documents import SceneError
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.scene import load_scene
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.scene.documents import SceneError
+from skillc_runtime.scene.load import load_scene
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)

@@ -33,9 +33,9 @@ from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.film import Film, Filmed, Moment
 from skillc_runtime.simulation.pictures import FilmError
 from skillc_runtime.simulation.rendering import RenderingError
-from skillc_runtime.world.frames import FrameError
-from skillc_runtime.world.sheet import SheetError
-from skillc_runtime.world.store.store import StoreError
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.state.data_sheet import SheetError
+from skillc_runtime.world.state.transactions import StoreError
 
 
 @dataclass(frozen=True, slots=True)

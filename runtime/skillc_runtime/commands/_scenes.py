@@ -16,9 +16,9 @@ from skillc_ontology import catalogue
 from skillc_runtime.commands import _diagnostics
 from skillc_runtime.commands._files import LibraryFiles
 from skillc_runtime.commands._paths import look
-from skillc_runtime.world.documents import Document, SceneError
-from skillc_runtime.world.scene import Scene, scene_in
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.scene.documents import Document, SceneError
+from skillc_runtime.scene.load import Scene, scene_in
+from skillc_runtime.world.state.world_state import WorldState
 
 Individuals: TypeAlias = dict[str, list[str]]
 """The IRIs of a scene with their classes."""

@@ -12,12 +12,12 @@ import click
 
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_runtime.commands._keeping import Keeping
-from skillc_runtime.world.event import ChangeEvent
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.store.contents import world_of
-from skillc_runtime.world.store.opening import OpenStore, open_store
-from skillc_runtime.world.store.store import Kept, StoreError
+from skillc_runtime.store.contents import world_of
+from skillc_runtime.store.opening import OpenStore, open_store
+from skillc_runtime.store.store import StoredWorld
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.transactions import ChangeEvent, StoreError
+from skillc_runtime.world.state.world_state import WorldState
 
 _BEGINNING = re.compile(r"scene (.*) ([0-9a-f]{12})")
 
@@ -62,7 +62,7 @@ def _world(
     return WorldModel(state, store, kept.sequence)
 
 
-def _compare(kept: Kept, scene: Path | None, store: OpenStore) -> None:
+def _compare(kept: StoredWorld, scene: Path | None, store: OpenStore) -> None:
     """Refuse a store that began with another scene than a command names; tell of one that has changed since."""
     if scene is None or kept.beginning == _beginning(scene):
         return
@@ -79,7 +79,7 @@ def _beginning(scene: Path) -> str:
     return f"scene {scene.name} {sha256(scene.read_bytes()).hexdigest()[:12]}"
 
 
-def _name(kept: Kept) -> str:
+def _name(kept: StoredWorld) -> str:
     found = _BEGINNING.fullmatch(kept.beginning)
     return found[1] if found else "something else"
 

@@ -9,8 +9,8 @@ import pyoxigraph as ox
 
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.turtle.terms import RDF_TYPE
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.store.facts import all_facts
+from skillc_runtime.store.triples import all_facts
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def differences(one: WorldState, other: WorldState, as_json: bool) -> str:

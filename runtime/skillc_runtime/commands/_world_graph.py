@@ -6,8 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from skillc_compiler.emit.picture.boxes import Box, Look
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import (
+from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
     CONTAINER_STATE,
     DEVICE_STATE,
@@ -22,7 +21,8 @@ from skillc_runtime.world.terms import (
     SURFACE,
     TRANSFORMATION_POSE,
 )
-from skillc_runtime.world.values import show
+from skillc_runtime.world.state.values import show
+from skillc_runtime.world.state.world_state import WorldState
 
 LOOKS: tuple[tuple[str, Look, str], ...] = (
     (SCENE, "heading", "◆"),

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from skillc_runtime.commands import _listing
-from skillc_runtime.world.element import search
-from skillc_runtime.world.listing import Entry, listing
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.elements import search
+from skillc_runtime.world.state.listing import Entry, list_entries
+from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +30,7 @@ def found(state: WorldState, labels: Mapping[str, str], words: str, among: froze
 
 def shown(state: WorldState, labels: Mapping[str, str], individuals: Iterable[str], as_json: bool) -> str:
     """Return all that is known of individuals: what is written, what leads to them, and what follows."""
-    entries = listing(state, individuals)
+    entries = list_entries(state, individuals)
     if as_json:
         return json.dumps([_object(entry, labels, state) for entry in entries], indent=2)
     return "\n\n".join(_text(entry, labels, state) for entry in entries)

@@ -12,7 +12,7 @@ import click
 def command(path: Path | None) -> None:
     """Print the shapes of the vocabulary of the library at PATH, or of the shipped one, in Turtle."""
     from skillc_runtime.commands import _files, _mission
-    from skillc_runtime.world.shapes import shapes
+    from skillc_runtime.scene.shapes import shapes
 
     library = _mission.compiled(_files.find(path or _files.SHIPPED / "wiping"))
     click.echo(shapes(library.vocabulary), nl=False)

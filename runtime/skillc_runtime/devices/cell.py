@@ -10,7 +10,7 @@ from skillc_runtime.devices.gripper import Gripper
 from skillc_runtime.devices.sensors import Button, Camera
 
 if TYPE_CHECKING:
-    from skillc_runtime.world.model import WorldModel
+    from skillc_runtime.world.state.model import WorldModel
 
 
 class WatchdogTimeout(Exception):

@@ -17,7 +17,7 @@ from skillc_runtime.planning.plan import PlanResult, Solved, Step
 from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import solve
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,7 +20,7 @@ from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.listeners import Listeners
 from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.world.labelled import label
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 
 TICK_S = 0.01
 """The tree is ticked at 100 Hz of the cell's time: every ten control periods."""

@@ -7,12 +7,12 @@ from typing import TypeAlias
 
 from skillc_compiler.library.conditions import Condition
 from skillc_runtime.recording.known import KnownFact
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.grounds import Ground, grounds
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.grounds import Ground, grounds
 from skillc_runtime.world.labelled import label_fact
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 Claim: TypeAlias = tuple[Condition, Mapping[str, Value]]
 """A condition that is claimed to hold, with the values of its variables."""

@@ -26,7 +26,7 @@ from skillc_runtime.recording.events import FORMAT, Listener, Replanned, TaskEnd
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.known import KnownFact, assumed_facts
 from skillc_runtime.recording.listeners import Listeners
-from skillc_runtime.world.conditions import evaluate
+from skillc_runtime.world.eval.conditions import evaluate
 
 MAX_ATTEMPTS = 4
 """How many plans are tried for one goal."""

@@ -14,11 +14,11 @@ from skillc_runtime.motion.lanes import Direction, side
 from skillc_runtime.motion.lanes import lanes as lane_pattern
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.strokes import strokes_over
-from skillc_runtime.world.areas import direction, layout
-from skillc_runtime.world.frames import normal, pose, size
+from skillc_runtime.world.space.frames import normal, pose, size
+from skillc_runtime.world.space.surfaces import direction, layout
 
 if TYPE_CHECKING:
-    from skillc_runtime.world.state import WorldState
+    from skillc_runtime.world.state.world_state import WorldState
 
 
 def offset(_state: WorldState, start: Pose, by: Array) -> Pose:

@@ -13,7 +13,7 @@ from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.planning.validation import apply_step, compute_effects
 from skillc_runtime.planning.world_changes import changed_between, settled_by
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,7 +26,7 @@ from skillc_compiler.library.pddl.formulas import (
 )
 from skillc_compiler.library.pddl.problem import Problem
 from skillc_compiler.library.skills import Implementation, SkillLibrary
-from skillc_runtime.world.values import show
+from skillc_runtime.world.state.values import show
 
 
 class FormulaFormatter:

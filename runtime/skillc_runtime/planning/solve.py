@@ -25,7 +25,7 @@ from skillc_runtime.planning.problem.neighbourhood import NARROW, AbstractionSiz
 from skillc_runtime.planning.problem.pose import GoalError, Posed, already_holds, pose_problem
 from skillc_runtime.planning.unsolvability import explain_unsolvable
 from skillc_runtime.planning.validation import PlanError, compute_work_s, validate
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 
 DEADLINE_S = 30.0
 

@@ -11,9 +11,9 @@ from skillc_compiler.library.pddl.formulas import FALSE, Atom, Conjunction, Disj
 from skillc_runtime.planning.formula_text import FormulaFormatter
 from skillc_runtime.planning.problem.pose import Posed
 from skillc_runtime.planning.search.grounding import Grounding, GroundingTimeout
-from skillc_runtime.world.explain import explain
-from skillc_runtime.world.expressions import EvaluationError
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.eval.explain import explain
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.world_state import WorldState
 
 DEPTH = 4
 LISTED = 3

@@ -11,14 +11,15 @@ from skillc_compiler.library.skills import Implementation, Parameter, Requiremen
 from skillc_compiler.library.vocabulary import ClassType
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.planning.problem.initial_state import evaluate_duration_s
-from skillc_runtime.world.changes import Change
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.effects import changes_of
-from skillc_runtime.world.explain import explain
-from skillc_runtime.world.expressions import Bindings, EvaluationError, value_of
-from skillc_runtime.world.model import WorldError, WorldModel
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.effects import changes_of
+from skillc_runtime.world.eval.explain import explain
+from skillc_runtime.world.eval.expressions import Bindings, value_of
+from skillc_runtime.world.state.changes import Change
+from skillc_runtime.world.state.model import WorldError, WorldModel
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 
 class PlanError(ValueError):

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.library.read_write import EVERYTHING, FactPattern
-from skillc_runtime.world.changes import AddRelation, Change, ClearProperty, RemoveRelation, SetProperty
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.changes import AddRelation, Change, ClearProperty, RemoveRelation, SetProperty
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def changed_between(before: WorldState, after: WorldState) -> Iterator[FactPattern]:

@@ -13,14 +13,15 @@ from skillc_runtime.avoidance.ways import Known, NoWay, touch_on, way
 from skillc_runtime.motion.joint import JointTrajectory
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.primitives.primitive import SkillFailure
-from skillc_runtime.world.frames import FrameError, pose
-from skillc_runtime.world.sheet import SheetError, sheet_of
-from skillc_runtime.world.terms import HAS_GRIPPER
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
+from skillc_runtime.world.state.terms import HAS_GRIPPER
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.arm_driver import ArmDriver
     from skillc_runtime.devices.cell import Cell
-    from skillc_runtime.world.state import WorldState
+    from skillc_runtime.world.state.world_state import WorldState
 
 BLEND_SHARES = (1.0, 0.5, 0.25)
 """Shares of each corner that are blended, in the order in which they are tried."""

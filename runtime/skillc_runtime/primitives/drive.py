@@ -5,9 +5,9 @@ from __future__ import annotations
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.primitives.fact_monitor import base_away_from
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.world.changes import AddRelation
-from skillc_runtime.world.frames import pose
-from skillc_runtime.world.terms import AT
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.changes import AddRelation
+from skillc_runtime.world.state.terms import AT
 
 
 class DriveBase(Primitive):

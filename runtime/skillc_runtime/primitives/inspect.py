@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.world.changes import SetProperty
-from skillc_runtime.world.terms import CLEAN_THRESHOLD, COVERAGE, IS_CLEAN
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.terms import CLEAN_THRESHOLD, COVERAGE, IS_CLEAN
 
 
 class Inspect(Primitive):

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.frames import WORLD_FRAME, FrameError, pose, size
-from skillc_runtime.world.terms import SURFACE
+from skillc_runtime.world.space.frame_tree import WORLD_FRAME, FrameError
+from skillc_runtime.world.space.frames import pose, size
+from skillc_runtime.world.state.terms import SURFACE
 
 if TYPE_CHECKING:
-    from skillc_runtime.world.state import WorldState
+    from skillc_runtime.world.state.world_state import WorldState
 
 NEAR_M, ABOVE_M = 0.1, 0.2
 """How far beside a surface, and above or below it, a position is described relative to it."""

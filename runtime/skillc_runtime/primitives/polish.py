@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.world.changes import SetProperty
-from skillc_runtime.world.sheet import SheetError, number
-from skillc_runtime.world.terms import IS_POLISHED, POLISH_THRESHOLD, POLISH_TIME, POLISHED_SHARE
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.data_sheet import SheetError, number
+from skillc_runtime.world.state.terms import IS_POLISHED, POLISH_THRESHOLD, POLISH_TIME, POLISHED_SHARE
 
 
 class InspectPolish(Primitive):

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose, exp
-from skillc_runtime.world.changes import SetProperty
-from skillc_runtime.world.frames import placed, pose
-from skillc_runtime.world.terms import LOCATED
+from skillc_runtime.world.space.frames import placed, pose
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.terms import LOCATED
 
 if TYPE_CHECKING:
-    from skillc_runtime.world.model import WorldModel
+    from skillc_runtime.world.state.model import WorldModel
 
 
 def write_surface_pose(world: WorldModel, surface: str, tool: Pose) -> None:

@@ -15,7 +15,7 @@ from skillc_runtime.simulation.facts import BaseFacts, SceneFacts, SurfaceFacts
 from skillc_runtime.simulation.fixtures import add_fixture
 from skillc_runtime.simulation.names import base_body, box_geom, hole, obstacle, part, weld
 from skillc_runtime.simulation.variation import SurfaceVariation, Variation
-from skillc_runtime.world.sheet import SheetError
+from skillc_runtime.world.state.data_sheet import SheetError
 
 CARRIES, WORKS = 1, 2
 """Contact bits of what carries tools and of what works on surfaces; handles and finger pads have 4 and 8."""

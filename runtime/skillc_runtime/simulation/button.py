@@ -11,7 +11,7 @@ from skillc_runtime.motion.pose import Array
 from skillc_runtime.simulation.fixture_facts import FixtureFacts
 from skillc_runtime.simulation.fixture_variation import FixtureVariation
 from skillc_runtime.simulation.names import part
-from skillc_runtime.world.sheet import SheetError
+from skillc_runtime.world.state.data_sheet import SheetError
 
 
 class SimulatedButton:

@@ -26,10 +26,10 @@ from skillc_runtime.simulation.inspection import SimulatedCamera
 from skillc_runtime.simulation.observer import ToolObserver
 from skillc_runtime.simulation.person import make_people
 from skillc_runtime.simulation.variation import Variation, draw
-from skillc_runtime.world.changes import SetProperty
-from skillc_runtime.world.frames import placed, size
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.terms import DEVICE_STATE
+from skillc_runtime.world.space.frames import placed, size
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import DEVICE_STATE
 
 
 class SimulatedCell:

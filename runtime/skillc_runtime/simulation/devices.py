@@ -19,7 +19,7 @@ from skillc_runtime.simulation.names import (
     pressing_sensor,
     wrist_sensor,
 )
-from skillc_runtime.world.sheet import SheetError
+from skillc_runtime.world.state.data_sheet import SheetError
 
 WRIST_SENSORS = (
     ("force", mujoco.mjtSensor.mjSENS_FORCE),

@@ -13,9 +13,15 @@ from skillc_runtime.control.virtual_arm import virtual_model
 from skillc_runtime.devices.arm import ModeRefused
 from skillc_runtime.simulation.arm import SimulatedArm
 from skillc_runtime.simulation.facts import ArmFacts
-from skillc_runtime.world.frames import seen_from, size
-from skillc_runtime.world.sheet import SheetError, number
-from skillc_runtime.world.terms import CONTACT_FORCE_LIMIT, HAS_SENSOR, HAS_WORKSPACE, JERK_LIMIT, TOOL_SPEED_LIMIT
+from skillc_runtime.world.space.frames import seen_from, size
+from skillc_runtime.world.state.data_sheet import SheetError, number
+from skillc_runtime.world.state.terms import (
+    CONTACT_FORCE_LIMIT,
+    HAS_SENSOR,
+    HAS_WORKSPACE,
+    JERK_LIMIT,
+    TOOL_SPEED_LIMIT,
+)
 
 
 def driver(facts: ArmFacts, arm: SimulatedArm, period_s: float) -> CompliantArmDriver:

@@ -12,11 +12,10 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.simulation.fixture_facts import FixtureFacts, read_fixtures
 from skillc_runtime.simulation.friction import friction
 from skillc_runtime.simulation.person_facts import PersonFacts, read_people
-from skillc_runtime.world.areas import layout
-from skillc_runtime.world.frames import pose, size
-from skillc_runtime.world.sheet import Sheet, SheetError, number, sheet_of, text
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import (
+from skillc_runtime.world.space.frames import pose, size
+from skillc_runtime.world.space.surfaces import LEAST_FORCE_N, layout, least_force_n
+from skillc_runtime.world.state.data_sheet import Sheet, SheetError, number, sheet_of, text
+from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
     COMPLIANT_CONTROLLER,
     FORCE_NOISE,
@@ -40,7 +39,7 @@ from skillc_runtime.world.terms import (
     VELOCITY_CONTROLLED_ARM,
     WEIGHT,
 )
-from skillc_runtime.world.working import LEAST_FORCE_N, least_force_n
+from skillc_runtime.world.state.world_state import WorldState
 
 MODES: Final[dict[str, Mode]] = {
     TORQUE_CONTROLLED_ARM: "torque",

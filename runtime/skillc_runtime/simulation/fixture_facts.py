@@ -8,10 +8,9 @@ from pathlib import Path
 
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.simulation.friction import friction, ranges
-from skillc_runtime.world.frames import pose
-from skillc_runtime.world.sheet import Sheet, number, range_below, sheet_of
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import (
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.data_sheet import Sheet, number, range_below, sheet_of
+from skillc_runtime.world.state.terms import (
     BUTTON,
     DEPTH_RANGE,
     FIXTURE,
@@ -21,6 +20,7 @@ from skillc_runtime.world.terms import (
     SWITCH_TRAVEL,
     TILT_RANGE,
 )
+from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)

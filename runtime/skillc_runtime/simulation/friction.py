@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from skillc_runtime.world.sheet import SheetError, number
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import FRICTION, FRICTION_HIGH, FRICTION_LOW
+from skillc_runtime.world.state.data_sheet import SheetError, number
+from skillc_runtime.world.state.terms import FRICTION, FRICTION_HIGH, FRICTION_LOW
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def friction(state: WorldState, thing: str) -> tuple[float, float]:

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from skillc_runtime.simulation.facts import ArmFacts, GripperFacts, SceneFacts
-from skillc_runtime.world.sheet import sheet_of, text
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import SKILLC
+from skillc_runtime.world.state.data_sheet import sheet_of, text
+from skillc_runtime.world.state.terms import SKILLC
+from skillc_runtime.world.state.world_state import WorldState
 
 COLLECTION = SKILLC + "Collection"
 COLLECTION_NAME, REPOSITORY, COMMIT = SKILLC + "collectionName", SKILLC + "repository", SKILLC + "commit"

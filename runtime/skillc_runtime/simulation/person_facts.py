@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.frames import pose
-from skillc_runtime.world.sheet import number, range_below
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import LEAD_RANGE, LEADS, PERSON, STRENGTH, STRENGTH_RANGE
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.data_sheet import number, range_below
+from skillc_runtime.world.state.terms import LEAD_RANGE, LEADS, PERSON, STRENGTH, STRENGTH_RANGE
+from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)

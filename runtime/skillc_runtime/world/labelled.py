@@ -14,7 +14,7 @@ from skillc_compiler.library.vocabulary import ClassType, ListType, NumberType, 
 from skillc_compiler.library.vocabulary import local_name as local
 from skillc_compiler.library.words import SI_UNITS
 from skillc_runtime.motion import pose as motion
-from skillc_runtime.world.changes import (
+from skillc_runtime.world.state.changes import (
     AddIndividual,
     AddRelation,
     Change,
@@ -23,9 +23,10 @@ from skillc_runtime.world.changes import (
     RemoveRelation,
     SetProperty,
 )
-from skillc_runtime.world.facts import Fact, Related, Typed, Valued, value_at
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.state.facts import Fact, Related, Typed, Valued
+from skillc_runtime.world.state.properties import value_at
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 LISTED = 3
 """Longer lists are shown by their length."""

@@ -26,10 +26,10 @@ from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import RelationTerm, Signature
 from skillc_compiler.pipeline import compile
 from skillc_dsl.source import Source
-from skillc_runtime.world.changes import AddIndividual, AddRelation, SetProperty
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.model import WorldError, WorldModel
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, SetProperty
+from skillc_runtime.world.state.model import WorldError, WorldModel
+from skillc_runtime.world.state.world_state import WorldState
 from world.lab import iri
 
 INDIVIDUALS: Mapping[str, tuple[str, ...]] = {

@@ -16,10 +16,10 @@ from skillc_compiler.library.vocabulary import PlainType
 from skillc_dsl.diagnostics import Outcome
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library, _mission, _scenes
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.explain import explain
-from skillc_runtime.world.scene import load_scene
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.scene.load import load_scene
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.explain import explain
+from skillc_runtime.world.state.world_state import WorldState
 
 NOISE = (
     *(

@@ -19,7 +19,7 @@ from skillc_runtime.planning.problem.pose import GoalError, pose_problem
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import apply_step, check_goal_reached
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 
 SECONDS = 30.0
 MOST_STATES = 50

@@ -13,15 +13,14 @@ from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_ontology import catalogue
 from skillc_runtime.commands import _library
-from skillc_runtime.world.documents import BASE, Document, SceneError, parse
-from skillc_runtime.world.identity import PROPERTY, SOURCE, TARGETS
-from skillc_runtime.world.individuals import SUBCLASS, iri_of, is_annotation, is_term_kind
-from skillc_runtime.world.literals import read
-from skillc_runtime.world.quick import quick_world
-from skillc_runtime.world.saving import SaveError, turtle
-from skillc_runtime.world.scene import Scene, scene_of, world_of
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import has
+from skillc_runtime.scene.checks.identity import PROPERTY, SOURCE, TARGETS
+from skillc_runtime.scene.documents import BASE, Document, SceneError, parse
+from skillc_runtime.scene.load import Scene, load_in_bulk, scene_of, world_of
+from skillc_runtime.scene.saving import SaveError, turtle
+from skillc_runtime.scene.statements import SUBCLASS, iri_of, is_annotation, is_term_kind
+from skillc_runtime.store.literals import read
+from skillc_runtime.world.state.values import has
+from skillc_runtime.world.state.world_state import WorldState
 from world.sameness import everything
 
 SHEETS = tuple(Document(name, text) for name, text in catalogue.vocabulary_files())
@@ -33,7 +32,7 @@ def run_case(random: Random, folder: Path) -> None:
     text = _text(random)
     (folder / "scene.ttl").write_text(text, encoding="utf-8", errors="surrogatepass", newline="")
     document, vocabulary = Document("scene.ttl", text), _vocabulary()
-    careful, quick = scene_of([document, *SHEETS], vocabulary), quick_world([document, *SHEETS], vocabulary)
+    careful, quick = scene_of([document, *SHEETS], vocabulary), load_in_bulk([document, *SHEETS], vocabulary)
     _check_problems(careful, text)
     assert quick is None or not careful.problems, f"the quick reader passes over: {careful.problems}"
     assert quick is None or everything(quick) == everything(careful.state), "the readers disagree"

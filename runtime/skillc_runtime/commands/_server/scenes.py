@@ -20,7 +20,7 @@ from skillc_runtime.commands import _named_texts
 
 if TYPE_CHECKING:
     from skillc_runtime.commands import _scenes
-    from skillc_runtime.world.scene import Scene
+    from skillc_runtime.scene.load import Scene
 
 
 @dataclass(frozen=True, slots=True)

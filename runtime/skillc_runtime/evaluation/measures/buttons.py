@@ -9,8 +9,8 @@ import numpy as np
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import PressingWork, Work
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.sheet import number
-from skillc_runtime.world.terms import PRESS_FORCE
+from skillc_runtime.world.state.data_sheet import number
+from skillc_runtime.world.state.terms import PRESS_FORCE
 
 HELD_S = 0.1
 """What a button is held with is the greatest mean over this time."""

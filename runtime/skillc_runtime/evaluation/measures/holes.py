@@ -9,8 +9,8 @@ from skillc_runtime.evaluation.measures.work import InsertingWork, Work
 from skillc_runtime.simulation.fixture_facts import FixtureFacts
 from skillc_runtime.simulation.fixture_variation import FixtureVariation
 from skillc_runtime.simulation.names import part
-from skillc_runtime.world.sheet import number
-from skillc_runtime.world.terms import CONTAIN, DEPTH, PEG, SOCKET
+from skillc_runtime.world.state.data_sheet import number
+from skillc_runtime.world.state.terms import CONTAIN, DEPTH, PEG, SOCKET
 
 
 def measure(evidence: RunEvidence) -> Iterator[Work]:

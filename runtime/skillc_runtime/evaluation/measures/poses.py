@@ -8,8 +8,8 @@ import numpy as np
 
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import TeachingWork, Work
-from skillc_runtime.world.frames import pose
-from skillc_runtime.world.terms import IS_TAUGHT, TAUGHT_POSE
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.terms import IS_TAUGHT, TAUGHT_POSE
 
 
 def measure(evidence: RunEvidence) -> Iterator[Work]:

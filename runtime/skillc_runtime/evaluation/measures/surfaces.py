@@ -12,8 +12,8 @@ from skillc_runtime.evaluation.measures.work import PolishingWork, WipingWork, W
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.report.wiping import Wiping
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.sheet import number
-from skillc_runtime.world.terms import POLISH_TIME, POLISHABLE_SURFACE
+from skillc_runtime.world.state.data_sheet import number
+from skillc_runtime.world.state.terms import POLISH_TIME, POLISHABLE_SURFACE
 
 LEAST_SWING_M = 1e-3
 """An overlay that goes less far is none."""

@@ -17,7 +17,7 @@ from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.terms import COMPLIANT_CONTROLLER
+from skillc_runtime.world.state.terms import COMPLIANT_CONTROLLER
 
 ENDED: Mapping[Status, Literal["success", "failure", "halted"]] = {
     Status.SUCCESS: "success",

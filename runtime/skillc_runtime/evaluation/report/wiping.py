@@ -13,9 +13,9 @@ from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.metrics import Stroke, WipingSetup, measure_wiping
-from skillc_runtime.world.frames import size
 from skillc_runtime.world.labelled import Quantity
-from skillc_runtime.world.terms import SURFACE, TOOL
+from skillc_runtime.world.space.frames import size
+from skillc_runtime.world.state.terms import SURFACE, TOOL
 
 FORCE = "force"
 """The parameter, in N, of what declares that it presses."""

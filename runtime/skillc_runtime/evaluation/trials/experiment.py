@@ -29,14 +29,14 @@ from skillc_runtime.execution.assignment import (
 from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.known import assumed_facts
+from skillc_runtime.scene.load import load_scene
 from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.frames import FrameError
 from skillc_runtime.world.labelled import format_fact
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.scene import load_scene
-from skillc_runtime.world.sheet import SheetError, number
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import CONTACT_FORCE_LIMIT
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.state.data_sheet import SheetError, number
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import CONTACT_FORCE_LIMIT
+from skillc_runtime.world.state.world_state import WorldState
 
 MEASURES = (surfaces.measure, buttons.measure, holes.measure, poses.measure)
 """In the order in which trials list what was done."""

@@ -10,9 +10,9 @@ from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.validation import PlanError, apply_step, find_startable_implementations
 from skillc_runtime.planning.world_changes import changed_between
-from skillc_runtime.world.expressions import EvaluationError
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,10 +11,10 @@ from skillc_runtime.execution.plans.plan_body import achieved_condition
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.validation import PlanError, apply_effects, apply_step, check_goal_reached
 from skillc_runtime.recording.outcome import Outcome
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.expressions import EvaluationError
-from skillc_runtime.world.model import WorldError
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.state.model import WorldError
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.world_state import WorldState
 
 STEP_KINDS = ("call", "if")
 """The kinds of nodes that run a step in the body of a plan: a call, or one that is skipped if nothing is left to do."""

@@ -15,10 +15,10 @@ from skillc_compiler.library.vocabulary import (
 )
 from skillc_compiler.library.words import type_text
 from skillc_runtime.world.labelled import format_value, label_value
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.typed import is_of
-from skillc_runtime.world.values import Value
-from skillc_runtime.world.vectors import is_vector
+from skillc_runtime.world.state.value_types import is_of
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.vectors import is_vector
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def check_value(parameter: Parameter, value: Value, state: WorldState) -> str | None:

@@ -11,12 +11,12 @@ from skillc_compiler.library.skills import Implementation, Parameter, Post, Requ
 from skillc_runtime.execution.selection.arguments import check_value
 from skillc_runtime.execution.selection.inferred_parameters import InferredParameters, infer_parameters
 from skillc_runtime.recording.failure import Rejection, Stage
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.explain import explain
-from skillc_runtime.world.expressions import value_of
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.explain import explain
+from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.labelled import format_value, label_bindings
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,10 +8,10 @@ from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Implementation, Parameter, Requirement
 from skillc_runtime.execution.selection.binding import BoundImplementation
 from skillc_runtime.recording.reasons import DecidingCondition, ParameterReason
+from skillc_runtime.world.eval.support import deciding_facts
 from skillc_runtime.world.labelled import label
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.support import facts_of
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def explain_bindings(bound: BoundImplementation, passed: Set[str], state: WorldState) -> tuple[ParameterReason, ...]:
@@ -45,5 +45,5 @@ def _deciding_conditions(
 
 
 def _make_deciding(requirement: Requirement, bindings: Mapping[str, Value], state: WorldState) -> DecidingCondition:
-    facts = facts_of([requirement.condition], state, bindings)
+    facts = deciding_facts([requirement.condition], state, bindings)
     return DecidingCondition(text=requirement.text, source=requirement.source, facts=facts)

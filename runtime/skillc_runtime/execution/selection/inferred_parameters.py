@@ -9,12 +9,12 @@ from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import Implementation, Parameter, Requirement
 from skillc_compiler.library.vocabulary import ClassType, Vocabulary
 from skillc_runtime.recording.failure import Rejection
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.explain import explain
-from skillc_runtime.world.inference import Ambiguous, Binding, Found, NoneFound, infer
-from skillc_runtime.world.nearest import NearMiss
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.explain import explain
+from skillc_runtime.world.eval.inference import Ambiguous, Binding, Found, NoneFound, infer
+from skillc_runtime.world.eval.nearest import NearMiss
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 MAX_NEAR_MISSES = 3
 """How many near misses are listed in a rejection."""

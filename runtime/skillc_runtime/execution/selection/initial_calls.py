@@ -9,8 +9,9 @@ from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.execution.selection.preflight import Refusal
 from skillc_runtime.execution.selection.select import NoneSelected, explain_none_selected, select_implementation
-from skillc_runtime.world.expressions import EvaluationError, value_of
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.eval.expressions import value_of
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def initial_call_refusals(body: tree.Node, library: SkillLibrary, state: WorldState) -> Iterator[Refusal]:

@@ -19,9 +19,9 @@ from skillc_runtime.execution.selection.select import explain_none_selected, ran
 from skillc_runtime.execution.selection.static_values import StaticValues, check_functions, compute_static_values
 from skillc_runtime.execution.selection.text_names import UnknownName, find_unknown_names
 from skillc_runtime.recording.failure import Rejection
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 Origin: TypeAlias = tuple[Position, str]
 """Where a value comes from: the call and name of an argument, or an implementation and its parameter or `let`."""

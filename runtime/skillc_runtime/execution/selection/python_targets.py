@@ -10,7 +10,7 @@ from typing import get_args
 
 from skillc_compiler.library.skills import Parameter
 from skillc_runtime.primitives.primitive import Activity, Phase, Primitive
-from skillc_runtime.world.foreign import EvaluationError, resolve
+from skillc_runtime.world.state.python_calls import EvaluationError, load_python
 
 
 class PrimitiveError(Exception):
@@ -105,7 +105,7 @@ def _check_constructor(python: str, passed: tuple[str, ...]) -> str | None:
 def check_function(python: str, count: int) -> str | None:
     """Return why "module:function" cannot be called with the world and `count` values, None if it can."""
     try:
-        function = resolve(python)
+        function = load_python(python)
     except EvaluationError as error:
         return str(error)
     reason = _check_call(function, None, *(None,) * count) if callable(function) else "it is not a function"

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from skillc_compiler.library.skills import Implementation, SkillLibrary
 from skillc_runtime.execution.selection.binding import BoundImplementation, bind_implementation
 from skillc_runtime.recording.failure import Rejection
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)

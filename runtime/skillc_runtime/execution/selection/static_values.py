@@ -9,11 +9,12 @@ from skillc_compiler.library.conditions import Condition, Expression, Invoke, Pr
 from skillc_compiler.library.read_write import is_fixed
 from skillc_compiler.library.reading import free_variables, walk
 from skillc_runtime.execution.selection.python_targets import check_function
-from skillc_runtime.world.expressions import EvaluationError, value_of
-from skillc_runtime.world.frames import MissingFact
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import BASE_FRAME_ID, ORIENTATION, POSITION
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.eval.expressions import value_of
+from skillc_runtime.world.space.frame_tree import MissingFact
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.terms import BASE_FRAME_ID, ORIENTATION, POSITION
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 MEASURED_PROPERTIES = frozenset({BASE_FRAME_ID, *POSITION, *ORIENTATION})
 """Skills write where things are without declaring it in their posts."""

@@ -15,8 +15,8 @@ from skillc_compiler.library.reading import calls_in
 from skillc_compiler.library.skills import Implementation, Primitive, SkillLibrary
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_primitive
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 NamePath: TypeAlias = tuple[str, ...]
 """The relations to follow from an individual, then the property whose values are names."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from skillc_compiler.library.skills import Parameter, SkillLibrary
 from skillc_compiler.library.vocabulary import ClassType
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,12 +19,12 @@ from skillc_runtime.execution.tree.primitive_node import PrimitiveNode
 from skillc_runtime.execution.tree.sensing import drop_sensed_changes, explain_not_sensed
 from skillc_runtime.execution.tree.verify_monitor import find_violation, monitored_properties
 from skillc_runtime.recording.failure import Failure, FailureKind, Rejection, Stage
-from skillc_runtime.world.changes import Change
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.effects import changes_of
-from skillc_runtime.world.expressions import value_of
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.effects import changes_of
+from skillc_runtime.world.eval.expressions import value_of
+from skillc_runtime.world.state.changes import Change
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 BuildNode: TypeAlias = Callable[[tree.Node, TreeContext, LexicalScope], Node]
 

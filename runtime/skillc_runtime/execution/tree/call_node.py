@@ -27,7 +27,7 @@ from skillc_runtime.execution.tree.primitive_node import PrimitiveNode
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure, Rejection, as_failure
 from skillc_runtime.recording.reasons import FailedCallContext
-from skillc_runtime.world.expressions import value_of
+from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.labelled import LabelledFact
 
 _STAGES = ("argument", "inference", "pre", "hold", "lock", "start", "run")

@@ -9,8 +9,8 @@ from skillc_compiler.library.vocabulary import Position
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.recording.events import Listener, Note
-from skillc_runtime.world.changes import Change
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.changes import Change
+from skillc_runtime.world.state.world_state import WorldState
 
 
 class TreeContext:

@@ -7,9 +7,9 @@ from pathlib import PurePath
 
 from skillc_runtime.devices.cell import WatchdogTimeout
 from skillc_runtime.primitives.primitive import SkillFailure
-from skillc_runtime.world.expressions import EvaluationError
-from skillc_runtime.world.model import WorldError
-from skillc_runtime.world.store.store import StoreError
+from skillc_runtime.world.state.model import WorldError
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.transactions import StoreError
 
 
 def describe_exception(error: BaseException) -> str:

@@ -16,12 +16,12 @@ from skillc_runtime.primitives.primitive import Phase
 from skillc_runtime.recording.events import Highlight, ImplementationChosen, WorldChanged
 from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.recording.reasons import FailedCallContext, UntriedImplementation
-from skillc_runtime.world.expressions import EvaluationError
+from skillc_runtime.world.eval.support import deciding_facts
 from skillc_runtime.world.labelled import Iri, LabelledFact, LabelledValue, label_bindings, label_change
-from skillc_runtime.world.model import ChangeEvent
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.support import facts_of
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.transactions import ChangeEvent
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def make_choice_event(
@@ -94,7 +94,7 @@ def collect_facts_at_failure(
     implementations = tried if running is None else (running.implementation,)
     conditions = [each.condition for one in implementations for each in (*one.pre, *one.hold)]
     conditions += [post.condition for post in (running.implementation.post if running is not None else ())]
-    return facts_of(conditions, state, arguments if running is None else running.frame)
+    return deciding_facts(conditions, state, arguments if running is None else running.frame)
 
 
 def make_change_event(event: ChangeEvent, time: float) -> WorldChanged:

@@ -9,7 +9,7 @@ from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.lexical_scope import LexicalScope
 from skillc_runtime.execution.tree.node import RUNNING, SUCCESS, Node
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.world.conditions import evaluate
+from skillc_runtime.world.eval.conditions import evaluate
 
 
 class IfNode(Node):

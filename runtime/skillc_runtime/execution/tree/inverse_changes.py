@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from skillc_runtime.world.changes import AddRelation, Change, ClearProperty, RemoveRelation, SetProperty
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import equal
+from skillc_runtime.world.state.changes import AddRelation, Change, ClearProperty, RemoveRelation, SetProperty
+from skillc_runtime.world.state.values import equal
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def inverse_changes(

@@ -13,10 +13,10 @@ from skillc_runtime.execution.tree.node import RUNNING, Node
 from skillc_runtime.execution.tree.sensing import drop_sensed_changes
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.effects import changes_of
-from skillc_runtime.world.explain import explain
-from skillc_runtime.world.expressions import value_of
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.effects import changes_of
+from skillc_runtime.world.eval.explain import explain
+from skillc_runtime.world.eval.expressions import value_of
 
 _EPSILON_S = 1e-9
 

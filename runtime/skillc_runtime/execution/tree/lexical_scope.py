@@ -8,8 +8,8 @@ from typing import Protocol, TypeAlias
 
 from skillc_compiler.library.skills import Implementation
 from skillc_runtime.execution.tree.undo_stack import UndoStack
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 Frame: TypeAlias = dict[str, Value]
 """Values by the name under which a body knows them."""

@@ -12,9 +12,9 @@ from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
 from skillc_runtime.execution.tree.node import RUNNING, SUCCESS, Node
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.expressions import value_of
-from skillc_runtime.world.values import Value
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.expressions import value_of
+from skillc_runtime.world.state.values import Value
 
 
 class LoopNode(Node):

@@ -24,7 +24,7 @@ from skillc_runtime.recording.events import Listener, Paused, Resumed
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.listeners import Listeners
 from skillc_runtime.recording.outcome import Outcome
-from skillc_runtime.world.model import ChangeEvent
+from skillc_runtime.world.state.transactions import ChangeEvent
 
 _ALIVE = (RUNNING, Status.IDLE)
 

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from skillc_compiler.library.reading import conjuncts
 from skillc_compiler.library.skills import Post
 from skillc_runtime.execution.tree.lexical_scope import Frame
-from skillc_runtime.world.changes import AddRelation, Change, RemoveRelation, SetProperty
-from skillc_runtime.world.evidence import Established, statement
-from skillc_runtime.world.grounds import Ground, grounds
+from skillc_runtime.world.eval.grounds import Ground, grounds
 from skillc_runtime.world.labelled import format_fact, label_fact
-from skillc_runtime.world.model import WorldModel
-from skillc_runtime.world.values import equal
+from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
+from skillc_runtime.world.state.evidence import Established, statement
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.values import equal
 
 
 def drop_sensed_changes(changes: Sequence[Change], world: WorldModel, writes_before: int) -> tuple[Change, ...]:

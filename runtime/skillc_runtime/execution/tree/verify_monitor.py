@@ -13,9 +13,9 @@ from skillc_compiler.library.vocabulary import ClassType, Vocabulary
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.execution.tree.lexical_scope import Frame
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.terms import ARM_DEVICE
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.state.terms import ARM_DEVICE
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def monitored_properties(implementation: Implementation) -> tuple[Property, ...]:

@@ -34,10 +34,11 @@ from skillc_compiler.library.pddl.problem import CostValue, Problem
 from skillc_runtime.planning.abstraction.relaxation import DomainRelaxation, NotRelaxable
 from skillc_runtime.planning.problem.initial_state import TooManyValues, evaluate_duration_s
 from skillc_runtime.planning.problem.pose import Posed
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.expressions import EvaluationError, property_of
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import has
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.state.properties import property_of
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.values import has
+from skillc_runtime.world.state.world_state import WorldState
 
 MOST_TUPLES = 100_000
 

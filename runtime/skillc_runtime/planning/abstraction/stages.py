@@ -18,7 +18,7 @@ from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
 from skillc_runtime.planning.problem.pose import Posed
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 
 STAGE_SHARE = 0.5
 """Of the time that is left a narrowed problem gets this share, so that a wider one can still be tried."""

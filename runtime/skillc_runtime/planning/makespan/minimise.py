@@ -20,7 +20,7 @@ from skillc_runtime.planning.problem.pose import Posed, pose_problem
 from skillc_runtime.planning.schedule import Schedule, Scheduled, Scheduler
 from skillc_runtime.planning.solve import DEADLINE_S, solve
 from skillc_runtime.planning.validation import PlanError, compute_work_s, validate
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 
 EARLIEST_START = "each step starts when the part of the plan before it has ended"
 LEAST_WORK_SHARE = 0.5

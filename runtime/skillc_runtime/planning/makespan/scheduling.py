@@ -11,7 +11,7 @@ from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSerie
 from skillc_runtime.planning.plan import Plan
 from skillc_runtime.planning.schedule import Schedule, TimedStep
 from skillc_runtime.planning.validation import apply_step, compute_step_duration_s
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def schedule_plan(plan: Plan, library: SkillLibrary, state: WorldState) -> Schedule:

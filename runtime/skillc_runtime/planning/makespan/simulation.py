@@ -25,9 +25,9 @@ from skillc_runtime.planning.validation import (
     filter_held_implementations,
     find_startable_implementations,
 )
-from skillc_runtime.world.expressions import EvaluationError
-from skillc_runtime.world.model import WorldError
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.model import WorldError
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.world_state import WorldState
 
 INSTANT_S = 1e-6
 """Times that differ by at most this are equal."""

@@ -22,10 +22,12 @@ from skillc_compiler.library.pddl.domain import (
 )
 from skillc_compiler.library.pddl.formulas import Atom, Typed
 from skillc_compiler.library.pddl.problem import CostValue
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.expressions import EvaluationError, property_of, value_of
-from skillc_runtime.world.state import WorldState
-from skillc_runtime.world.values import Value, has
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.expressions import value_of
+from skillc_runtime.world.state.properties import property_of
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.values import Value, has
+from skillc_runtime.world.state.world_state import WorldState
 
 MOST_VALUES = 1_000_000
 

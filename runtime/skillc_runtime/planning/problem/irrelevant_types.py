@@ -26,7 +26,7 @@ from skillc_compiler.library.pddl.formulas import (
     disjunction,
 )
 from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def find_relevant_types(domain: PlanningDomain, vocabulary: Vocabulary) -> frozenset[str]:

@@ -14,9 +14,9 @@ from dataclasses import dataclass
 from heapq import nsmallest
 
 from skillc_compiler.library.pddl.domain import GuardFact, PlanningDomain, RelationFact
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.expressions import EvaluationError
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.world_state import WorldState
 
 PARTNERS = 4
 """A thing is followed to its partners in a relation where it has no more than so many."""

@@ -15,7 +15,7 @@ from skillc_runtime.planning.plan import LeftOut
 from skillc_runtime.planning.problem.irrelevant_types import find_relevant_types, has_written_fact
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize, select_near
 from skillc_runtime.planning.typed_variables import list_typed_variables
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.state.world_state import WorldState
 
 NO_USE = "no useful action, no condition of one and no goal can speak of them"
 NO_FACT = "they fit no parameter, and no fact that a condition reads speaks of them"

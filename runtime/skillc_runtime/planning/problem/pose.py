@@ -30,9 +30,9 @@ from skillc_runtime.planning.problem.object_selection import Kinds, group_by_cla
 from skillc_runtime.planning.problem.relevance import RelevantDomain, keep_relevant_actions
 from skillc_runtime.planning.problem.unplannable_skills import select_skills_that_may_matter
 from skillc_runtime.planning.search.grounding import Grounding, GroundingTimeout
-from skillc_runtime.world.conditions import evaluate
-from skillc_runtime.world.expressions import EvaluationError
-from skillc_runtime.world.state import WorldState
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.world_state import WorldState
 
 LONGEST_S = 2.0
 """Finding out whether an action without a known duration may ever apply takes no longer than this."""

@@ -7,14 +7,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.foreign import Unknown
-from skillc_runtime.world.sheet import SheetError, sheet_of
-from skillc_runtime.world.space.boxes import CORNERS, solid
-from skillc_runtime.world.space.space import space_of
-from skillc_runtime.world.terms import SURFACE
+from skillc_runtime.world.space.box import CORNERS
+from skillc_runtime.world.space.boxes import solid
+from skillc_runtime.world.space.frame_tree import frame_tree_of
+from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
+from skillc_runtime.world.state.python_calls import Unknown
+from skillc_runtime.world.state.terms import SURFACE
 
 if TYPE_CHECKING:
-    from skillc_runtime.world.state import WorldState
+    from skillc_runtime.world.state.world_state import WorldState
 
 
 def out_of_reach(state: WorldState, arm: str, base: Pose, thing: str) -> str | None:
@@ -41,5 +42,5 @@ def out_of_reach(state: WorldState, arm: str, base: Pose, thing: str) -> str | N
 def _points(state: WorldState, thing: str) -> Array:
     """Return what of a thing must be reached, points (n, 3) in the world."""
     if not state.is_a(thing, SURFACE):
-        return space_of(state).pose(thing).position[None, :]
+        return frame_tree_of(state).pose(thing).position[None, :]
     return solid(state, thing).corners[CORNERS[:, 2] > 0]

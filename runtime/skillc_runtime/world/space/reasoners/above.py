@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from skillc_runtime.world.space.boxes import TOUCH_M
-from skillc_runtime.world.space.stacking import gap_below
+from skillc_runtime.world.space.boxes import TOUCH_M, gap_below
 
 if TYPE_CHECKING:
-    from skillc_runtime.world.state import WorldState
+    from skillc_runtime.world.state.world_state import WorldState
 
 
 class Above:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from skillc_runtime.world.space.frame_tree import frame_tree_of
 from skillc_runtime.world.space.reach import out_of_reach
-from skillc_runtime.world.space.space import space_of
-from skillc_runtime.world.terms import CONTAIN, HAS_ARM, MOBILE_ROBOT, WORKSTATION
+from skillc_runtime.world.state.terms import CONTAIN, HAS_ARM, MOBILE_ROBOT, WORKSTATION
 
 if TYPE_CHECKING:
-    from skillc_runtime.world.state import WorldState
+    from skillc_runtime.world.state.world_state import WorldState
 
 
 class CanReach:
@@ -21,7 +21,7 @@ class CanReach:
 
     def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
         """Say how much too far away the surface is from each place; None when the arm reaches it from one."""
-        space, short = space_of(state), state.vocabulary.short
+        space, short = frame_tree_of(state), state.vocabulary.short
         base = space.pose(subject)
         robot = min(state.subjects(HAS_ARM, subject), default=None)
         if robot is None or not state.is_a(robot, MOBILE_ROBOT):

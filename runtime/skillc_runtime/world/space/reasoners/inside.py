@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from skillc_runtime.world.space.boxes import TOUCH_M, box, solid
 
 if TYPE_CHECKING:
-    from skillc_runtime.world.state import WorldState
+    from skillc_runtime.world.state.world_state import WorldState
 
 
 class Inside:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from skillc_runtime.world.space.frame_tree import frame_tree_of
 from skillc_runtime.world.space.reach import out_of_reach
-from skillc_runtime.world.space.space import space_of
 
 if TYPE_CHECKING:
-    from skillc_runtime.world.state import WorldState
+    from skillc_runtime.world.state.world_state import WorldState
 
 
 class Reaches:
@@ -16,4 +16,4 @@ class Reaches:
 
     def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
         """Say how much too far away the thing is; None when the arm reaches it."""
-        return out_of_reach(state, subject, space_of(state).pose(subject), object_)
+        return out_of_reach(state, subject, frame_tree_of(state).pose(subject), object_)

@@ -1,0 +1,118 @@
+"""What a scene must say so that everything is somewhere: frames that lead to the map, poses that are whole."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from difflib import get_close_matches
+
+from skillc_runtime.scene.violation import SceneViolation, stored
+from skillc_runtime.world.space.frame_tree import WORLD_FRAME
+from skillc_runtime.world.state.terms import (
+    AREA,
+    ARM_DEVICE,
+    AT,
+    BASE_FRAME_ID,
+    CONTAIN,
+    FIXTURE,
+    FRAME_ID,
+    FURNITURE,
+    HAS_A,
+    MOBILE_ROBOT,
+    ORIENTATION,
+    PERSON,
+    POSITION,
+    SURFACE,
+    TOOL,
+)
+from skillc_runtime.world.state.world_state import WorldState
+
+PLACED = (AREA, ARM_DEVICE, FIXTURE, FURNITURE, MOBILE_ROBOT, PERSON, SURFACE, TOOL)
+"""What takes up space in a simulation, stands on something that does, or leads to a place."""
+
+
+def check_frames(state: WorldState) -> Iterator[SceneViolation]:
+    """Yield what keeps things from being somewhere; rules about terms that the vocabulary lacks find nothing."""
+    owners = _owners(state)
+    parents = _parents(state, owners)
+    yield from _unknown_frames(state, owners)
+    yield from _circles(state, parents)
+    yield from _partial_poses(state)
+    yield from _nowhere(state, parents)
+
+
+def _unknown_frames(state: WorldState, owners: Mapping[str, Sequence[str]]) -> Iterator[SceneViolation]:
+    short = state.vocabulary.short
+    for individual, base in stored(state, BASE_FRAME_ID):
+        found = owners.get(str(base), [])
+        if base == WORLD_FRAME or len(found) == 1:
+            continue
+        reason = f"{' and '.join(map(short, found))} have this FrameId" if found else "nothing has this FrameId"
+        near = get_close_matches(str(base), [WORLD_FRAME, *owners], n=1)
+        cure = f"did you mean `{near[0]}`?" if near else f"there is {', '.join(sorted([WORLD_FRAME, *owners]))}"
+        message = f"{short(individual)} is placed in the frame `{base}`, but {reason}"
+        cure = "give each its own" if found else cure
+        yield SceneViolation(individual, BASE_FRAME_ID, "unknown-frame", message, cure)
+
+
+def _circles(state: WorldState, parents: Mapping[str, str]) -> Iterator[SceneViolation]:
+    reported = set[str]()
+    for individual, _ in stored(state, BASE_FRAME_ID):
+        path, at = [individual], parents.get(individual)
+        while at is not None and at not in path:
+            path.append(at)
+            at = _carrier(state, parents, at)
+        if at == individual and reported.isdisjoint(path):
+            reported.update(path)
+            names = " and ".join(map(state.vocabulary.short, path))
+            message = f"the frames of {names} form a circle" if len(path) > 1 else f"{names} is placed in its own frame"
+            cure = f"place one of them in `{WORLD_FRAME}`"
+            yield SceneViolation(individual, BASE_FRAME_ID, "frame-circle", message, cure)
+
+
+def _carrier(state: WorldState, parents: Mapping[str, str], thing: str) -> str | None:
+    """Return what a thing moves with: that in whose frame or at whose place it is, else what contains or has it."""
+    if thing in parents or state.value(thing, BASE_FRAME_ID) is not None:
+        return parents.get(thing)
+    holders = (state.subjects(relation, thing) for relation in (CONTAIN, HAS_A) if relation in state.facts)
+    return next((min(found) for found in holders if found), None)
+
+
+def _partial_poses(state: WorldState) -> Iterator[SceneViolation]:
+    """A pose in a frame has all of its numbers."""
+    short = state.vocabulary.short
+    for individual, _ in stored(state, BASE_FRAME_ID):
+        numbers = [name for name in (*POSITION, *ORIENTATION) if name in state.stored]
+        lost = [short(name) for name in numbers if state.value(individual, name) is None]
+        if lost:
+            message = f"{short(individual)} has a {short(BASE_FRAME_ID)} and no {', '.join(lost)}"
+            cure = "write all of its position and orientation; for no turn write OrientationW 1.0 and three times 0.0"
+            yield SceneViolation(individual, BASE_FRAME_ID, "partial-pose", message, cure)
+
+
+def _nowhere(state: WorldState, parents: Mapping[str, str]) -> Iterator[SceneViolation]:
+    """What takes up space has a frame that it is placed in, or is at a place that has one."""
+    if BASE_FRAME_ID not in state.stored or AT not in state.facts:
+        return
+    short = state.vocabulary.short
+    based = {individual for individual, _ in stored(state, BASE_FRAME_ID)}
+    needed = {thing for cls in PLACED for thing in state.instances(cls)}
+    needed |= {parent for thing in needed if (parent := parents.get(thing)) is not None}
+    for thing in sorted(needed - based - parents.keys()):
+        message = f"the scene does not say where {short(thing)} is"
+        cure = f'place it in a frame, `{short(BASE_FRAME_ID)} "{WORLD_FRAME}"`, or at a place, `{short(AT)} PLACE`'
+        yield SceneViolation(thing, None, "no-place", message, cure)
+
+
+def _parents(state: WorldState, owners: Mapping[str, Sequence[str]]) -> dict[str, str]:
+    """Return in whose frame each thing is where the scene says so: by its base frame, else by the place it is at."""
+    places = sorted(state.pairs(AT), reverse=True) if AT in state.facts else []
+    based = {individual: owners.get(str(base), []) for individual, base in stored(state, BASE_FRAME_ID)}
+    framed = {individual: found[0] for individual, found in based.items() if len(found) == 1}
+    return {thing: place for thing, place in places if thing not in based} | framed
+
+
+def _owners(state: WorldState) -> dict[str, list[str]]:
+    owners: dict[str, list[str]] = {}
+    for individual, frame in stored(state, FRAME_ID):
+        owners.setdefault(str(frame), []).append(individual)
+    return owners

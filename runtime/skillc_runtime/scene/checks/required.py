@@ -1,0 +1,57 @@
+"""What individuals must state because of their classes: the vocabulary says that each has at least one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.library.vocabulary import NumberType, PlainType
+from skillc_compiler.library.words import SI_UNITS
+from skillc_runtime.scene.violation import SceneViolation
+from skillc_runtime.world.state.world_state import WorldState
+
+
+def check_required(state: WorldState) -> Iterator[SceneViolation]:
+    """Yield the individuals that lack what their classes require, each once with all that it lacks."""
+    short = state.vocabulary.short
+    for individual, required in _required(state):
+        lost = {predicate: cls for predicate, cls in required if not _has(state, individual, predicate)}
+        if lost:
+            of = ", ".join(sorted({short(cls) for cls in lost.values()}))
+            names = ", ".join(map(short, sorted(lost)))
+            message = f"{short(individual)} has no {names}, as every {of} must"
+            cure = " ".join(f"`{short(name)} {_form(state, name)} ;`" for name in sorted(lost))
+            yield SceneViolation(individual, None, "missing-property", message, f"write {cure}")
+
+
+def _required(state: WorldState) -> list[tuple[str, tuple[tuple[str, str], ...]]]:
+    """Return the individuals that must state something, by IRI, each with what and the class that requires it."""
+    known = state.vocabulary.classes
+    by_classes: dict[frozenset[str], tuple[tuple[str, str], ...]] = {}
+    for classes in {classes for _, classes in state.classes.items()}:
+        ours = (known[cls] for cls in sorted(classes) if cls in known)
+        by_classes[classes] = tuple((predicate, term.iri) for term in ours for predicate in term.required)
+    return sorted((one, by_classes[classes]) for one, classes in state.classes.items() if by_classes[classes])
+
+
+def _has(state: WorldState, individual: str, predicate: str) -> bool:
+    if predicate in state.facts:
+        return bool(state.objects(individual, predicate))
+    if predicate in state.vocabulary.properties:
+        computed = state.vocabulary.properties[predicate].computed_by is not None
+        return computed or state.value(individual, predicate) is not None
+    return True
+
+
+def _form(state: WorldState, predicate: str) -> str:
+    """Return what stands behind a predicate."""
+    term = state.vocabulary.properties.get(predicate)
+    if term is None:
+        ranges = state.vocabulary.relations[predicate].signatures
+        return state.vocabulary.short(ranges[0].range).partition(":")[2].upper() if ranges else "THING"
+    match term.type:
+        case NumberType(dimension):
+            return f"NUMBER-IN-{SI_UNITS[dimension]}" if dimension in SI_UNITS else "NUMBER"
+        case PlainType("Bool"):
+            return "true"
+        case _:
+            return f'"{term.values[0]}"' if term.values else '"TEXT"'

@@ -1,0 +1,107 @@
+"""Turtle files as statements with their places, and the error that a scene with mistakes is."""
+
+from __future__ import annotations
+
+import errno
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+import pyoxigraph as ox
+
+from skillc_compiler.turtle.parser import parse as parse_turtle
+from skillc_compiler.turtle.statements import Parsed, Statement
+from skillc_compiler.turtle.terms import OWL, RDF, RDFS, XSD
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Span
+from skillc_runtime.scene.memory import BULK_BYTES, TooLittleMemory, check_available
+
+BASE = "file:///scene"
+WELL_KNOWN = (
+    ("owl", OWL),
+    ("rdf", RDF),
+    ("rdfs", RDFS),
+    ("xsd", XSD),
+)
+REMEMBERED = 32
+"""How many files are kept as they were read."""
+
+
+class SceneError(ValueError):
+    """A scene that cannot be loaded, with everything that is wrong with it."""
+
+    def __init__(self, problems: Iterable[Diagnostic]) -> None:
+        self.problems = tuple(sorted(problems, key=lambda each: (each.span, each.name, each.message)))
+        super().__init__("\n".join(map(str, self.problems)))
+
+
+@dataclass(frozen=True, slots=True)
+class Document:
+    """A Turtle file: what messages call it, and its text."""
+
+    path: str
+    text: str
+
+    @staticmethod
+    def read(path: Path) -> Document:
+        """Read a file; SceneError when it cannot be read, is not UTF-8, or is too large for the memory there is."""
+        try:
+            check_available(BULK_BYTES * path.stat().st_size)
+            if not path.is_file():
+                raise OSError(errno.EINVAL, "it is not a regular file")
+            data = path.read_bytes()
+            text = data.decode("utf-8-sig")
+        except OSError as error:
+            raise SceneError([unreadable_problem(str(path), error.strerror or str(error))]) from error
+        except TooLittleMemory as error:
+            raise SceneError([unreadable_problem(str(path), str(error))]) from error
+        except UnicodeDecodeError as error:
+            raise SceneError([_not_utf8(path, data, error.start)]) from error
+        if "\0" in text[:2]:
+            raise SceneError([_not_utf8(path, data, 0)])
+        return Document(str(path), text)
+
+
+def parse(document: Document, prefixes: Mapping[str, str] | None = None) -> Parsed:
+    """Read a document with all that is wrong with it; `prefixes` are those of the vocabularies."""
+    return _parsed(document, (*WELL_KNOWN, *sorted((prefixes or {}).items())))
+
+
+def statements_of(document: Document) -> tuple[Statement, ...]:
+    """Return the statements of a document; SceneError when it is not Turtle."""
+    parsed = parse(document)
+    if parsed.problems:
+        raise SceneError(parsed.problems)
+    return parsed.statements
+
+
+def with_own_terms(statement: Statement, aliases: Mapping[str, str]) -> Statement:
+    """Return the statement with terms called by their own names."""
+    changed = statement._replace(predicate=aliases.get(statement.predicate, statement.predicate))
+    if isinstance(statement.object, ox.NamedNode) and statement.object.value in aliases:
+        return changed._replace(object=ox.NamedNode(aliases[statement.object.value]))
+    return changed
+
+
+def unreadable_problem(path: str, reason: str, line: int = 1, column: int = 1) -> Diagnostic:
+    """Return the problem of a file that there is no reading."""
+    place = Span(path, line, column, line, column + 1)
+    return Diagnostic(
+        "unreadable-scene", place, f"cannot read {path}: {reason}", "save it as UTF-8" * ("UTF" in reason)
+    )
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _parsed(document: Document, prefixes: tuple[tuple[str, str], ...]) -> Parsed:
+    return parse_turtle(document.path, document.text, BASE, dict(prefixes))
+
+
+def _not_utf8(path: Path, data: bytes, start: int) -> Diagnostic:
+    """Return the problem of a file at its first byte that is not UTF-8."""
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff") or b"\0" in data[:2]:
+        return unreadable_problem(str(path), "it is UTF-16 or UTF-32, not UTF-8")
+    start += 3 * data.startswith(b"\xef\xbb\xbf")
+    before = data[:start].decode("utf-8-sig", "replace")
+    line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
+    return unreadable_problem(str(path), "it is not UTF-8 text", line, column)

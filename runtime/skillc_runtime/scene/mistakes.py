@@ -1,0 +1,197 @@
+"""The problem of each statement that the vocabulary does not allow, and what the others change in a world."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from typing import TypeAlias, assert_never
+
+import pyoxigraph as ox
+
+from skillc_compiler.library.vocabulary import THING, Vocabulary
+from skillc_compiler.turtle.statements import SOMETHING, Statement
+from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_dsl.diagnostics import Diagnostic, Fix, Label
+from skillc_dsl.source import Span
+from skillc_runtime.scene.interpretation import Interpretation, Mistake, interpret
+from skillc_runtime.scene.statements import iri_of
+from skillc_runtime.scene.suggestions import suggest
+from skillc_runtime.scene.table import table_of
+from skillc_runtime.store.literals import read
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.state.values import show
+
+Written: TypeAlias = tuple[Change, Statement]
+"""A change and the statement that says so."""
+
+
+class PlacedFacts:
+    """Statements about individuals with what they mean, and with the places of those that make no sense."""
+
+    def __init__(self, said: Sequence[Statement], vocabulary: Vocabulary) -> None:
+        self._said, self._vocabulary = said, vocabulary
+        self._rows: dict[tuple[str, bool], list[int]] = defaultdict(list)
+        for position, each in enumerate(said):
+            self._rows[each.predicate, isinstance(each.object, ox.Literal)].append(position)
+        self._meaning: Interpretation = interpret(table_of(said), vocabulary)
+        self._classes = self._meaning.facts.types
+        self._declared = {iri_of(each.subject): each for each in reversed(said) if each.predicate == RDF_TYPE}
+        wrong = (each for each in self._meaning.mistakes if each.kind == "wrong literal")
+        self._unreadable = set(map(self._position, wrong))
+
+    def changes(self) -> list[Written]:
+        """Return what the statements write, individuals first, then relations in order."""
+        facts = self._meaning.facts
+        pairs = {relation: set(found) for relation, found in facts.related.items()}
+        individuals, relations, values = list[Written](), list[Written](), dict[tuple[str, str], Written]()
+        for position, each in enumerate(self._said):
+            subject, predicate, object_ = iri_of(each.subject), each.predicate, iri_of(each.object)
+            if predicate == RDF_TYPE and object_ in facts.types.get(subject, ()):
+                individuals.append((AddIndividual(subject, (object_,)), each))
+            elif (subject, object_) in pairs.get(predicate, ()):
+                relations.append((AddRelation(subject, predicate, object_), each))
+            elif isinstance(each.object, ox.Literal) and position not in self._unreadable:
+                value = facts.valued.get(predicate, {}).get(subject)
+                if value is not None:
+                    values.setdefault((subject, predicate), (SetProperty(subject, predicate, value), each))
+        return [*individuals, *relations, *values.values()]
+
+    def problems(self, doubtful: Collection[str]) -> Iterator[Diagnostic]:
+        """Yield the problem of each statement that makes no sense; nothing is missing about `doubtful` individuals."""
+        subjects, objects = dict[str, Statement](), defaultdict[str, list[Statement]](list)
+        for mistake in sorted(self._meaning.mistakes, key=self._position):
+            each = self._said[self._position(mistake)]
+            if mistake.kind == "unknown subject":
+                subjects.setdefault(iri_of(each.subject), each)
+            elif mistake.kind == "unknown object":
+                objects[iri_of(each.object)].append(each)
+            else:
+                yield from self._problems_of(mistake, each)
+        yield from (self._without_class(iri, each) for iri, each in subjects.items() if iri not in doubtful)
+        if SOMETHING not in doubtful:
+            yield from (self._unknown_individual(iri, uses) for iri, uses in objects.items() if iri not in doubtful)
+
+    def _problems_of(self, mistake: Mistake, each: Statement) -> Iterator[Diagnostic]:
+        """Yield the problem of a statement that makes no sense by itself."""
+        match mistake.kind:
+            case "unknown class":
+                yield self._unknown("class", iri_of(each.object), each.object_place, self._vocabulary.classes)
+            case "no class":
+                yield _problem("unknown-class", each, f"{_text(each.object)} is no class", "name a class")
+            case "unknown predicate":
+                yield self._unknown_predicate(each, iri_of(each.subject))
+            case "literal of a relation":
+                message = f"{self._short(each.predicate)} is a relation: it leads to an individual, and this is "
+                yield _problem("relation-range", each, message + _text(each.object), "name an individual")
+            case "thing of a property":
+                name = self._short(each.predicate)
+                message = f"{name} is a property: it has a value, and this is {self._shown(each.object)}"
+                yield _problem("wrong-data-type", each, message, "write a number or a text in quotes")
+            case "wrong literal":
+                yield self._wrong_literal(mistake, each)
+            case "second value":
+                yield from self._second_value(each, iri_of(each.subject))
+            case "unknown subject" | "unknown object" | "no effect":
+                return
+            case _:
+                assert_never(mistake.kind)
+
+    def _position(self, mistake: Mistake) -> int:
+        return self._rows[mistake.predicate, mistake.is_literal][mistake.row]
+
+    def _wrong_literal(self, mistake: Mistake, each: Statement) -> Diagnostic:
+        error = mistake.error
+        assert error is not None
+        edit = (
+            Fix(each.object_place, error.instead, f"write {error.instead}", safe=False)
+            if error.instead is not None
+            else None
+        )
+        return _problem("wrong-data-type", each, f"{self._short(each.predicate)}: {error}", error.help, edit)
+
+    def _second_value(self, second: Statement, subject: str) -> Iterator[Diagnostic]:
+        """Yield the problem of another value of a functional property, if it is known what the individual is."""
+        if subject not in self._classes:
+            return
+        term, rows = self._vocabulary.properties[second.predicate], self._rows[second.predicate, True]
+        readable = (self._said[position] for position in rows if position not in self._unreadable)
+        first = next(each for each in readable if each.subject == second.subject)
+        values = [read(each.object, term) for each in (first, second) if isinstance(each.object, ox.Literal)]
+        both = " and ".join(map(show, values))
+        message = f"{self._short(subject)} has two values of {self._short(term.iri)}: {both}"
+        notes = (Label(first.object_place, "the other one"),)
+        point = _decimal(first, second)
+        help_ = f"write `{point.text}`: decimals take a point" if point else "keep one of them"
+        yield Diagnostic("functional-property", second.object_place, message, help_, labels=notes, fix=point)
+
+    def _without_class(self, subject: str, each: Statement) -> Diagnostic:
+        place = each.subject_place
+        near = suggest(subject, place, self._vocabulary, self._declared)
+        help_ = near.help if near.fix else "say what it is: `a CLASS ;`"
+        return Diagnostic("unknown-individual", place, f"{self._short(subject)} is of no class", help_, fix=near.fix)
+
+    def _unknown_predicate(self, each: Statement, subject: str) -> Diagnostic:
+        literal = isinstance(each.object, ox.Literal)
+        known: Iterable[str] = self._vocabulary.properties if literal else self._vocabulary.relations
+        fitting = [iri for iri in known if self._may_have(subject, iri)]
+        return self._unknown(
+            "property" if literal else "relation", each.predicate, each.predicate_place, known, fitting
+        )
+
+    def _may_have(self, subject: str, predicate: str) -> bool:
+        """Whether an individual's class is in the domain of a relation or a property."""
+        relation = self._vocabulary.relations.get(predicate)
+        if relation is not None:
+            domains = tuple(each.domain for each in relation.signatures)
+        else:
+            domains = self._vocabulary.properties[predicate].domains
+        classes = self._classes.get(subject, (THING,))
+        return any(self._vocabulary.is_a(cls, domain) for cls in classes for domain in domains)
+
+    def _unknown_individual(self, iri: str, uses: list[Statement]) -> Diagnostic:
+        """Report an individual that is not in the scene at its first use; the others are noted."""
+        first = uses[0]
+        ranges = {each.range for use in uses for each in self._vocabulary.relations[use.predicate].signatures}
+        fitting = [
+            one
+            for one, classes in self._classes.items()
+            if any(self._vocabulary.is_a(cls, range_) for cls in classes for range_ in ranges)
+        ]
+        near = suggest(iri, first.object_place, self._vocabulary, fitting or self._declared, fitting)
+        notes = [Label(use.object_place, "and here") for use in uses[1:]]
+        if near.fix is not None:
+            meant = next((s for one, s in self._declared.items() if self._short(one) == near.fix.text), None)
+            notes += [Label(meant.subject_place, "this one is there")] if meant is not None else []
+        message = f"there is no individual {self._short(iri)}"
+        edit = near.fix if len(uses) == 1 else None
+        return Diagnostic("unknown-individual", first.object_place, message, near.help, labels=tuple(notes), fix=edit)
+
+    def _unknown(
+        self, kind: str, iri: str, place: Span, known: Iterable[str], fitting: Sequence[str] = ()
+    ) -> Diagnostic:
+        near = suggest(iri, place, self._vocabulary, known, fitting if len(fitting) < len(list(known)) else ())
+        return Diagnostic(f"unknown-{kind}", place, f"there is no {kind} {self._short(iri)}", near.help, fix=near.fix)
+
+    def _short(self, iri: str) -> str:
+        return self._vocabulary.short(iri)
+
+    def _shown(self, node: object) -> str:
+        return self._short(node.value) if isinstance(node, ox.NamedNode) else _text(node)
+
+
+def _problem(name: str, each: Statement, message: str, help_: str, edit: Fix | None = None) -> Diagnostic:
+    return Diagnostic(name, each.object_place, message, help_, fix=edit)
+
+
+def _text(node: object) -> str:
+    return "something without a name" if isinstance(node, ox.BlankNode) else str(node)
+
+
+def _decimal(first: Statement, second: Statement) -> Fix | None:
+    """Return the edit that makes one number of two whole ones with but a comma between them."""
+    whole, digits = (each.object.value if isinstance(each.object, ox.Literal) else "" for each in (first, second))
+    if first.object_at.end + 1 != second.object_at.start or not (whole.lstrip("+-").isdigit() and digits.isdigit()):
+        return None
+    start, end = first.object_place, second.object_place
+    place = Span(start.path, start.line, start.column, end.end_line, end.end_column)
+    return Fix(place, f"{whole}.{digits}", "write a decimal point", safe=False)

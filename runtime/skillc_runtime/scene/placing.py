@@ -1,0 +1,159 @@
+"""Places in the files what violates the axioms of the vocabulary, and what is wrong with the world as a whole."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+
+from skillc_compiler.library.vocabulary import Position
+from skillc_compiler.turtle.statements import Statement
+from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.source import Span
+from skillc_runtime.scene.checks.containment import check_containment
+from skillc_runtime.scene.checks.data_sheets import check_data_sheets
+from skillc_runtime.scene.checks.frames import check_frames
+from skillc_runtime.scene.checks.plausible import check_plausible
+from skillc_runtime.scene.checks.required import check_required
+from skillc_runtime.scene.checks.surface_regions import check_surface_regions
+from skillc_runtime.scene.mistakes import Written
+from skillc_runtime.scene.statements import iri_of
+from skillc_runtime.scene.violation import SceneViolation
+from skillc_runtime.world.state.axiom_violations import AxiomViolation, Fact, axiom_violations, lone_violation
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.state.world_state import WorldState
+
+RIVALS = frozenset({"functional-relation", "asymmetric-relation", "disjoint-classes"})
+"""Axioms that two statements violate together, neither more than the other."""
+
+
+def place_axiom_violations(state: WorldState, written: Sequence[Written]) -> Iterator[Diagnostic]:
+    """Yield a problem for each violation of an axiom once; `state` is the world after all that is written.
+
+    Of statements that cannot be true together, one that is wrong by itself is reported for that alone.
+    """
+    places = {fact: statement for change, statement in reversed(written) if (fact := _fact(change)) is not None}
+    reported: set[tuple[str, frozenset[Fact]]] = set()
+    for change, statement in written:
+        for violation in _violations(state, change):
+            facts = _together(violation, _fact(change))
+            if violation.axiom in RIVALS:
+                if (violation.axiom, facts) in reported or any(_is_wrong(state, each) for each in facts):
+                    continue
+                reported.add((violation.axiom, facts))
+            yield _axiom_problem(
+                state, violation, statement, [places[fact] for fact in facts if fact in places], places
+            )
+
+
+def _violations(state: WorldState, change: Change) -> Iterator[AxiomViolation]:
+    """Yield what is wrong with a change: where a rival took its place, rather what is wrong with it by itself."""
+    for violation in axiom_violations(state, change):
+        match change:
+            case AddRelation(subject, relation, object_) if violation.axiom == "functional-relation":
+                yield lone_violation(state, (subject, relation, object_)) or violation
+            case _:
+                yield violation
+
+
+def _is_wrong(state: WorldState, fact: Fact) -> bool:
+    """Whether a fact is wrong by itself."""
+    return fact[1] in state.vocabulary.relations and lone_violation(state, fact) is not None
+
+
+def _together(violation: AxiomViolation, own: Fact | None) -> frozenset[Fact]:
+    """Return the facts that violate the axiom together."""
+    if own is None or own in violation.rivals or violation.axiom == "disjoint-classes":
+        return frozenset(violation.rivals)
+    return frozenset({own, *violation.rivals})
+
+
+def _axiom_problem(
+    state: WorldState,
+    violation: AxiomViolation,
+    own: Statement,
+    together: Sequence[Statement],
+    places: Mapping[Fact, Statement],
+) -> Diagnostic:
+    if violation.axiom in RIVALS and together:
+        first, *others = sorted((each.object_place for each in together), reverse=True)
+    else:
+        first, others = _violating_term(violation, own), []
+    notes = [Label(place, "said here too") for place in others]
+    notes += (Label(places[fact].object_place, "its class") for fact in violation.causes if fact in places)
+    return Diagnostic(
+        violation.axiom, first, violation.message, _help(violation), labels=(*notes, *_declared(state, violation, own))
+    )
+
+
+def _violating_term(violation: AxiomViolation, own: Statement) -> Span:
+    """Return the term that is wrong: the predicate where it does not fit what it is said of, else the object."""
+    subject_is_wrong = violation.misfit is not None and violation.misfit == iri_of(own.subject)
+    return own.predicate_place if subject_is_wrong and violation.misfit != iri_of(own.object) else own.object_place
+
+
+def _help(violation: AxiomViolation) -> str:
+    return "keep one of them" if violation.axiom in RIVALS else ""
+
+
+def _declared(state: WorldState, violation: AxiomViolation, own: Statement) -> Iterator[Label]:
+    """Yield where the vocabulary says what a relation or property is about."""
+    terms = state.vocabulary.relations.get(own.predicate) or state.vocabulary.properties.get(own.predicate)
+    source: Position | None = terms.source if terms is not None and violation.causes else None
+    if source is not None:
+        yield Label(Span(source.path, source.line, source.column, source.line, source.column + 1), "declared here")
+
+
+def _fact(change: Change) -> Fact | None:
+    """Return the relation or class that a change writes."""
+    match change:
+        case AddIndividual(individual, (cls,)):
+            return individual, RDF_TYPE, cls
+        case AddRelation(subject, relation, object_):
+            return subject, relation, object_
+        case SetProperty(individual, property_, _):
+            return individual, property_, ""
+        case _:
+            return None
+
+
+def of_things(state: WorldState) -> Iterator[SceneViolation]:
+    """Yield what is wrong with things, wherever they are."""
+    for check in (check_containment, check_required, check_plausible, check_data_sheets):
+        yield from check(state)
+
+
+def of_places(state: WorldState) -> Iterator[SceneViolation]:
+    """Yield what is wrong with where things are; how areas lie is looked at once all things are somewhere."""
+    misplaced = list(check_frames(state))
+    yield from misplaced or check_surface_regions(state)
+
+
+def place_scene_violations(
+    state: WorldState, said: Sequence[Statement], problems: Collection[Diagnostic], doubtful: Collection[str]
+) -> Iterator[Diagnostic]:
+    """Yield what is wrong with individuals of which every statement made sense.
+
+    Where things are is looked at only when there is no other problem: a frame may be missing because of it.
+    """
+    troubled = {*doubtful, *_subjects(said, problems)}
+    found = [*of_things(state), *(of_places(state) if not problems and not doubtful else ())]
+    places = {(iri_of(each.subject), each.predicate): each for each in reversed(said)}
+    for violation in found:
+        if violation.individual not in troubled:
+            yield Diagnostic(violation.name, _statement_place(violation, places), violation.message, violation.help)
+
+
+def _subjects(said: Sequence[Statement], problems: Collection[Diagnostic]) -> Iterator[str]:
+    """Yield the individuals whose statements have problems."""
+    if not problems:
+        return
+    wrong = {problem.span for problem in problems}
+    for each in said:
+        if not wrong.isdisjoint((each.subject_place, each.predicate_place, each.object_place)):
+            yield iri_of(each.subject)
+
+
+def _statement_place(violation: SceneViolation, places: dict[tuple[str, str], Statement]) -> Span:
+    if violation.predicate is not None:
+        return places[violation.individual, violation.predicate].object_place
+    return places[violation.individual, RDF_TYPE].subject_place

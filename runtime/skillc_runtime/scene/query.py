@@ -1,0 +1,97 @@
+"""SPARQL over a scene, the packaged vocabularies and data sheets."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import msgspec
+import pyoxigraph as ox
+
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.turtle.terms import OWL, RDF, RDFS, XSD
+from skillc_runtime.scene.documents import Document, statements_of
+from skillc_runtime.scene.query_errors import federation_error, syntax_error_message
+from skillc_runtime.store.literals import INTEGERS, NUMBERS
+
+Cell: TypeAlias = bool | int | float | str | None
+"""A value in an answer; individuals are texts, None is a variable without a value."""
+
+WELL_KNOWN = {"rdf": RDF, "rdfs": RDFS, "owl": OWL, "xsd": XSD}
+
+
+class QueryError(ValueError):
+    """A query that has no answer; the message says why, with the place where it stops making sense."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """The answer of a query: names of the columns and rows of values, individuals shortened by the prefixes."""
+
+    columns: tuple[str, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+
+
+def run_query(documents: Iterable[Document], sparql: str, vocabulary: Vocabulary) -> Answer:
+    """Return the answer of a query over documents; the vocabulary's prefixes need no declaration.
+
+    QueryError for a text that is not SPARQL, an update, a question to another server, a failure of the evaluation;
+    SceneError for a document that is not Turtle.
+    """
+    vocabulary = msgspec.structs.replace(vocabulary, prefixes={**WELL_KNOWN, **vocabulary.prefixes})
+    refusal = federation_error(sparql)
+    if refusal is not None:
+        raise QueryError(refusal)
+    store = _store(documents)
+    try:
+        return _answer(store.query(sparql, prefixes=dict(vocabulary.prefixes)), vocabulary)
+    except SyntaxError as error:
+        raise QueryError(syntax_error_message(sparql, str(error), vocabulary.prefixes)) from error
+    except (OSError, RuntimeError, ValueError) as error:
+        raise QueryError(f"the query cannot be answered: {error}") from error
+
+
+def _store(documents: Iterable[Document]) -> ox.Store:
+    store = ox.Store()
+    for document in documents:
+        store.extend(
+            ox.Quad(each.subject, ox.NamedNode(each.predicate), each.object)
+            for each in statements_of(document)
+            if not isinstance(each.subject, ox.Literal)
+        )
+    return store
+
+
+def _answer(result: ox.QuerySolutions | ox.QueryBoolean | ox.QueryTriples, vocabulary: Vocabulary) -> Answer:
+    """Return the answer in full: solutions are found while they are read."""
+    if isinstance(result, ox.QueryBoolean):
+        return Answer(("answer",), ((bool(result),),))
+    if isinstance(result, ox.QueryTriples):
+        triples = [tuple(_cell(node, vocabulary) for node in triple) for triple in result]
+        return Answer(("subject", "predicate", "object"), tuple(triples))
+    columns = tuple(variable.value for variable in result.variables)
+    return Answer(columns, tuple(tuple(_cell(row[name], vocabulary) for name in columns) for row in result))
+
+
+def _cell(node: object, vocabulary: Vocabulary) -> Cell:
+    if node is None:
+        return None
+    if isinstance(node, ox.NamedNode):
+        return vocabulary.short(node.value)
+    return _value(node) if isinstance(node, ox.Literal) else str(node)
+
+
+def _value(literal: ox.Literal) -> Cell:
+    """Return a literal as a value of its datatype; NaN, infinity and what is not of its datatype stay text."""
+    kind, text = literal.datatype.value, literal.value
+    if kind == XSD + "boolean" and text in ("true", "false", "1", "0"):
+        return text in ("true", "1")
+    if kind not in NUMBERS:
+        return text
+    try:
+        number = int(text) if kind in INTEGERS else float(text)
+    except ValueError:
+        return text
+    return number if math.isfinite(number) else text

@@ -1,0 +1,195 @@
+"""Writes a version of the world as a scene: Turtle from which the same facts are loaded again."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+from math import isfinite
+from pathlib import Path
+
+import pyoxigraph as ox
+
+from skillc_compiler.library.vocabulary import NumberType, Vocabulary
+from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_runtime.scene.documents import Document, statements_of, with_own_terms
+from skillc_runtime.scene.statements import facts, iri_of, with_own_classes
+from skillc_runtime.store.triples import CLASS, SUBCLASS, TYPE
+from skillc_runtime.world.state.values import Value, has, show
+from skillc_runtime.world.state.vectors import is_vector, text_of_vector
+from skillc_runtime.world.state.world_state import WorldState
+
+_LOCAL = re.compile(r"[A-Za-z_](?:[\w-]*\w)?", re.ASCII)
+LISTED = 3
+"""How many facts a message names."""
+
+
+class SaveError(ValueError):
+    """A world that no scene file can state; the message says which facts are in the way."""
+
+
+def save(state: WorldState, path: Path, without: WorldState, source: Document | None = None) -> None:
+    """Write a scene file, whole or not at all; see `turtle`. OSError when the file cannot be written."""
+    text = turtle(state, without, source)
+    new = path.with_name(f".{path.name}.{os.getpid()}.new")
+    try:
+        with new.open("x", encoding="utf-8") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        new.replace(path)
+    finally:
+        new.unlink(missing_ok=True)
+
+
+def turtle(state: WorldState, without: WorldState, source: Document | None = None) -> str:
+    """Return a scene in which is said what was written of the world, and not what `without` says, the data sheets.
+
+    Of `source`, the scene that the world was loaded from, labels and other remarks, templates and declarations are
+    kept, except about individuals that are gone; comments are not. The same facts give the same text. SaveError
+    when facts of `without` are true no more, or Turtle has no words for a fact; SceneError for a source that is no
+    Turtle.
+    """
+    _refuse_lost(state, without)
+    written = _Written(state.vocabulary)
+    for subject, predicate, object_ in _links(state):
+        if not _says(without, subject, predicate, object_):
+            written.link(subject, predicate, object_)
+    for subject, property_, value in _values(state):
+        if not has(without.value(subject, property_), value):
+            written.value(subject, property_, value)
+    for triple in (*_classes(state, without.vocabulary), *(_besides(source, state) if source is not None else ())):
+        written.triple(triple)
+    return written.text()
+
+
+def _links(state: WorldState) -> Iterator[tuple[str, str, str]]:
+    """Yield the classes and relations that were written."""
+    yield from ((each, RDF_TYPE, cls) for each, classes in state.direct.items() for cls in classes)
+    for relation, links in state.asserted.items():
+        yield from ((subject, relation, object_) for subject, object_ in links.pairs())
+
+
+def _values(state: WorldState) -> Iterator[tuple[str, str, Value]]:
+    """Yield each value of each property."""
+    for property_, table in state.stored.items():
+        for individual, value in table.items():
+            several = value if isinstance(value, tuple) else (value,)
+            yield from ((individual, property_, one) for one in several if one is not None)
+
+
+def _says(state: WorldState, subject: str, predicate: str, object_: str) -> bool:
+    """Whether a class or relation was written."""
+    if predicate == RDF_TYPE:
+        return object_ in state.types(subject)
+    return object_ in state.asserted[predicate].forward.get(subject)
+
+
+def _refuse_lost(state: WorldState, without: WorldState) -> None:
+    short = state.vocabulary.short
+    lost = [" ".join(map(short, fact)) for fact in _links(without) if not _says(state, *fact)]
+    for individual, property_, value in _values(without):
+        if not has(state.value(individual, property_), value):
+            lost.append(f"{short(individual)}.{short(property_)} = {show(value)}")
+    if lost:
+        said = "; ".join(sorted(lost)[:LISTED])
+        raise SaveError(f"a scene cannot take back what data sheets say, and this is true no more: {said}")
+
+
+def _classes(state: WorldState, library: Vocabulary) -> Iterator[ox.Triple]:
+    """Yield what declares the classes that the scene has beside the library."""
+    for iri in state.vocabulary.classes.keys() - library.classes.keys():
+        yield ox.Triple(ox.NamedNode(iri), TYPE, CLASS)
+        for parent in state.vocabulary.classes[iri].parents:
+            yield ox.Triple(ox.NamedNode(iri), SUBCLASS, ox.NamedNode(parent))
+
+
+def _besides(source: Document, state: WorldState) -> Iterator[ox.Triple]:
+    """Yield what a scene says beside its facts."""
+    said = [with_own_terms(each, state.vocabulary.aliases) for each in statements_of(source)]
+    about = facts(said, with_own_classes(state.vocabulary, said))
+    gone = {iri_of(each.subject) for each in about} - state.individuals
+    told = {(each.subject_at, each.predicate_at, each.object_at) for each in about}
+    for each in said:
+        if iri_of(each.subject) not in gone and (each.subject_at, each.predicate_at, each.object_at) not in told:
+            yield ox.Triple(each.subject, ox.NamedNode(each.predicate), each.object)  # type: ignore[arg-type]
+
+
+class _Written:
+    """Turtle in the making: what is said, by subject and predicate, in the words of Turtle."""
+
+    def __init__(self, vocabulary: Vocabulary) -> None:
+        self._vocabulary = vocabulary
+        self._prefixes = sorted(vocabulary.prefixes.items(), key=lambda pair: -len(pair[1]))
+        self._used: dict[str, str] = {}
+        self._names: dict[str, str] = {}
+        self._blank: dict[ox.BlankNode, str] = {}
+        self._said: dict[str, dict[str, list[str]]] = defaultdict(lambda: defaultdict(list))
+
+    def link(self, subject: str, predicate: str, object_: str) -> None:
+        """Say that a relation holds, or what something is."""
+        self._said[self._name(subject)][predicate].append(self._name(object_))
+
+    def value(self, individual: str, property_: str, value: Value) -> None:
+        """Say a value; numbers are doubles, whatever they were written as."""
+        counted = isinstance(self._vocabulary.properties[property_].type, NumberType)
+        match value:
+            case bool():
+                text = "true" if value else "false"
+            case int() if not counted:
+                text = str(value)
+            case int() | float() if isfinite(value):
+                text = _double(float(value))
+            case str():
+                text = str(ox.Literal(value))
+            case _ if is_vector(value):
+                text = f'"{text_of_vector(value)}"'
+            case _:
+                raise SaveError(
+                    f"no scene can say <{property_}> of <{individual}>: {show(value)} is no number, text or truth value"
+                )
+        self._said[self._name(individual)][property_].append(text)
+
+    def triple(self, triple: ox.Triple) -> None:
+        """Say what a triple says."""
+        self._said[self._term(triple.subject)][triple.predicate.value].append(self._term(triple.object))
+
+    def text(self) -> str:
+        """Return all, ordered: subjects by name, what they are first."""
+        blocks = [
+            self._block(subject, about) for subject, about in sorted(self._said.items(), key=lambda each: each[0])
+        ]
+        head = [f"@prefix {prefix}: <{base}> ." for prefix, base in sorted(self._used.items())]
+        return "\n".join([*head, "", *blocks])
+
+    def _block(self, subject: str, about: Mapping[str, list[str]]) -> str:
+        order = sorted(about, key=lambda predicate: (predicate != RDF_TYPE, predicate))
+        names = ("a" if each == RDF_TYPE else self._name(each) for each in order)
+        lines = [f"{name} {', '.join(sorted(set(about[each])))}" for name, each in zip(names, order, strict=True)]
+        return f"{subject} " + " ;\n    ".join(lines) + " .\n"
+
+    def _term(self, node: ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple) -> str:
+        if isinstance(node, ox.BlankNode):
+            return self._blank.setdefault(node, f"_:b{len(self._blank)}")
+        return self._name(node.value) if isinstance(node, ox.NamedNode) else str(node)
+
+    def _name(self, iri: str) -> str:
+        if iri not in self._names:
+            self._names[iri] = self._shortened(iri)
+        return self._names[iri]
+
+    def _shortened(self, iri: str) -> str:
+        for prefix, base in self._prefixes:
+            if iri.startswith(base) and _LOCAL.fullmatch(iri, len(base)):
+                self._used[prefix] = base
+                return f"{prefix}:{iri[len(base) :]}"
+        try:
+            return str(ox.NamedNode(iri))
+        except ValueError as error:
+            raise SaveError(f"no scene can speak of `{iri}`: it is no IRI") from error
+
+
+def _double(number: float) -> str:
+    """Return a number as Turtle abbreviates doubles: with an exponent."""
+    return repr(number) if "e" in repr(number) else f"{number!r}e0"

@@ -1,0 +1,40 @@
+"""The terms that RDF, RDFS and OWL have, so that a misspelt one is noticed."""
+
+from __future__ import annotations
+
+from skillc_compiler.turtle.terms import OWL, RDF, RDFS
+
+_NAMES = {
+    RDF: "type first rest nil value subject predicate object Statement Property List Bag Seq Alt langString",
+    RDFS: (
+        "label comment seeAlso isDefinedBy subClassOf subPropertyOf domain range member "
+        "Class Datatype Literal Resource Container ContainerMembershipProperty"
+    ),
+    OWL: (
+        "Class class Thing Nothing NamedIndividual Ontology Restriction Axiom Annotation AllDisjointClasses "
+        "AllDifferent AllDisjointProperties ObjectProperty DatatypeProperty AnnotationProperty OntologyProperty "
+        "FunctionalProperty InverseFunctionalProperty SymmetricProperty AsymmetricProperty ReflexiveProperty "
+        "IrreflexiveProperty TransitiveProperty DataRange DeprecatedClass DeprecatedProperty "
+        "NegativePropertyAssertion imports versionInfo versionIRI priorVersion backwardCompatibleWith "
+        "incompatibleWith deprecated equivalentClass equivalentProperty disjointWith disjointUnionOf "
+        "propertyDisjointWith inverseOf sameAs differentFrom members distinctMembers onProperty onProperties "
+        "onClass onDataRange onDatatype withRestrictions someValuesFrom allValuesFrom hasValue hasSelf hasKey "
+        "cardinality minCardinality maxCardinality qualifiedCardinality minQualifiedCardinality "
+        "maxQualifiedCardinality unionOf intersectionOf complementOf datatypeComplementOf oneOf propertyChainAxiom "
+        "annotatedSource annotatedProperty annotatedTarget sourceIndividual assertionProperty targetIndividual "
+        "targetValue topObjectProperty bottomObjectProperty topDataProperty bottomDataProperty"
+    ),
+}
+TERMS = frozenset(base + name for base, names in _NAMES.items() for name in names.split())
+"""`owl:class` is how SkiROS2's scenes write `owl:Class`."""
+
+
+def standard_terms(iri: str) -> frozenset[str]:
+    """Return the terms of the vocabulary that an IRI belongs to."""
+    base = next(base for base in _NAMES if iri.startswith(base))
+    return frozenset(term for term in TERMS if term.startswith(base))
+
+
+def is_misspelt(iri: str) -> bool:
+    """Whether an IRI belongs to one of these vocabularies, which has no such term."""
+    return iri.startswith(tuple(_NAMES)) and iri not in TERMS and not iri.startswith(f"{RDF}_")

@@ -1,0 +1,121 @@
+"""Which statements of Turtle documents are facts about individuals, and the classes a scene declares itself."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Sequence
+
+import msgspec
+import pyoxigraph as ox
+
+from skillc_compiler.library.vocabulary import THING, ClassTerm, Vocabulary
+from skillc_compiler.turtle.statements import Node, Parsed, Statement
+from skillc_compiler.turtle.terms import OWL, RDF, RDF_TYPE, RDFS
+from skillc_runtime.world.state.terms import HAS_TEMPLATE, TEMPLATE
+
+ABOUT_TERMS = (OWL, RDFS, RDF, "http://purl.org/vocab/vann/")
+ANNOTATIONS = (
+    "http://purl.org/dc/terms/",
+    "http://purl.org/dc/elements/1.1/",
+    "http://www.w3.org/2004/02/skos/core#",
+    "http://www.w3.org/ns/prov#",
+    "http://www.w3.org/ns/shacl#",
+)
+"""What is said in these vocabularies is for people and other tools."""
+REMARKS = frozenset(
+    {f"{RDFS}{name}" for name in ("label", "comment", "seeAlso", "isDefinedBy")}
+    | {f"{OWL}{name}" for name in ("versionInfo", "versionIRI", "priorVersion", "deprecated")}
+    | {f"{OWL}{name}" for name in ("backwardCompatibleWith", "incompatibleWith")}
+)
+CLASS_DECLARATIONS = (f"{OWL}Class", f"{OWL}class")  # SkiROS2's scenes write the second
+SUBCLASS = f"{RDFS}subClassOf"
+NAMED_INDIVIDUAL, ANNOTATION = f"{OWL}NamedIndividual", f"{OWL}AnnotationProperty"
+
+
+class FactFilter:
+    """Which statements are facts about individuals: not those about terms or templates, no annotations.
+
+    `terms` are what is no individual; something without a name, which is empty, is none either.
+    """
+
+    def __init__(self, vocabulary: Vocabulary, types: Collection[tuple[str, str]]) -> None:
+        """Know what a text says that things are, as pairs of subject and class."""
+        kinds = {cls for cls in {cls for _, cls in types} if is_term_kind(cls)}
+        self.terms = terms_of(vocabulary) | {subject for subject, cls in types if cls in kinds} | {""}
+        notes = {subject for subject, cls in types if cls == ANNOTATION} - vocabulary.properties.keys()
+        self._passed = notes | {TEMPLATE, HAS_TEMPLATE}
+
+    def may_state_facts(self, predicate: str) -> bool:
+        """Whether what is said of an individual with the predicate is a fact."""
+        return predicate not in self._passed and not is_remark(predicate)
+
+
+def facts(said: Sequence[Statement], vocabulary: Vocabulary) -> tuple[Statement, ...]:
+    """Return what is said of individuals: not of terms, not of templates, no annotations."""
+    kept = FactFilter(vocabulary, pairs(said, RDF_TYPE))
+    return tuple(
+        each
+        for each in said
+        if iri_of(each.subject) not in kept.terms
+        and kept.may_state_facts(each.predicate)
+        and iri_of(each.object) != NAMED_INDIVIDUAL
+    )
+
+
+def with_prefixes(vocabulary: Vocabulary, parsed: Sequence[Parsed]) -> Vocabulary:
+    """Return the vocabulary with the prefixes that documents declare beside it; the first document's win."""
+    prefixes = {name: base for document in reversed(parsed) for name, base in document.prefixes.items() if name}
+    return msgspec.structs.replace(vocabulary, prefixes={**prefixes, **vocabulary.prefixes})
+
+
+def with_classes(
+    vocabulary: Vocabulary, types: Iterable[tuple[str, str]], subclasses: Iterable[tuple[str, str]]
+) -> Vocabulary:
+    """Return the vocabulary with the classes that a text declares beside it; a relation is no class.
+
+    Given are what the text says that things are, as pairs of subject and class, and which class is below which.
+    """
+    missing = {subject for subject, cls in types if cls in CLASS_DECLARATIONS} - terms_of(vocabulary) - {""}
+    if not missing:
+        return vocabulary
+    parents: dict[str, list[str]] = defaultdict(list)
+    for cls, parent in subclasses:
+        if parent:
+            parents[cls].append(parent)
+    own = {iri: ClassTerm(iri=iri, parents=tuple(parents[iri])) for iri in sorted(missing)}
+    return msgspec.structs.replace(vocabulary, classes={**vocabulary.classes, **own})
+
+
+def with_own_classes(vocabulary: Vocabulary, said: Sequence[Statement]) -> Vocabulary:
+    """Return the vocabulary with the classes that statements declare beside it."""
+    return with_classes(vocabulary, pairs(said, RDF_TYPE), pairs(said, SUBCLASS))
+
+
+def terms_of(vocabulary: Vocabulary) -> set[str]:
+    """Return all that a vocabulary has names for; statements about these are no facts."""
+    return {*vocabulary.classes, *vocabulary.relations, *vocabulary.properties, *vocabulary.aliases}
+
+
+def is_term_kind(cls: str) -> bool:
+    """Whether what is of this class is a term, or a template, and no individual."""
+    return cls == TEMPLATE or (cls.startswith((OWL, RDFS, RDF)) and cls not in (THING, NAMED_INDIVIDUAL))
+
+
+def is_remark(predicate: str) -> bool:
+    """Whether what is said with a predicate is for people and other tools."""
+    return predicate != RDF_TYPE and predicate.startswith((*ABOUT_TERMS, *ANNOTATIONS))
+
+
+def is_annotation(predicate: str) -> bool:
+    """Whether a predicate says something for people and other tools, and nothing that a world could know."""
+    return predicate in REMARKS or predicate.startswith((*ANNOTATIONS, ABOUT_TERMS[-1]))
+
+
+def iri_of(node: Node) -> str:
+    """Return the IRI of a node, nothing for a blank node or a literal."""
+    return node.value if isinstance(node, ox.NamedNode) else ""
+
+
+def pairs(said: Iterable[Statement], predicate: str) -> list[tuple[str, str]]:
+    """Return subjects and objects of the statements with a predicate; what has no IRI is empty."""
+    return [(iri_of(each.subject), iri_of(each.object)) for each in said if each.predicate == predicate]

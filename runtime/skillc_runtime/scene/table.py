@@ -1,0 +1,122 @@
+"""What Turtle texts say, by predicate: read in bulk, without places, or made of statements that know theirs."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from itertools import islice
+from typing import TypeAlias
+
+import pyoxigraph as ox
+
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.turtle.statements import Statement
+from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_runtime.scene.checks.ineffective import is_ordinary, is_ordinary_class
+from skillc_runtime.scene.documents import BASE, Document
+from skillc_runtime.scene.memory import MemoryGuard
+from skillc_runtime.scene.standard_terms import is_misspelt
+from skillc_runtime.scene.statements import NAMED_INDIVIDUAL, is_term_kind, terms_of
+
+AT_ONCE = 100_000
+"""So many triples are sorted before the memory that is left is looked at."""
+
+Named: TypeAlias = list[tuple[str, str]]
+"""Subjects and objects, of which something without a name is empty."""
+Literals: TypeAlias = list[tuple[str, ox.Literal]]
+
+
+@dataclass(slots=True)
+class Table:
+    """The rows of each predicate, in the order of the texts: those that lead to something, and those with a literal.
+
+    `unusual` says that something in them is understood by more than the rows: it may be misspelt, or have no effect.
+    `nameless` are the predicates by which something without a name is related.
+    """
+
+    named: dict[str, Named] = field(default_factory=lambda: defaultdict(list))
+    literal: dict[str, Literals] = field(default_factory=lambda: defaultdict(list))
+    prefixes: dict[str, str] = field(default_factory=dict)
+    nameless: set[str] = field(default_factory=set)
+    unusual: bool = False
+
+
+def table_of(statements: Iterable[Statement]) -> Table:
+    """Return the table of statements; `Rows` knows the statement of each row."""
+    table = Table()
+    for each in statements:
+        subject = each.subject.value if isinstance(each.subject, ox.NamedNode) else ""
+        if isinstance(each.object, ox.Literal):
+            table.literal[each.predicate].append((subject, each.object))
+        else:
+            name = each.object.value if isinstance(each.object, ox.NamedNode) else ""
+            table.named[each.predicate].append((subject, name))
+    return table
+
+
+def read_table(documents: Sequence[Document], vocabulary: Vocabulary) -> Table:
+    """Return what documents say, the first one a scene; SyntaxError, UnicodeEncodeError, TooLittleMemory."""
+    table, names, guard = Table(), dict[str, str](), MemoryGuard()
+    for document in documents:
+        parser = ox.parse(document.text.encode(), format=ox.RdfFormat.TURTLE, base_iri=BASE)
+        while _add(islice(parser, AT_ONCE), vocabulary.aliases, names, table):
+            guard.check()
+        if document is documents[0]:
+            table.unusual = not _is_plain(table, vocabulary)
+        for prefix, base in parser.prefixes.items():
+            other = vocabulary.namespaces.get(prefix, base) != base
+            table.unusual |= other and base not in vocabulary.namespaces.values()  # it may be misspelt
+            if prefix:
+                table.prefixes.setdefault(prefix, base)
+        if table.unusual:
+            return table
+    table.unusual = _has_odd_terms(table, vocabulary)
+    return table
+
+
+def _add(triples: Iterable[ox.Quad], aliases: dict[str, str], names: dict[str, str], table: Table) -> bool:
+    """Add triples, return whether there were any; each IRI is one string, however often it is written."""
+    named, literal, known, each = table.named, table.literal, names.setdefault, None
+    for each in triples:
+        subject, object_, predicate = each.subject, each.object, each.predicate.value
+        predicate = aliases.get(predicate, predicate)
+        name = known(value, value) if isinstance(subject, ox.NamedNode) and (value := subject.value) else ""
+        if isinstance(object_, ox.Literal):
+            literal[predicate].append((name, object_))
+        elif isinstance(object_, ox.NamedNode):
+            value = object_.value
+            value = aliases.get(value, value)
+            named[predicate].append((name, known(value, value)))
+        else:
+            named[predicate].append((name, ""))
+            table.nameless.add(predicate)
+        if not name:
+            table.nameless.add(predicate)
+    return each is not None
+
+
+def _is_plain(table: Table, vocabulary: Vocabulary) -> bool:
+    """Whether a scene has things, each with a name, and says nothing but facts about them and what people read."""
+    types = table.named[RDF_TYPE]
+    subjects = {subject for rows in table.named.values() for subject, _ in rows}
+    subjects |= {subject for rows in table.literal.values() for subject, _ in rows}
+    terms = {subject for subject, cls in types if is_term_kind(cls)}
+    return (
+        any(cls != NAMED_INDIVIDUAL and subject not in terms for subject, cls in types)
+        and not table.nameless
+        and subjects.isdisjoint(terms_of(vocabulary))
+        and all(map(is_ordinary, table.named.keys() | table.literal.keys()))
+        and all(map(is_ordinary_class, {cls for _, cls in types}))
+    )
+
+
+def _has_odd_terms(table: Table, vocabulary: Vocabulary) -> bool:
+    """Whether a term of OWL or RDFS may be misspelt, or something in the world has no name."""
+    predicates, types = table.named.keys() | table.literal.keys(), table.named[RDF_TYPE]
+    return (
+        any(map(is_misspelt, predicates | {cls for _, cls in types}))
+        or not table.nameless.isdisjoint(vocabulary.relations)
+        or not table.nameless.isdisjoint(vocabulary.properties)
+        or (RDF_TYPE in table.nameless and any(not subject and cls in vocabulary.classes for subject, cls in types))
+    )

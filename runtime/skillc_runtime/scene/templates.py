@@ -1,0 +1,56 @@
+"""Templates of a scene: what is said of a `skiros:Template` is a fact about each individual that is made of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.turtle.statements import Statement
+from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_runtime.scene.documents import Document, SceneError, parse, with_own_terms
+from skillc_runtime.scene.load import sheet_documents
+from skillc_runtime.scene.mistakes import PlacedFacts
+from skillc_runtime.scene.statements import (
+    NAMED_INDIVIDUAL,
+    facts,
+    iri_of,
+    is_remark,
+    with_own_classes,
+    with_prefixes,
+)
+from skillc_runtime.world.state.changes import Change
+from skillc_runtime.world.state.templates import Templates
+from skillc_runtime.world.state.terms import HAS_TEMPLATE, TEMPLATE
+
+
+def load_templates(path: Path, vocabulary: Vocabulary) -> Templates:
+    """Return the templates of a scene file, which may speak of the packaged data sheets; SceneError for mistakes."""
+    return templates_of([Document.read(path), *sheet_documents()], vocabulary)
+
+
+def templates_of(documents: Iterable[Document], vocabulary: Vocabulary) -> Templates:
+    """Return the templates of Turtle documents; SceneError with what is wrong with them or the documents."""
+    parsed = [parse(document, vocabulary.namespaces) for document in documents]
+    said = [with_own_terms(each, vocabulary.aliases) for document in parsed for each in document.statements]
+    vocabulary = with_own_classes(with_prefixes(vocabulary, parsed), said)
+    templates = {
+        iri_of(each.subject) for each in said if each.predicate == RDF_TYPE and iri_of(each.object) == TEMPLATE
+    }
+    placed = PlacedFacts([*facts(said, vocabulary), *_patterns(said, templates)], vocabulary)
+    patterns: dict[str, list[Change]] = {each: [] for each in sorted(templates)}
+    for change, statement in placed.changes():
+        patterns.get(iri_of(statement.subject), []).append(change)
+    problems = [problem for document in parsed for problem in document.problems] + list(placed.problems(()))
+    if problems:
+        raise SceneError(problems)
+    return Templates(vocabulary, {each: tuple(changes) for each, changes in patterns.items()})
+
+
+def _patterns(said: Iterable[Statement], templates: set[str]) -> Iterator[Statement]:
+    """Yield what is said of templates and is to be true of individuals."""
+    passed = {TEMPLATE, NAMED_INDIVIDUAL}
+    for each in said:
+        told = iri_of(each.subject) in templates and iri_of(each.object) not in passed
+        if told and each.predicate != HAS_TEMPLATE and not is_remark(each.predicate):
+            yield each

@@ -1,0 +1,100 @@
+"""The world that the triples of a store speak of."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import msgspec
+import pyoxigraph as ox
+
+from skillc_compiler.library.vocabulary import ClassTerm, Vocabulary
+from skillc_runtime.store.literals import LiteralError, read
+from skillc_runtime.store.triples import CLASS, PREFIX, SUBCLASS, TYPE
+from skillc_runtime.world.state.axiom_violations import axiom_violations
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.state.transactions import StoreError
+from skillc_runtime.world.state.world_state import WorldState
+
+MOST_TOLD = 5
+"""How many of the things that are wrong with a store are told."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Contents:
+    """What triples say: types, relations and properties of individuals, classes with their parents, prefixes."""
+
+    types: dict[str, list[str]]
+    related: list[tuple[str, str, str]]
+    valued: dict[tuple[str, str], list[ox.Literal]]
+    classes: dict[str, list[str]]
+    prefixes: dict[str, str]
+
+
+def world_of(triples: Iterable[ox.Triple], library: Vocabulary, store: str) -> WorldState:
+    """Return the world that triples speak of; StoreError, which names the store, where the vocabulary forbids it."""
+    contents = _sorted_out(triples)
+    own = {iri: ClassTerm(iri=iri, parents=tuple(sorted(parents))) for iri, parents in contents.classes.items()}
+    prefixes, classes = {**contents.prefixes, **library.prefixes}, {**own, **library.classes}
+    vocabulary = msgspec.structs.replace(library, prefixes=prefixes, classes=classes)
+    problems: list[str] = []
+    changes = tuple(_changes(contents, vocabulary, problems))
+    state = WorldState.empty(vocabulary).changed(changes)
+    problems += [breach.message for change in changes for breach in axiom_violations(state, change)]
+    if problems:
+        distinct = list(dict.fromkeys(problems))
+        more = f"; and {len(distinct) - MOST_TOLD} more" if len(distinct) > MOST_TOLD else ""
+        raise StoreError(
+            f"{store} does not go with these skills: {'; '.join(distinct[:MOST_TOLD])}{more}. "
+            "Use the library it was filled with, or fill it anew with --reset"
+        )
+    return state
+
+
+def _sorted_out(triples: Iterable[ox.Triple]) -> _Contents:
+    contents = _Contents(defaultdict(list), [], defaultdict(list), defaultdict(list), {})
+    for triple in triples:
+        subject, predicate, object_ = _iri(triple.subject), triple.predicate, triple.object
+        if isinstance(object_, ox.Literal):
+            if predicate == PREFIX:
+                contents.prefixes[object_.value] = subject
+            else:
+                contents.valued[subject, predicate.value].append(object_)
+        elif predicate == SUBCLASS:
+            contents.classes[subject].append(_iri(object_))
+        elif object_ == CLASS:
+            contents.classes[subject].extend(())
+        elif predicate == TYPE:
+            contents.types[subject].append(_iri(object_))
+        else:
+            contents.related.append((subject, predicate.value, _iri(object_)))
+    return contents
+
+
+def _iri(node: ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple) -> str:
+    """Return an IRI; something without a name keeps its mark, which no vocabulary knows."""
+    return node.value if isinstance(node, ox.NamedNode) else str(node)
+
+
+def _changes(contents: _Contents, vocabulary: Vocabulary, problems: list[str]) -> Iterator[Change]:
+    """Yield the facts as changes of an empty world; what of them the vocabulary does not know is a problem."""
+    short = vocabulary.short
+    for individual, types in sorted(contents.types.items()):
+        yield AddIndividual(individual, tuple(sorted(types)))
+    for subject, relation, object_ in sorted(contents.related):
+        if relation in vocabulary.relations:
+            yield AddRelation(subject, relation, object_)
+        else:
+            problems.append(f"there is no relation {short(relation)}")
+    for (individual, property_), literals in sorted(contents.valued.items()):
+        term = vocabulary.properties.get(property_)
+        if term is None:
+            problems.append(f"there is no property {short(property_)}")
+            continue
+        try:
+            values = tuple(read(each, term) for each in sorted(literals, key=str))
+        except LiteralError as error:
+            problems.append(f"{short(individual)}.{short(property_)}: {error}")
+        else:
+            yield SetProperty(individual, property_, values[0] if term.functional and len(values) == 1 else values)

@@ -1,0 +1,37 @@
+"""Opening the store that an option names: a folder, or the address of a SPARQL server."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Protocol
+
+from skillc_runtime.store.store import Store
+from skillc_runtime.world.state.transactions import StoreError
+
+
+class OpenStore(Store, Protocol):
+    """A store that is open until it is closed, or the process ends; as text it is its folder or address."""
+
+    def close(self) -> None:
+        """Leave the store."""
+
+
+def open_store(place: str, reset: bool = False) -> OpenStore:
+    """Open the store at a folder or at an `http://` or `https://` address; with `reset` forget what it holds.
+
+    StoreError says why that is impossible.
+    """
+    if "://" in place:
+        return _on_server(place, reset)
+    try:
+        from skillc_runtime.store.disk import DiskStore
+    except ImportError as error:
+        raise StoreError(f"a store in a folder needs the file locks of Linux or macOS ({error})") from error
+    return DiskStore(Path(place), reset)
+
+
+def _on_server(address: str, reset: bool) -> OpenStore:
+    from skillc_runtime.store.finding import find_endpoint
+    from skillc_runtime.store.sparql import SparqlStore
+
+    return SparqlStore(find_endpoint(address), reset)

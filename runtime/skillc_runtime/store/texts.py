@@ -1,0 +1,71 @@
+"""What a store on a SPARQL server asks and tells it.
+
+Facts are in the graph `store#world`. The graph `store#log` has `store#this` with the number of the last transaction and
+which scene all began with, and every transaction with its number, its origin, its changes and its writer's mark.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import pyoxigraph as ox
+
+from skillc_runtime.store.triples import Difference
+
+NS = "https://w3id.org/skillc/store#"
+WORLD, LOG, STORE = f"<{NS}world>", f"<{NS}log>", f"<{NS}this>"
+SEQUENCE, BEGINNING = f"<{NS}sequence>", f"<{NS}beginning>"
+NUMBER, ORIGIN, CHANGES, MARK = f"<{NS}number>", f"<{NS}origin>", f"<{NS}changes>", f"<{NS}mark>"
+
+FACTS = f"CONSTRUCT {{ ?s ?p ?o }} WHERE {{ GRAPH {WORLD} {{ ?s ?p ?o }} }}"
+
+FOUND = f"""INSERT {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} 0 ; {BEGINNING} "" }} }}
+WHERE {{ FILTER NOT EXISTS {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} ?n }} }} }}"""
+"""Makes a server a store, unless it is one."""
+
+FORGET = f"""DELETE {{ GRAPH {WORLD} {{ ?s ?p ?o }} }} WHERE {{ GRAPH {WORLD} {{ ?s ?p ?o }} }} ;
+DELETE {{ GRAPH {LOG} {{ ?entry ?p ?o }} }} WHERE {{ GRAPH {LOG} {{ ?entry {NUMBER} ?n ; ?p ?o }} }} ;
+DELETE {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} ?n ; {BEGINNING} ?b }} }}
+INSERT {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} ?next ; {BEGINNING} "" . ?entry {NUMBER} ?next ; {ORIGIN} "reset" }} }}
+WHERE {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} ?n ; {BEGINNING} ?b }}
+  BIND (?n + 1 AS ?next) BIND (IRI(CONCAT("{NS}transaction/", STR(?n + 1))) AS ?entry) }}"""
+"""Empties a store. The number goes on, so that whoever knows the former world notices."""
+
+
+def head(number: int) -> str:
+    """Ask for the number of the last transaction, `n`, and the `mark` of a transaction; of none for 0."""
+    return f"""SELECT ?n ?mark WHERE {{ GRAPH {LOG} {{
+  {STORE} {SEQUENCE} ?n . OPTIONAL {{ {_entry(number)} {MARK} ?mark }} }} }}"""
+
+
+def began() -> str:
+    """Ask for the number of the last transaction, `n`, and how all began, `beginning`."""
+    return f"SELECT ?n ?beginning WHERE {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} ?n ; {BEGINNING} ?beginning }} }}"
+
+
+def logged(sequence: int) -> str:
+    """Ask for the transactions after the one of that number: `n`, `origin` and, where they were kept, `changes`."""
+    return f"""SELECT ?n ?origin ?changes WHERE {{ GRAPH {LOG} {{
+  ?entry {NUMBER} ?n ; {ORIGIN} ?origin . OPTIONAL {{ ?entry {CHANGES} ?changes }}
+  FILTER (?n > {sequence}) }} }}"""
+
+
+def write(change: Difference, after: int, about: Mapping[str, str], beginning: str | None) -> str:
+    """Make a change if the last transaction is `after`; `about` is what the log says of it, by predicate."""
+    told = "".join(f" ; {predicate} {ox.Literal(text)}" for predicate, text in about.items())
+    old, new = f"{STORE} {SEQUENCE} {after} .", f"{STORE} {SEQUENCE} {after + 1} ."
+    if beginning is not None:
+        old += f' {STORE} {BEGINNING} "" .'
+        new += f" {STORE} {BEGINNING} {ox.Literal(beginning)} ."
+    return f"""DELETE {{ GRAPH {WORLD} {{ {_text(change.removed)} }} GRAPH {LOG} {{ {old} }} }}
+INSERT {{ GRAPH {WORLD} {{ {_text(change.added)} }}
+  GRAPH {LOG} {{ {new} {_entry(after + 1)} {NUMBER} {after + 1}{told} }} }}
+WHERE {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} {after} }} }}"""
+
+
+def _entry(number: int) -> str:
+    return f"<{NS}transaction/{number}>"
+
+
+def _text(triples: Iterable[ox.Triple]) -> str:
+    return "".join(f"{triple} .\n" for triple in triples)

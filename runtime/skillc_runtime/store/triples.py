@@ -1,0 +1,99 @@
+"""Facts of a world as triples: all of them, and what a transaction adds and takes away."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import pyoxigraph as ox
+
+from skillc_compiler.library.vocabulary import NumberType, PropertyTerm, Vocabulary
+from skillc_compiler.turtle.terms import OWL, RDF_TYPE, RDFS
+from skillc_runtime.world.state.changes import about
+from skillc_runtime.world.state.transactions import ChangeEvent, StoreError
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.vectors import is_vector, text_of_vector
+from skillc_runtime.world.state.world_state import WorldState
+
+TYPE, CLASS = ox.NamedNode(RDF_TYPE), ox.NamedNode(f"{OWL}Class")
+SUBCLASS = ox.NamedNode(f"{RDFS}subClassOf")
+PREFIX = ox.NamedNode("http://purl.org/vocab/vann/preferredNamespacePrefix")
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """The triples that lead from one version of a world to the next; sorted, so that equal ones look alike."""
+
+    removed: tuple[ox.Triple, ...]
+    added: tuple[ox.Triple, ...]
+
+
+def difference(event: ChangeEvent) -> Difference:
+    """Return what a write adds and takes away; StoreError for a fact that no triple can state.
+
+    Whatever a change retracts beside what it says, it retracts about an individual that it names.
+    """
+    if not event.before.individuals:
+        declared = declarations(event.before.vocabulary, event.after.vocabulary)
+        return Difference((), tuple(sorted({*declared, *all_facts(event.after)}, key=str)))
+    touched = frozenset(individual for change in event.changes for individual in about(change))
+    before, after = set(_facts_about(touched, event.before)), set(_facts_about(touched, event.after))
+    return Difference(tuple(sorted(before - after, key=str)), tuple(sorted(after - before, key=str)))
+
+
+def all_facts(state: WorldState) -> Iterator[ox.Triple]:
+    """Yield what was written of all individuals, in no particular order."""
+    for individual in state.individuals:
+        yield from _types(individual, state)
+    for relation, links in state.asserted.items():
+        yield from (_related(subject, relation, object_) for subject, object_ in links.pairs())
+    for property_, table in state.stored.items():
+        for individual, value in table.items():
+            yield from _valued(individual, state.vocabulary.properties[property_], value)
+
+
+def declarations(library: Vocabulary, own: Vocabulary) -> Iterator[ox.Triple]:
+    """Yield the classes and prefixes that a vocabulary has beside those of a library."""
+    for iri in own.classes.keys() - library.classes.keys():
+        yield ox.Triple(_node(iri), TYPE, CLASS)
+        yield from (ox.Triple(_node(iri), SUBCLASS, _node(parent)) for parent in own.classes[iri].parents)
+    for prefix, base in own.prefixes.items() - library.prefixes.items():
+        yield ox.Triple(_node(base), PREFIX, ox.Literal(prefix))
+
+
+def _facts_about(individuals: Iterable[str], state: WorldState) -> Iterator[ox.Triple]:
+    for individual in individuals:
+        yield from _types(individual, state)
+        for relation, links in state.asserted.items():
+            yield from (_related(individual, relation, object_) for object_ in links.forward.get(individual))
+            yield from (_related(subject, relation, individual) for subject in links.backward.get(individual))
+        for property_, table in state.stored.items():
+            yield from _valued(individual, state.vocabulary.properties[property_], table.get(individual))
+
+
+def _types(individual: str, state: WorldState) -> Iterator[ox.Triple]:
+    return (ox.Triple(_node(individual), TYPE, _node(cls)) for cls in state.types(individual))
+
+
+def _related(subject: str, relation: str, object_: str) -> ox.Triple:
+    return ox.Triple(_node(subject), _node(relation), _node(object_))
+
+
+def _valued(individual: str, term: PropertyTerm, value: Value | None) -> Iterator[ox.Triple]:
+    """Yield the values of a property; numbers are doubles, whatever they were written as."""
+    for one in value if isinstance(value, tuple) else (value,):
+        if isinstance(one, int) and isinstance(term.type, NumberType):
+            yield ox.Triple(_node(individual), _node(term.iri), ox.Literal(float(one)))
+        elif isinstance(one, bool | int | float | str):
+            yield ox.Triple(_node(individual), _node(term.iri), ox.Literal(one))
+        elif is_vector(one):
+            yield ox.Triple(_node(individual), _node(term.iri), ox.Literal(text_of_vector(one)))
+        elif one is not None:
+            raise StoreError(f"no store can keep <{term.iri}> of <{individual}>: it is no number, text or truth value")
+
+
+def _node(iri: str) -> ox.NamedNode:
+    try:
+        return ox.NamedNode(iri)
+    except ValueError as error:
+        raise StoreError(f"no store can keep `{iri}`: it is no IRI") from error

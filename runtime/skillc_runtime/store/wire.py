@@ -1,0 +1,53 @@
+"""Changes as text for a journal or a log, and back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import fields
+from typing import get_args
+
+import msgspec
+
+from skillc_runtime.world.state.changes import Change
+from skillc_runtime.world.state.vectors import is_vector, text_of_vector, vector_of
+
+KINDS: dict[str, Callable[..., Change]] = {kind.__name__: kind for kind in get_args(Change)}
+
+
+def as_text(changes: tuple[Change, ...]) -> str:
+    """Return changes as one line of JSON: a list for each, of its kind and its fields in order."""
+    told = [[type(each).__name__, *_fields(each)] for each in changes]
+    return msgspec.json.encode(told, enc_hook=_vector_text).decode()
+
+
+def changes_of(text: str) -> tuple[Change, ...]:
+    """Return the changes that a line of JSON tells of; ValueError when it tells of none."""
+    try:
+        return tuple(_change(*each) for each in msgspec.json.decode(text, type=list[list[object]]))
+    except (msgspec.DecodeError, KeyError, TypeError) as error:
+        raise ValueError(f"these are no changes of a world: {error}") from error
+
+
+def _fields(change: Change) -> list[object]:
+    return [getattr(change, field.name) for field in fields(change)]
+
+
+def _change(kind: object, *values: object) -> Change:
+    return KINDS[str(kind)](*map(_value, values))
+
+
+def _vector_text(value: object) -> dict[str, str]:
+    """Return a vector as JSON has it; TypeError for what no change has."""
+    if is_vector(value):
+        return {"vector": text_of_vector(value)}
+    raise TypeError(f"{type(value).__name__} has no form in a journal")
+
+
+def _value(written: object) -> object:
+    match written:
+        case list():
+            return tuple(map(_value, written))
+        case {"vector": str(text)}:
+            return vector_of(text)
+        case _:
+            return written

@@ -1,0 +1,158 @@
+"""Truth of conditions in a world state: closed world, two-valued, over one immutable version."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable
+from typing import TypeAlias, assert_never
+
+from skillc_compiler.library.conditions import (
+    And,
+    Anything,
+    Compare,
+    Condition,
+    Exists,
+    Expression,
+    Forall,
+    Given,
+    HasProperty,
+    Holds,
+    Individual,
+    IsA,
+    Not,
+    Or,
+    PropertyOf,
+    Same,
+    Term,
+    Variable,
+)
+from skillc_runtime.world.eval.expressions import Bindings, bound, compile_expression
+from skillc_runtime.world.eval.identity_cache import ByIdentity
+from skillc_runtime.world.eval.quantifiers import candidates
+from skillc_runtime.world.state.properties import property_of
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.values import equal
+from skillc_runtime.world.state.world_state import WorldState
+
+Test: TypeAlias = Callable[[WorldState, Bindings], bool]
+
+
+def evaluate(condition: Condition, state: WorldState, bindings: Bindings) -> bool:
+    """Whether a condition holds; EvaluationError when it cannot be decided (an unset name, a failing function)."""
+    return _compiled(condition)(state, bindings)
+
+
+def compile_condition(condition: Condition) -> Test:
+    """Return the test for a condition, to be kept where it is evaluated often."""
+    match condition:
+        case Holds(subject, relation, object_):
+            return _holds(subject, relation, object_)
+        case Compare(left, sign, right):
+            return _compare(left, sign, right)
+        case Same(left, right):
+            one, other = _individual(left), _individual(right)
+            return lambda state, bindings: one(bindings) == other(bindings)
+        case HasProperty(subject, property_):
+            owner = _individual(subject)
+            return lambda state, bindings: property_of(state, owner(bindings), property_) not in (None, ())
+        case IsA(subject, cls):
+            member = _individual(subject)
+            return lambda state, bindings: state.is_a(member(bindings), cls)
+        case Given(parameter):
+            return lambda state, bindings: bindings.get(parameter) is not None
+        case Not(body):
+            inner = compile_condition(body)
+            return lambda state, bindings: not inner(state, bindings)
+        case And(parts):
+            tests = tuple(compile_condition(part) for part in parts)
+            return lambda state, bindings: all(test(state, bindings) for test in tests)
+        case Or(parts):
+            tests = tuple(compile_condition(part) for part in parts)
+            return lambda state, bindings: any(test(state, bindings) for test in tests)
+        case Exists() | Forall():
+            return _quantified(condition)
+        case _:
+            assert_never(condition)
+
+
+_compiled = ByIdentity(compile_condition)
+
+
+def _individual(term: Term) -> Callable[[Bindings], str]:
+    match term:
+        case Individual(iri):
+            return lambda bindings: iri
+        case Variable(name):
+            return lambda bindings: _bound_individual(name, bindings)
+        case Anything():
+            raise EvaluationError("`_` stands for an individual in a relation only")
+        case _:
+            assert_never(term)
+
+
+def _bound_individual(name: str, bindings: Bindings) -> str:
+    value = bound(name, bindings)
+    if type(value) is not str:
+        raise EvaluationError(f"`{name}` is {value!r}, which is no individual")
+    return value
+
+
+def _holds(subject: Term, relation: str, object_: Term) -> Test:
+    match subject, object_:
+        case Anything(), Anything():
+            return lambda state, bindings: any(True for _ in state.pairs(relation))
+        case Anything(), _:
+            end = _individual(object_)
+            return lambda state, bindings: bool(state.subjects(relation, end(bindings)))
+        case _, Anything():
+            start = _individual(subject)
+            return lambda state, bindings: bool(state.objects(start(bindings), relation))
+        case _:
+            start, end = _individual(subject), _individual(object_)
+            return lambda state, bindings: state.holds(start(bindings), relation, end(bindings))
+
+
+_ORDER: dict[str, Callable[..., bool]] = {
+    "==": equal,
+    "!=": lambda one, other: not equal(one, other),
+    "<": operator.lt,
+    "<=": operator.le,
+    ">": operator.gt,
+    ">=": operator.ge,
+}
+
+
+def _compare(left: Expression, sign: str, right: Expression) -> Test:
+    """A missing value makes it false. Of a property with several values, one that compares is enough."""
+    one, other, compare = compile_expression(left), compile_expression(right), _ORDER[sign]
+    several = isinstance(left, PropertyOf), isinstance(right, PropertyOf)
+
+    def test(state: WorldState, bindings: Bindings) -> bool:
+        a, b = one(state, bindings), other(state, bindings)
+        if a is None or b is None:
+            return False
+        lefts = a if several[0] and isinstance(a, tuple) else (a,)
+        rights = b if several[1] and isinstance(b, tuple) else (b,)
+        try:
+            return any(compare(x, y) for x in lefts for y in rights)
+        except TypeError as error:
+            raise EvaluationError(f"{a!r} and {b!r} cannot be compared by {sign}") from error
+
+    return test
+
+
+def _quantified(condition: Exists | Forall) -> Test:
+    body, variable, cls = compile_condition(condition.body), condition.variable, condition.cls
+    wanted = isinstance(condition, Exists)
+    narrow = candidates(condition)
+
+    def test(state: WorldState, bindings: Bindings) -> bool:
+        scope = dict(bindings)
+        for individual in narrow(state, bindings):
+            if state.is_a(individual, cls):
+                scope[variable] = individual
+                if body(state, scope) == wanted:
+                    return wanted
+        return not wanted
+
+    return test

@@ -1,0 +1,47 @@
+"""Effects of skills as changes of the world."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import assert_never
+
+from skillc_compiler.library.conditions import Anything, Assert, Assign, Effect, Individual, Retract, Variable
+from skillc_runtime.world.eval.expressions import Bindings, bound, value_of
+from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.world_state import WorldState
+
+
+def changes_of(effects: Iterable[Effect], state: WorldState, bindings: Bindings) -> tuple[Change, ...]:
+    """Return the changes that effects stand for; removals come first, so that what they assert is true afterwards."""
+    changes = [change for effect in effects for change in _changes(effect, state, bindings)]
+    return tuple(sorted(changes, key=lambda change: not isinstance(change, RemoveRelation)))
+
+
+def _changes(effect: Effect, state: WorldState, bindings: Bindings) -> Iterator[Change]:
+    match effect:
+        case Assert(subject, relation, object_):
+            yield AddRelation(_individual(subject, bindings), relation, _individual(object_, bindings))
+        case Assign(subject, property_, value):
+            yield SetProperty(_individual(subject, bindings), property_, value_of(value, state, bindings))
+        case Retract(Anything(), relation, Anything()):
+            yield from (RemoveRelation(start, relation, end) for start, end in sorted(state.pairs(relation)))
+        case Retract(Anything(), relation, Variable() | Individual() as object_):
+            end = _individual(object_, bindings)
+            yield from (RemoveRelation(start, relation, end) for start in sorted(state.subjects(relation, end)))
+        case Retract(Variable() | Individual() as subject, relation, Anything()):
+            start = _individual(subject, bindings)
+            yield from (RemoveRelation(start, relation, end) for end in sorted(state.objects(start, relation)))
+        case Retract(Variable() | Individual() as subject, relation, Variable() | Individual() as object_):
+            yield RemoveRelation(_individual(subject, bindings), relation, _individual(object_, bindings))
+        case Retract():
+            raise EvaluationError(f"{effect} names no individuals")
+        case _:
+            assert_never(effect)
+
+
+def _individual(term: Variable | Individual, bindings: Bindings) -> str:
+    value = term.iri if isinstance(term, Individual) else bound(term.name, bindings)
+    if not isinstance(value, str):
+        raise EvaluationError(f"`{term}` is {value!r}, which is no individual")
+    return value

@@ -1,0 +1,227 @@
+"""Why a condition does not hold, in the words of the world: what holds instead."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import assert_never
+
+from skillc_compiler.library.conditions import (
+    And,
+    Anything,
+    Arithmetic,
+    Compare,
+    Condition,
+    Exists,
+    Expression,
+    Forall,
+    Given,
+    HasProperty,
+    Holds,
+    Individual,
+    Invoke,
+    IsA,
+    Literal,
+    Not,
+    Or,
+    PropertyOf,
+    Same,
+    Term,
+    Variable,
+)
+from skillc_compiler.library.format_condition import format_relation
+from skillc_compiler.library.vocabulary import Vocabulary, local_name
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.expressions import Bindings, compile_expression, missing
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.values import Value, show
+from skillc_runtime.world.state.world_state import WorldState
+
+LISTED = 4
+
+
+def explain(condition: Condition, state: WorldState, bindings: Bindings, vocabulary: Vocabulary) -> str:
+    """Say what holds instead of a condition that is false: the facts found and what is needed."""
+    return _Explainer(state, vocabulary).unmet(condition, bindings)
+
+
+class _Explainer:
+    def __init__(self, state: WorldState, vocabulary: Vocabulary) -> None:
+        self._state = state
+        self._short = vocabulary.short
+
+    def unmet(self, condition: Condition, bindings: Bindings) -> str:
+        """Say why a false condition is false."""
+        match condition:
+            case Holds(subject, relation, object_):
+                return self._no_relation(subject, relation, object_, bindings)
+            case Compare(left, sign, right):
+                return self._comparison(left, sign, right, bindings)
+            case Same(left, right):
+                return f"{self._term(left, bindings)} is not {self._term(right, bindings)}"
+            case HasProperty(subject, property_):
+                return f"{self._term(subject, bindings)} has no {self._short(property_)}"
+            case IsA(subject, cls):
+                return f"{self._class_of(subject, bindings)}; needed: {self._short(cls)}"
+            case Given(parameter):
+                return f"`{parameter}` was not passed"
+            case Not(body):
+                return self.met(body, bindings)
+            case And(parts):
+                return "; ".join(self.unmet(part, bindings) for part in self._false(parts, bindings))
+            case Or(parts):
+                return " and ".join(self.unmet(part, bindings) for part in parts) or "there is no alternative"
+            case Exists(variable, cls, body):
+                return self._none(variable, cls, body, bindings)
+            case Forall(variable, cls, body):
+                breaking = self._those(variable, cls, Not(body), bindings)
+                first = self.unmet(body, {**bindings, variable: breaking[0]})
+                return f"not for every {self._short(cls)}: {first}{_more(breaking[1:])}"
+            case _:
+                assert_never(condition)
+
+    def met(self, condition: Condition, bindings: Bindings) -> str:
+        """Say what makes true a condition that should be false."""
+        match condition:
+            case Holds(subject, relation, object_):
+                facts = sorted(self._pairs(subject, object_, relation, bindings))
+                return f"{self._facts(facts, relation)}; needed: nothing"
+            case Not(body):
+                return self.unmet(body, bindings)
+            case And(parts):
+                return " and ".join(self.met(part, bindings) for part in parts) or "it always holds"
+            case Or(parts):
+                true = [part for part in parts if evaluate(part, self._state, bindings)]
+                return "; ".join(self.met(part, bindings) for part in true)
+            case Exists(variable, cls, body):
+                found = self._those(variable, cls, body, bindings)
+                return f"{self.met(body, {**bindings, variable: found[0]})}{_more(found[1:])}"
+            case Compare(left, sign, right):
+                return f"{self._reading(left, bindings)} {sign} {self._reading(right, bindings)}"
+            case IsA(subject, _):
+                return self._class_of(subject, bindings)
+            case Same(left, right):
+                return f"{self._term(left, bindings)} is {self._term(right, bindings)}"
+            case HasProperty(subject, property_):
+                return f"{self._term(subject, bindings)} has a {self._short(property_)}"
+            case Given(parameter):
+                return f"`{parameter}` was passed"
+            case Forall(_, cls, _):
+                return f"it is so for every {self._short(cls)}"
+            case _:
+                assert_never(condition)
+
+    def _no_relation(self, subject: Term, relation: str, object_: Term, bindings: Bindings, anything: str = "_") -> str:
+        """Name the facts that share the subject or, when there are none, the object."""
+        start, end = (self._term(term, bindings, anything) for term in (subject, object_))
+        needed = format_relation(start, relation, end)
+        computed = self._state.axioms.computed.get(relation)
+        pair = _iri(subject, bindings), _iri(object_, bindings)
+        if computed is not None and pair[0] is not None and pair[1] is not None:
+            return f"`{needed}` does not hold: {computed.obstacle(self._state, pair[0], pair[1])}"
+        for fixed, other in ((subject, Anything()), (Anything(), object_)):
+            facts = sorted(self._pairs(fixed, other, relation, bindings)) if fixed != other else []
+            if facts:
+                return f"{self._facts(facts, relation)}; needed: {needed}"
+        if isinstance(subject, Anything):
+            return f"`{needed}` does not hold: nothing has the relation {local_name(relation)} to {end}"
+        return f"`{needed}` does not hold: {start} has the relation {local_name(relation)} to nothing"
+
+    def _facts(self, pairs: list[tuple[str, str]], relation: str) -> str:
+        return _list([format_relation(self._short(start), relation, self._short(end)) for start, end in pairs])
+
+    def _pairs(self, subject: Term, object_: Term, relation: str, bindings: Bindings) -> Iterable[tuple[str, str]]:
+        start, end = _iri(subject, bindings), _iri(object_, bindings)
+        if start is None and end is None:
+            return self._state.pairs(relation)
+        if start is None and end is not None:
+            return [(each, end) for each in self._state.subjects(relation, end)]
+        if start is not None and end is None:
+            return [(start, each) for each in self._state.objects(start, relation)]
+        return [(str(start), str(end))] if self._state.holds(str(start), relation, str(end)) else []
+
+    def _comparison(self, left: Expression, sign: str, right: Expression, bindings: Bindings) -> str:
+        for side in (left, right):
+            if compile_expression(side)(self._state, bindings) is None:
+                return missing(side, self._state, bindings)
+        found = self._reading(left, bindings)
+        needed = (
+            f"{sign} {self._reading(right, bindings)}" if not isinstance(right, Literal) else self._needed(sign, right)
+        )
+        return f"{found}; needed: {needed}"
+
+    def _needed(self, sign: str, literal: Literal) -> str:
+        return show(literal.value) if sign == "==" else f"{sign} {show(literal.value)}"
+
+    def _reading(self, expression: Expression, bindings: Bindings) -> str:
+        """Return an expression with the value it has, as `lab:Arm-1.deviceState is "Fault"`."""
+        value = compile_expression(expression)(self._state, bindings)
+        shown = "missing" if value is None else self._value(value)
+        match expression:
+            case PropertyOf(of, property_):
+                owner = compile_expression(of)(self._state, bindings)
+                return f"{self._short(str(owner))}.{local_name(property_)} is {shown}"
+            case Variable(name):
+                return f"{name} is {shown}"
+            case Invoke(function, _):
+                return f"{function}(..) is {shown}"
+            case Literal() | Individual() | Arithmetic():
+                return shown
+            case _:
+                assert_never(expression)
+
+    def _value(self, value: Value) -> str:
+        return self._short(value) if isinstance(value, str) and value in self._state.individuals else show(value)
+
+    def _none(self, variable: str, cls: str, body: Condition, bindings: Bindings) -> str:
+        members = sorted(self._state.instances(cls))
+        if not members:
+            return f"there is no {self._short(cls)}"
+        if isinstance(body, Holds):
+            subject, object_ = (Anything() if t == Variable(variable) else t for t in (body.subject, body.object))
+            return self._no_relation(subject, body.relation, object_, bindings, f"a {self._short(cls)}")
+        if len(members) == 1:
+            return self.unmet(body, {**bindings, variable: members[0]})
+        listed = _list([self._short(each) for each in members])
+        return f"none of {len(members)} individuals of {self._short(cls)} fits: {listed}"
+
+    def _those(self, variable: str, cls: str, body: Condition, bindings: Bindings) -> list[str]:
+        members = sorted(self._state.instances(cls))
+        return [each for each in members if evaluate(body, self._state, {**bindings, variable: each})]
+
+    def _false(self, parts: tuple[Condition, ...], bindings: Bindings) -> Iterator[Condition]:
+        """Yield the false parts, as far as they can be decided: one may guard what comes after it."""
+        try:
+            for part in parts:
+                if not evaluate(part, self._state, bindings):
+                    yield part
+        except EvaluationError:
+            return
+
+    def _class_of(self, term: Term, bindings: Bindings) -> str:
+        iri = _iri(term, bindings)
+        types = sorted(map(self._short, self._state.types(iri or "")))
+        return f"{self._term(term, bindings)} is {'a ' + ' and a '.join(types) if types else 'not in the world model'}"
+
+    def _term(self, term: Term, bindings: Bindings, anything: str = "_") -> str:
+        iri = _iri(term, bindings)
+        return anything if iri is None else self._short(iri)
+
+
+def _iri(term: Term, bindings: Bindings) -> str | None:
+    match term:
+        case Individual(iri):
+            return iri
+        case Variable(name):
+            return str(bindings.get(name, name))
+        case Anything():
+            return None
+        case _:
+            assert_never(term)
+
+
+def _list(shown: list[str]) -> str:
+    return ", ".join(shown[:LISTED]) + _more(shown[LISTED:])
+
+
+def _more(rest: list[str]) -> str:
+    return f" (and {len(rest)} more)" if rest else ""

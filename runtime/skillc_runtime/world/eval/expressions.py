@@ -1,0 +1,164 @@
+"""Values of expressions in a world state, and the Python functions that vocabularies name."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Mapping
+from typing import TypeAlias, assert_never
+
+import numpy as np
+
+from skillc_compiler.library.conditions import (
+    Anything,
+    Arithmetic,
+    Expression,
+    Individual,
+    Invoke,
+    Literal,
+    PropertyOf,
+    Term,
+    Variable,
+)
+from skillc_compiler.library.vocabulary import local_name
+from skillc_compiler.library.words import type_text
+from skillc_runtime.world.eval.identity_cache import ByIdentity
+from skillc_runtime.world.state.properties import property_of, value_from_python
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.value_types import is_of
+from skillc_runtime.world.state.values import Value, show
+from skillc_runtime.world.state.world_state import WorldState
+
+Bindings: TypeAlias = Mapping[str, "Value | None"]
+"""What the names in scope stand for; an unset optional parameter is missing or None."""
+
+Read: TypeAlias = Callable[[WorldState, Bindings], "Value | None"]
+
+
+def value_of(expression: Expression, state: WorldState, bindings: Bindings) -> Value:
+    """Return the value of an expression; EvaluationError when a property it reads is missing."""
+    value = _compiled(expression)(state, bindings)
+    if value is None:
+        raise EvaluationError(f"{missing(expression, state, bindings)} in the world model")
+    return value
+
+
+def missing(expression: Expression, state: WorldState, bindings: Bindings) -> str:
+    """Say which property an expression without a value lacks."""
+    match expression:
+        case PropertyOf(of, property_):
+            owner = compile_expression(of)(state, bindings)
+            if owner is None:
+                return missing(of, state, bindings)
+            return f"{local_name(str(owner))} has no {local_name(property_)}"
+        case Arithmetic(_, left, right):
+            lacking = left if compile_expression(left)(state, bindings) is None else right
+            return missing(lacking, state, bindings)
+        case Invoke(function, arguments):
+            for argument in arguments:
+                if compile_expression(argument)(state, bindings) is None:
+                    return missing(argument, state, bindings)
+            return f"{function} gives no value"
+        case Literal() | Variable() | Individual():
+            return f"{expression} has no value"
+        case _:
+            assert_never(expression)
+
+
+def compile_expression(expression: Expression) -> Read:
+    """Return a function for the value of an expression, None where a property it reads is missing."""
+    match expression:
+        case Literal(value):
+            return lambda state, bindings: value
+        case Individual(iri):
+            return lambda state, bindings: iri
+        case Variable(name):
+            return lambda state, bindings: bound(name, bindings)
+        case PropertyOf(of, property_):
+            return _property(compile_expression(of), property_)
+        case Arithmetic(sign, left, right):
+            return _arithmetic(sign, compile_expression(left), compile_expression(right))
+        case Invoke(function, arguments):
+            return _invocation(function, tuple(compile_expression(argument) for argument in arguments))
+        case _:
+            assert_never(expression)
+
+
+_compiled = ByIdentity(compile_expression)
+
+
+def bound(name: str, bindings: Bindings) -> Value:
+    """Return what a name stands for; EvaluationError for an optional parameter that was not passed."""
+    value = bindings.get(name)
+    if value is None:
+        raise EvaluationError(f"`{name}` has no value: it was not passed (guard its use with `given {name}`)")
+    return value
+
+
+def iri_of(term: Term, bindings: Bindings) -> str | None:
+    """Return the individual that a term stands for, None where it is not known."""
+    match term:
+        case Individual(iri):
+            return iri
+        case Variable(name):
+            value = bindings.get(name)
+            return value if isinstance(value, str) else None
+        case Anything():
+            return None
+        case _:
+            assert_never(term)
+
+
+def _property(owner: Read, property_: str) -> Read:
+    def read(state: WorldState, bindings: Bindings) -> Value | None:
+        individual = owner(state, bindings)
+        if individual is None:
+            return None
+        if not isinstance(individual, str):
+            raise EvaluationError(f"{local_name(property_)} is asked of {individual!r}, which is no individual")
+        return property_of(state, individual, property_)
+
+    return read
+
+
+_OPERATORS: dict[str, Callable[..., Value]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+}
+
+
+def _arithmetic(sign: str, left: Read, right: Read) -> Read:
+    apply = _OPERATORS[sign]
+
+    def compute(state: WorldState, bindings: Bindings) -> Value | None:
+        one, other = left(state, bindings), right(state, bindings)
+        if one is None or other is None:
+            return None
+        if not isinstance(one, int | float | np.ndarray) or not isinstance(other, int | float | np.ndarray):
+            raise EvaluationError(f"cannot compute {one!r} {sign} {other!r}")
+        if sign == "/" and not np.all(other):
+            raise EvaluationError(f"division of {one!r} by zero")
+        return apply(one, other)
+
+    return compute
+
+
+def _invocation(name: str, arguments: tuple[Read, ...]) -> Read:
+    def compute(state: WorldState, bindings: Bindings) -> Value | None:
+        values = []
+        for argument in arguments:
+            value = argument(state, bindings)
+            if value is None:
+                return None
+            values.append(value)
+        if name not in state.vocabulary.functions:
+            raise EvaluationError(f"there is no function {name} in the vocabulary of this library")
+        function = state.vocabulary.functions[name]
+        result = value_from_python(function.python, name, state, *values)
+        if result is None or is_of(result, function.result, state):
+            return result
+        declared = type_text(function.result, state.vocabulary)
+        raise EvaluationError(f"{name} gives {show(result)}, where its declaration says `{declared}`")
+
+    return compute

@@ -1,0 +1,137 @@
+"""What the truth of a condition rests on: facts, each with the write that decides how it is known."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import TypeAlias, assert_never
+
+import msgspec
+
+from skillc_compiler.library.conditions import (
+    And,
+    Compare,
+    Condition,
+    Exists,
+    Forall,
+    Given,
+    HasProperty,
+    Holds,
+    Individual,
+    IsA,
+    Not,
+    Or,
+    PropertyOf,
+    Same,
+    Variable,
+)
+from skillc_compiler.library.reading import walk
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.expressions import Bindings, iri_of
+from skillc_runtime.world.state.evidence import Established, pairs
+from skillc_runtime.world.state.facts import Fact, Related, Typed, Valued
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.world_state import WorldState
+
+
+@dataclass(frozen=True, slots=True)
+class Ground:
+    """A fact that something rests on; `established` is None where it was given with the scene."""
+
+    fact: Fact
+    established: Established | None
+
+    @property
+    def assumed(self) -> bool:
+        """Whether this run says so and nothing looked."""
+        return self.established is not None and self.established.evidence == "assumed"
+
+
+Grounds: TypeAlias = tuple[Ground, ...]
+
+
+def grounds(condition: Condition, world: WorldModel, bindings: Bindings) -> Grounds:
+    """Return what decides a condition, true or false, each fact once; of alternatives those that assume the least."""
+    return _Finder(world).of(condition, bindings)
+
+
+class _Finder:
+    def __init__(self, world: WorldModel) -> None:
+        self._world = world
+        self._state: WorldState = world.snapshot()
+
+    def of(self, condition: Condition, bindings: Bindings) -> Grounds:
+        match condition:
+            case Holds(subject, relation, object_):
+                return self._related(iri_of(subject, bindings), relation, iri_of(object_, bindings))
+            case Compare() | HasProperty():
+                return self._known(_values(condition, bindings))
+            case IsA(subject, cls):
+                iri = str(iri_of(subject, bindings))
+                return self._known([Typed(iri, cls, self._state.is_a(iri, cls))])
+            case Not(body):
+                return self.of(body, bindings)
+            case And(parts) | Or(parts):
+                return self._several(parts, isinstance(condition, And), bindings)
+            case Exists() | Forall():
+                return self._quantified(condition, bindings)
+            case Same() | Given():
+                return ()
+            case _:
+                assert_never(condition)
+
+    def _several(self, parts: tuple[Condition, ...], together: bool, bindings: Bindings) -> Grounds:
+        """All parts where they decide together, else the one of those that decide alone that assumes the least."""
+        alone = [part for part in parts if self._true(part, bindings) is not together]
+        if alone:
+            return _least_assumed([self.of(part, bindings) for part in alone])
+        return _each_once(ground for part in parts for ground in self.of(part, bindings))
+
+    def _quantified(self, condition: Exists | Forall, bindings: Bindings) -> Grounds:
+        exists = isinstance(condition, Exists)
+        members = sorted(self._state.instances(condition.cls))
+        scopes = [(each, {**bindings, condition.variable: each}) for each in members]
+        alone = [(each, scope) for each, scope in scopes if self._true(condition.body, scope) is exists]
+        if alone:
+            return _least_assumed([self._member(condition, *one) for one in alone])
+        return _each_once(ground for one in scopes for ground in self._member(condition, *one))
+
+    def _member(self, condition: Exists | Forall, individual: str, scope: Bindings) -> Grounds:
+        return (*self._known([Typed(individual, condition.cls)]), *self.of(condition.body, scope))
+
+    def _related(self, subject: str | None, relation: str, object_: str | None) -> Grounds:
+        if subject is not None and object_ is not None:
+            return self._known([Related(subject, relation, object_, self._state.holds(subject, relation, object_))])
+        there = sorted(pairs(self._state, relation, subject, object_))
+        if there:
+            return _least_assumed([self._known([Related(start, relation, end)]) for start, end in there])
+        gone = sorted(self._world.ledger.once_true(relation, subject, object_))
+        return self._known([Related(start, relation, end, holds=False) for start, end in gone])
+
+    def _known(self, facts: Iterable[Fact]) -> Grounds:
+        return tuple(Ground(fact, self._world.known(fact)) for fact in facts)
+
+    def _true(self, condition: Condition, bindings: Bindings) -> bool | None:
+        try:
+            return evaluate(condition, self._state, bindings)
+        except EvaluationError:
+            return None
+
+
+def _least_assumed(alternatives: list[Grounds]) -> Grounds:
+    return min(alternatives, key=lambda found: sum(ground.assumed for ground in found))
+
+
+def _each_once(found: Iterable[Ground]) -> Grounds:
+    return tuple({ground.fact: ground for ground in found}.values())
+
+
+def _values(item: msgspec.Struct, bindings: Bindings) -> Iterator[Valued]:
+    """Yield the properties that a comparison reads."""
+    for each in walk(item):
+        match each:
+            case PropertyOf(Variable() | Individual() as owner, property_) | HasProperty(owner, property_):
+                iri = iri_of(owner, bindings)
+                if iri is not None:
+                    yield Valued(iri, property_)

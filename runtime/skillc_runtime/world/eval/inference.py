@@ -1,0 +1,115 @@
+"""Finds what a skill's inferred parameters stand for, from the world and the skill's preconditions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from skillc_compiler.library.conditions import Condition, Exists
+from skillc_compiler.library.reading import free_variables
+from skillc_compiler.library.skills import Parameter, Requirement
+from skillc_compiler.library.vocabulary import ClassType
+from skillc_runtime.world.eval.explain import explain
+from skillc_runtime.world.eval.expressions import Bindings
+from skillc_runtime.world.eval.join import solutions
+from skillc_runtime.world.eval.nearest import NearMiss, nearest
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.world_state import WorldState
+
+Binding: TypeAlias = dict[str, str]
+"""Individuals by parameter name."""
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """The answer; `others` are those that `infer any` passed over, in IRI order."""
+
+    bindings: Binding
+    others: tuple[Binding, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class NoneFound:
+    """No answer: the requirement that left none (None where a class has no individual), and why in words.
+
+    `nearest` are individuals that would do but for one thing.
+    """
+
+    requirement: Requirement | None
+    reason: str
+    nearest: tuple[NearMiss, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Ambiguous:
+    """Several answers where one is needed, in IRI order."""
+
+    candidates: tuple[Binding, ...]
+
+
+Inference: TypeAlias = Found | NoneFound | Ambiguous
+
+
+def infer(
+    parameters: Sequence[Parameter], requirements: Sequence[Requirement], bindings: Bindings, state: WorldState
+) -> Inference:
+    """Find the individuals of the parameters that satisfy the requirements about them.
+
+    The answer is the only one; parameters declared `infer any` take the first in IRI order. Requirements that speak
+    of none of the parameters are not looked at. EvaluationError when a requirement cannot be decided.
+    """
+    if not parameters:
+        return Found({})
+    variables = {parameter.name: _class_of(parameter) for parameter in parameters}
+    conditions = [requirement.condition for requirement in requirements]
+    answers = sorted(
+        ({name: answer[name] for name in variables} for answer in solutions(variables, conditions, bindings, state)),
+        key=lambda answer: tuple(answer.values()),
+    )
+    if not answers:
+        return _why_none(variables, requirements, bindings, state)
+    fixed = [parameter.name for parameter in parameters if not parameter.any_]
+    if len({tuple(answer[name] for name in fixed) for answer in answers}) > 1:
+        return Ambiguous(tuple(answers))
+    return Found(answers[0], tuple(answers[1:]))
+
+
+def _class_of(parameter: Parameter) -> str:
+    if not isinstance(parameter.type, ClassType):
+        raise EvaluationError(f"`{parameter.name}` cannot be inferred: only individuals can")
+    return parameter.type.iri
+
+
+def _why_none(
+    variables: dict[str, str], requirements: Sequence[Requirement], bindings: Bindings, state: WorldState
+) -> NoneFound:
+    """Add one requirement after the other until none is left, and explain the last one on what was left before it."""
+    for name, cls in variables.items():
+        if not state.instances(cls):
+            reason = f"`{name}`: there is no {state.vocabulary.short(cls)} in the world model"
+            return NoneFound(None, reason, nearest(variables, requirements, bindings, state))
+    before, linked = _first(variables, (), bindings, state) or {}, frozenset[str]()
+    for count, requirement in enumerate(requirements, start=1):
+        left = _first(variables, [each.condition for each in requirements[:count]], bindings, state)
+        if left is None:
+            reason = _explained(requirement.condition, linked, variables, {**bindings, **before}, state)
+            return NoneFound(requirement, reason, nearest(variables, requirements, bindings, state))
+        before = left
+        linked |= free_variables(requirement.condition)
+    raise AssertionError("there is an answer after all")
+
+
+def _explained(
+    condition: Condition, linked: frozenset[str], variables: dict[str, str], scope: Bindings, state: WorldState
+) -> str:
+    """Explain a condition; a variable that no earlier requirement linked to anything may stand for anyone."""
+    for name in sorted((free_variables(condition) & variables.keys()) - linked):
+        condition = Exists(name, variables[name], condition)
+    return explain(condition, state, scope, state.vocabulary)
+
+
+def _first(
+    variables: dict[str, str], conditions: Sequence[Condition], bindings: Bindings, state: WorldState
+) -> Binding | None:
+    return next(solutions(variables, conditions, bindings, state), None)

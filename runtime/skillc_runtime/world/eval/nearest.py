@@ -1,0 +1,86 @@
+"""What comes nearest where nothing meets all requirements: individuals that meet all but one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from skillc_compiler.library.conditions import Condition, IsA, Variable
+from skillc_compiler.library.reading import free_variables
+from skillc_compiler.library.skills import Requirement
+from skillc_compiler.library.vocabulary import THING
+from skillc_runtime.world.eval.explain import explain
+from skillc_runtime.world.eval.expressions import Bindings
+from skillc_runtime.world.eval.join import solutions
+from skillc_runtime.world.state.world_state import WorldState
+
+MOST_TRIED = 2000
+"""So many individuals are looked at for each requirement that is left out; what is further away is not near."""
+
+FEW = 3
+"""A thing to leave out for which more than so many would do then is not all that is wrong with any of them."""
+
+
+@dataclass(frozen=True, slots=True)
+class NearMiss:
+    """Individuals by parameter name that would do but for one thing, and in words what is so instead.
+
+    It is a requirement, or where there is none the class of the parameter in `about`. `about` are the parameters that
+    it speaks of.
+    """
+
+    bindings: dict[str, str]
+    requirement: Requirement | None
+    about: tuple[str, ...]
+    reason: str
+
+
+def nearest(
+    variables: Mapping[str, str], requirements: Sequence[Requirement], bindings: Bindings, state: WorldState
+) -> tuple[NearMiss, ...]:
+    """Return for each requirement, then for each parameter's class, those that would do without it, if they are few.
+
+    EvaluationError as in `evaluate`.
+    """
+    return (*_but_one(variables, requirements, bindings, state), *_of_another(variables, requirements, bindings, state))
+
+
+def _but_one(
+    variables: Mapping[str, str], requirements: Sequence[Requirement], bindings: Bindings, state: WorldState
+) -> Iterator[NearMiss]:
+    for place, dropped in enumerate(requirements):
+        mentioned = free_variables(dropped.condition)
+        about = tuple(name for name in variables if name in mentioned)
+        kept = [each.condition for each in (*requirements[:place], *requirements[place + 1 :])]
+        for found in _few(about, variables, kept, bindings, state):
+            reason = explain(dropped.condition, state, {**bindings, **found}, state.vocabulary)
+            yield NearMiss(found, dropped, about, reason)
+
+
+def _of_another(
+    variables: Mapping[str, str], requirements: Sequence[Requirement], bindings: Bindings, state: WorldState
+) -> Iterator[NearMiss]:
+    """Yield those of another class, for parameters that something else says who they are."""
+    conditions = [each.condition for each in requirements]
+    linked = frozenset[str]().union(*map(free_variables, conditions))
+    for name, cls in variables.items():
+        about = (name,) if name in linked else ()
+        for found in _few(about, {**variables, name: THING}, conditions, bindings, state):
+            reason = explain(IsA(Variable(name), cls), state, found, state.vocabulary)
+            yield NearMiss(found, None, about, reason)
+
+
+def _few(
+    about: tuple[str, ...],
+    variables: Mapping[str, str],
+    conditions: Sequence[Condition],
+    bindings: Bindings,
+    state: WorldState,
+) -> list[dict[str, str]]:
+    """Return answers that differ in what the parameters `about` are, in IRI order; none where there are many."""
+    different: dict[tuple[str, ...], dict[str, str]] = {}
+    for answer in solutions(variables, conditions, bindings, state, MOST_TRIED if about else 0):
+        different.setdefault(tuple(answer[name] for name in about), answer)
+        if len(different) > FEW:
+            return []
+    return [different[each] for each in sorted(different)]

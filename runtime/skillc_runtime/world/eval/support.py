@@ -1,0 +1,120 @@
+"""The facts that decide a condition, whether it holds or not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from heapq import nsmallest
+from itertools import islice
+from typing import TypeAlias
+
+import msgspec
+
+from skillc_compiler.library.conditions import (
+    Condition,
+    Exists,
+    Forall,
+    HasProperty,
+    Holds,
+    Individual,
+    IsA,
+    Or,
+    PropertyOf,
+    Same,
+    Variable,
+)
+from skillc_compiler.library.reading import children
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.expressions import iri_of
+from skillc_runtime.world.eval.quantifiers import candidates
+from skillc_runtime.world.labelled import ClassFact, IdentityFact, LabelledFact, label, property_fact, relation_fact
+from skillc_runtime.world.state.properties import property_of
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
+
+LISTED = 4
+"""Of facts about anybody, no more than so many are named."""
+
+_Names: TypeAlias = Mapping[str, Value]
+
+
+def deciding_facts(conditions: Iterable[Condition], state: WorldState, bindings: _Names) -> tuple[LabelledFact, ...]:
+    """Return the facts that the conditions read, true and false ones, each once.
+
+    Names that are not bound stand for anybody. What cannot be decided is left out.
+    """
+    found = (fact for condition in conditions for fact in _facts(condition, state, bindings))
+    return tuple(dict.fromkeys(found))
+
+
+def _facts(item: msgspec.Struct, state: WorldState, bindings: _Names) -> Iterator[LabelledFact]:
+    words = state.vocabulary
+    match item:
+        case Holds(subject, relation, object_):
+            with suppress(EvaluationError):
+                yield from _related(iri_of(subject, bindings), relation, iri_of(object_, bindings), state)
+        case PropertyOf(Variable() | Individual() as owner, property_) | HasProperty(owner, property_):
+            iri = iri_of(owner, bindings)
+            yield from _value(iri, property_, state) if iri is not None else ()
+        case IsA(subject, cls):
+            iri = iri_of(subject, bindings)
+            if iri is not None:
+                yield ClassFact(label(iri, words), label(cls, words), state.is_a(iri, cls))
+        case Same(left, right):
+            one, other = iri_of(left, bindings), iri_of(right, bindings)
+            if one is not None and other is not None:
+                yield IdentityFact(label(one, words), label(other, words), one == other)
+        case Or(parts):
+            for alternative in _true(parts, state, bindings) or parts:
+                yield from _facts(alternative, state, bindings)
+        case Exists() | Forall():
+            for individual in _deciding(item, state, bindings):
+                yield from _facts(item.body, state, {**bindings, item.variable: individual})
+        case _:
+            for part in children(item):
+                yield from _facts(part, state, bindings)
+
+
+def _related(subject: str | None, relation: str, object_: str | None, state: WorldState) -> Iterator[LabelledFact]:
+    words = state.vocabulary
+    if subject is not None and object_ is not None:
+        yield relation_fact(subject, relation, object_, state.holds(subject, relation, object_), words)
+        return
+    if subject is not None:
+        pairs = [(subject, each) for each in sorted(state.objects(subject, relation))]
+    elif object_ is not None:
+        pairs = [(each, object_) for each in sorted(state.subjects(relation, object_))]
+    else:
+        pairs = nsmallest(LISTED, state.pairs(relation))
+    yield from (relation_fact(start, relation, end, True, words) for start, end in pairs[:LISTED])
+    if not pairs:
+        yield relation_fact(subject, relation, object_, False, words)
+
+
+def _value(individual: str, property_: str, state: WorldState) -> Iterator[LabelledFact]:
+    with suppress(EvaluationError):
+        yield property_fact(individual, property_, property_of(state, individual, property_), state.vocabulary)
+
+
+def _deciding(condition: Exists | Forall, state: WorldState, bindings: _Names) -> list[str]:
+    """Return the first individuals that decide a quantified condition, any of the class where none does alone."""
+    wanted = isinstance(condition, Exists)
+    try:
+        members = sorted(each for each in candidates(condition)(state, bindings) if state.is_a(each, condition.cls))
+        deciding = (
+            each
+            for each in members
+            if evaluate(condition.body, state, {**bindings, condition.variable: each}) == wanted
+        )
+        return list(islice(deciding, LISTED)) or members[:LISTED]
+    except EvaluationError:
+        return []
+
+
+def _true(parts: Sequence[Condition], state: WorldState, bindings: _Names) -> list[Condition]:
+    """Return the alternatives that hold; none where that cannot be decided."""
+    try:
+        return [part for part in parts if evaluate(part, state, bindings)]
+    except EvaluationError:
+        return []

@@ -1,0 +1,183 @@
+"""The tree of frames of a version of the world: who carries whom, and the poses that this makes, each worked out once.
+
+Versions that agree in all facts about space share one tree, so a write about anything else costs nothing here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeAlias
+from weakref import WeakKeyDictionary, ref
+
+import numpy as np
+
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.world.space.box import Box
+from skillc_runtime.world.state.links import Links
+from skillc_runtime.world.state.python_calls import Unknown
+from skillc_runtime.world.state.table import Table
+from skillc_runtime.world.state.terms import (
+    ARM_DEVICE,
+    AT,
+    BASE_FRAME_ID,
+    CONTAIN,
+    FRAME_ID,
+    HAS_A,
+    ORIENTATION,
+    POSITION,
+    SIZE,
+)
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
+
+WORLD_FRAME = "map"
+
+Values: TypeAlias = "Table[str, Value | None]"
+
+_NO_VALUES: Values = Table(None)
+_NO_LINKS = Links.empty()
+_VALUES = (FRAME_ID, BASE_FRAME_ID, *POSITION, *ORIENTATION, *SIZE)
+_LINKS = (AT, CONTAIN, HAS_A)
+
+
+class FrameError(ValueError):
+    """A pose that the world model does not hold; the message says of what and why."""
+
+
+class Unplaced(FrameError, Unknown):
+    """Nothing is wrong, but not enough is said to tell where a thing is, or how large."""
+
+
+class MissingFact(Unplaced):
+    """A number that `individual` lacks: its `property`, an IRI."""
+
+    def __init__(self, message: str, individual: str, property_: str) -> None:
+        super().__init__(message)
+        self.individual, self.property = individual, property_
+
+
+class FrameTree:
+    """Where everything is. A thing moves with what carries it.
+
+    That is the thing whose frame its BaseFrameId names; without one, the place it is `at`, else what contains it, else
+    what it is a part of, and then it is where that is. How an arm moves what it carries is not known.
+    """
+
+    def __init__(self, state: WorldState, former: FrameTree | None = None) -> None:
+        """Begin to know a version; where the `former` tree has the same names of frames, so has this one."""
+        self._short, self._classes = state.vocabulary.short, state.classes
+        self._values = {name: state.stored.get(name, _NO_VALUES) for name in _VALUES}
+        self._links = {name: state.facts.get(name, _NO_LINKS) for name in _LINKS}
+        self._poses: dict[str, Pose] = {}
+        self.boxes: dict[str, Box] = {}
+        renamed = former is None or former._values[FRAME_ID] is not self._values[FRAME_ID]
+        self._owners: dict[str, list[str]] | None = None if former is None or renamed else former._owners
+
+    def serves(self, state: WorldState) -> bool:
+        """Whether everything is in the same place in that version."""
+        return (
+            state.classes is self._classes
+            and all(state.stored.get(name, _NO_VALUES) is values for name, values in self._values.items())
+            and all(state.facts.get(name, _NO_LINKS) is links for name, links in self._links.items())
+        )
+
+    def pose(self, individual: str) -> Pose:
+        """Return where a thing is in the world; FrameError when that is not known or cannot be. Read-only arrays."""
+        poses, chain = self._poses, list[str]()
+        while individual not in poses:
+            if individual in chain:
+                circle = " and ".join(map(self._short, chain[chain.index(individual) :]))
+                raise FrameError(f"the frames of {circle} form a circle")
+            chain.append(individual)
+            carrier = self.carrier(individual)
+            if carrier is None:
+                poses[individual] = self._own_pose(individual)
+            else:
+                individual = carrier
+        pose = poses[individual]
+        for each in reversed(chain):
+            if each != individual:
+                based = self._values[BASE_FRAME_ID].get(each) is not None
+                pose = poses[each] = _frozen(pose @ self._own_pose(each)) if based else pose
+        return pose
+
+    def carrier(self, individual: str) -> str | None:
+        """Return what a thing moves with, None for the world itself; FrameError when nothing tells or it is unclear."""
+        base = self._values[BASE_FRAME_ID].get(individual)
+        if base == WORLD_FRAME:
+            return None
+        if base is not None:
+            return self._owner(str(base), individual)
+        for holders in (
+            self._links[AT].forward.get(individual),
+            self._links[CONTAIN].backward.get(individual),
+            self._links[HAS_A].backward.get(individual),
+        ):
+            if holders:
+                return self._moved_with(min(holders), individual)
+        raise Unplaced(
+            f"the world model does not say where {self._short(individual)} is: "
+            "it has neither a BaseFrameId nor a place it is at"
+        )
+
+    def number(self, individual: str, name: str) -> float:
+        """Return a number of a pose or a size; MissingFact when there is none."""
+        value = self._values[name].get(individual)
+        if isinstance(value, int | float):
+            return float(value)
+        message = f"{self._short(individual)} has no {self._short(name)} in the world model"
+        raise MissingFact(message, individual, name)
+
+    def _moved_with(self, holder: str, individual: str) -> str:
+        if ARM_DEVICE not in self._classes.get(holder):
+            return holder
+        raise Unplaced(
+            f"the world model does not say where {self._short(individual)} is: "
+            f"{self._short(holder)} carries it, and nothing tells in what posture the arm is"
+        )
+
+    def _owner(self, frame: str, asking: str) -> str:
+        if self._owners is None:
+            self._owners = {}
+            for individual, name in self._values[FRAME_ID].items():
+                self._owners.setdefault(str(name), []).append(individual)
+        owners = self._owners.get(frame, [])
+        if len(owners) == 1:
+            return owners[0]
+        found = f"{len(owners)} things have" if owners else "nothing has"
+        raise FrameError(f"{self._short(asking)} is placed in the frame `{frame}`, but {found} this FrameId")
+
+    def _own_pose(self, individual: str) -> Pose:
+        position = [self.number(individual, name) for name in POSITION]
+        quaternion = [self.number(individual, name) for name in ORIENTATION]
+        if not any(quaternion):
+            raise FrameError(f"the orientation of {self._short(individual)} is no rotation: all of it is 0")
+        return _frozen(Pose.of(np.array(position), np.array(quaternion)))
+
+
+class _FrameTrees:
+    """The trees of the versions that are still in use; each is forgotten with the last version that it serves."""
+
+    def __init__(self) -> None:
+        self._known: WeakKeyDictionary[WorldState, FrameTree] = WeakKeyDictionary()
+        self._latest: Callable[[], FrameTree | None] = lambda: None
+
+    def of(self, state: WorldState) -> FrameTree:
+        """Return the tree of a version, if possible the one that was asked for last."""
+        space = self._known.get(state)
+        if space is None:
+            latest = self._latest() or next(iter(self._known.values()), None)
+            space = latest if latest is not None and latest.serves(state) else FrameTree(state, latest)
+            self._known[state] = space
+            self._latest = ref(space)
+        return space
+
+
+frame_tree_of = _FrameTrees().of
+"""Return the tree of frames of a version of the world."""
+
+
+def _frozen(pose: Pose) -> Pose:
+    pose.position.setflags(write=False)
+    pose.rotation.setflags(write=False)
+    return pose

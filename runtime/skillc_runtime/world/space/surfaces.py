@@ -1,0 +1,77 @@
+"""What of a surface is to be worked on, along which axis and how hard a tool must press, read from the facts."""
+
+from __future__ import annotations
+
+from math import atan2
+
+import numpy as np
+
+from skillc_runtime.motion.lanes import Direction
+from skillc_runtime.motion.layout import Hole, Layout, Patch
+from skillc_runtime.motion.pose import Array, Pose, exp
+from skillc_runtime.world.space.frames import seen_from, size
+from skillc_runtime.world.state.data_sheet import SheetError, number
+from skillc_runtime.world.state.terms import ALONG_AXIS, HAS_HOLE, HAS_PATCH, LEAST_CONTACT, LEAST_FORCE, MARGIN, SIZE
+from skillc_runtime.world.state.world_state import WorldState
+
+MARGIN_M = 0.02
+"""How wide the rim of a hole is that says nothing of it."""
+
+
+LEAST_FORCE_N, LEAST_SHARE = 1.0, 0.75
+"""For surfaces that do not say it."""
+
+
+def layout(state: WorldState, surface: str) -> Layout:
+    """Return what of a surface is to be worked on; FrameError or SheetError name the fact that is missing."""
+    patches, holes = (sorted(state.objects(surface, relation)) for relation in (HAS_PATCH, HAS_HOLE))
+    return Layout(
+        size(state, surface)[:2],
+        tuple(_patch(state, surface, patch) for patch in patches),
+        tuple(_hole(state, surface, hole) for hole in holes),
+    )
+
+
+def direction(state: WorldState, surface: str) -> Direction:
+    """Return along which of a surface's axes lanes run; SheetError for one that it does not have."""
+    match state.value(surface, ALONG_AXIS):
+        case None:
+            return "longer"
+        case "x":
+            return "x"
+        case "y":
+            return "y"
+        case strange:
+            short = state.vocabulary.short
+            raise SheetError(f"{short(surface)} has the {short(ALONG_AXIS)} {strange!r}; there are x and y")
+
+
+def least_force_n(state: WorldState, surface: str) -> float:
+    """Return the force in N below which a tool does nothing to a surface."""
+    return number(state, surface, LEAST_FORCE, default=LEAST_FORCE_N)
+
+
+def least_contact(state: WorldState, surface: str) -> float:
+    """Return the share of the time, along a path, in which a tool must be pressed on a surface."""
+    return number(state, surface, LEAST_CONTACT, default=LEAST_SHARE)
+
+
+def _patch(state: WorldState, surface: str, patch: str) -> Patch:
+    return Patch(_in_plane(seen_from(state, surface, patch)), _extent(state, patch))
+
+
+def _hole(state: WorldState, surface: str, hole: str) -> Hole:
+    """Return the least rectangle along the surface's axes with the hole in it."""
+    margin = number(state, hole, MARGIN, default=MARGIN_M)
+    frame, height = _in_plane(seen_from(state, surface, hole)), number(state, hole, SIZE[2], default=0.0)
+    return Hole(np.zeros(2), _extent(state, hole), margin, height).seen_from(frame.inverse())
+
+
+def _extent(state: WorldState, area: str) -> Array:
+    return np.array([number(state, area, name) for name in SIZE[:2]])
+
+
+def _in_plane(pose: Pose) -> Pose:
+    """Return a pose seen from a surface as it looks along the surface's normal."""
+    x = pose.rotation[:, 0]
+    return Pose(np.append(pose.position[:2], 0.0), exp(np.array([0.0, 0.0, atan2(x[1], x[0])])))

@@ -1,0 +1,236 @@
+"""The axioms that a version of the world must satisfy: what violates one, in a change or anywhere, with the facts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from itertools import chain, combinations
+from typing import TypeAlias, assert_never
+
+from skillc_compiler.library.vocabulary import THING, RelationTerm
+from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_runtime.world.state.changes import (
+    AddIndividual,
+    AddRelation,
+    Change,
+    ClearProperty,
+    RemoveIndividual,
+    RemoveRelation,
+    SetProperty,
+)
+from skillc_runtime.world.state.value_types import value_error
+from skillc_runtime.world.state.values import Value, show
+from skillc_runtime.world.state.world_state import WorldState
+
+Fact: TypeAlias = tuple[str, str, str]
+"""A relation or a class as it was written: subject, predicate and object, all IRIs."""
+
+
+@dataclass(frozen=True, slots=True)
+class AxiomViolation:
+    """An axiom that a change violates, by name, and the axiom with the facts in words.
+
+    `rivals` are facts that cannot be true beside the change, `causes` those that explain it. `misfit` is the
+    individual that is of the wrong class, if that is what is wrong.
+    """
+
+    axiom: str
+    message: str
+    rivals: tuple[Fact, ...] = ()
+    causes: tuple[Fact, ...] = ()
+    misfit: str | None = None
+
+
+def axiom_violations(state: WorldState, change: Change) -> Iterator[AxiomViolation]:
+    """Yield what is wrong with a change in the version it led to."""
+    match change:
+        case AddIndividual(individual, types):
+            yield from _classes(state, individual, types)
+        case AddRelation(subject, relation, object_):
+            yield from _relation(state, subject, relation, object_)
+        case SetProperty(individual, property_, value):
+            yield from _property(state, individual, property_, value)
+        case RemoveIndividual() | RemoveRelation() | ClearProperty():
+            return
+        case _:
+            assert_never(change)
+
+
+def unknown_term(state: WorldState, change: Change) -> str | None:
+    """Return the IRI of a relation or property that the vocabulary lacks, None when all is known."""
+    match change:
+        case AddRelation(_, relation, _) | RemoveRelation(_, relation, _):
+            return None if relation in state.vocabulary.relations else relation
+        case SetProperty(_, property_, _) | ClearProperty(_, property_):
+            return None if property_ in state.vocabulary.properties else property_
+        case AddIndividual() | RemoveIndividual():
+            return None
+        case _:
+            assert_never(change)
+
+
+def _disjoint_classes(state: WorldState, types: Iterable[str]) -> tuple[str, str] | None:
+    """Return two of the classes that no individual can both be of, None when there are none."""
+    pairs = combinations(sorted(types), 2)
+    return next(((one, other) for one, other in pairs if state.vocabulary.disjoint(one, other)), None)
+
+
+def _misfit(state: WorldState, term: RelationTerm, subject: str, object_: str) -> AxiomViolation | None:
+    """Say what a relation takes, when it takes neither signature's subject and object; None when one fits."""
+    fits = (state.is_a(subject, each.domain) and state.is_a(object_, each.range) for each in term.signatures)
+    if not term.signatures or any(fits):
+        return None
+    short = state.vocabulary.short
+    accepted = " or ".join(f"({_class(state, each.domain)}, {_class(state, each.range)})" for each in term.signatures)
+    wrong_subject = not any(state.is_a(subject, each.domain) for each in term.signatures)
+    misfit = subject if wrong_subject else object_
+    return AxiomViolation(
+        "relation-domain" if wrong_subject else "relation-range",
+        f"{short(term.iri)} takes {accepted}; {_described(state, subject)}, {_described(state, object_)}",
+        causes=_types(state, misfit),
+        misfit=misfit,
+    )
+
+
+def _classes(state: WorldState, individual: str, types: tuple[str, ...]) -> Iterator[AxiomViolation]:
+    short = state.vocabulary.short
+    for cls in types:
+        if cls not in state.vocabulary.ancestors:
+            message = f"{short(individual)} cannot be a {short(cls)}: there is no such class"
+            yield AxiomViolation("unknown-class", message)
+    clash = _disjoint_classes(state, state.types(individual))
+    if clash:
+        one, other = map(short, clash)
+        both = f"{short(individual)} cannot be both a {one} and a {other}"
+        facts = tuple((individual, RDF_TYPE, cls) for cls in clash)
+        yield AxiomViolation("disjoint-classes", f"{both}: the classes are disjoint", rivals=facts)
+
+
+def _relation(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
+    fact, short = (subject, relation, object_), state.vocabulary.short
+    absent = [each for each in (subject, object_) if not state.exists(each)]
+    if absent:
+        yield AxiomViolation("unknown-individual", f"{_quoted(state, fact)}: there is no individual {short(absent[0])}")
+        return
+    if relation in state.axioms.computed:
+        reason = "the relation is computed from other facts and cannot be stated"
+        yield AxiomViolation("computed-property", f"{_quoted(state, fact)}: {reason}")
+        return
+    rivalry = _rivalry(state, fact)
+    if rivalry is not None:
+        reason, rivals = rivalry
+        yield AxiomViolation("functional-relation", f"{_quoted(state, fact)}: {reason}", rivals=rivals)
+        return
+    violation = lone_violation(state, fact) or _stated(state, fact, next(_asymmetric(state, *fact), None))
+    if violation is not None:
+        yield violation
+
+
+def lone_violation(state: WorldState, fact: Fact) -> AxiomViolation | None:
+    """Return what is wrong with a relation between individuals by itself, whatever else is said."""
+    return _stated(state, fact, next(chain(_irreflexive(state, *fact), _misfits(state, *fact)), None))
+
+
+def _irreflexive(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
+    for term, start, end in _implied(state, subject, relation, object_):
+        if (term.irreflexive or term.asymmetric) and start == end:
+            short, kind = state.vocabulary.short, "irreflexive" if term.irreflexive else "asymmetric"
+            yield AxiomViolation("irreflexive-relation", f"{short(term.iri)} is {kind}, nothing has it to itself")
+
+
+def _asymmetric(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
+    for term, start, end in _implied(state, subject, relation, object_):
+        if term.asymmetric and start != end and state.holds(end, term.iri, start):
+            short = state.vocabulary.short
+            opposite = f"{short(end)} {short(term.iri)} {short(start)}"
+            rivals = written_facts(state, end, term.iri, start)
+            yield AxiomViolation(
+                "asymmetric-relation", f"{short(term.iri)} is asymmetric, and `{opposite}` holds", rivals
+            )
+
+
+def _misfits(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
+    for term, start, end in _implied(state, subject, relation, object_):
+        misfit = _misfit(state, term, start, end)
+        if misfit is not None:
+            yield misfit
+
+
+def _implied(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[tuple[RelationTerm, str, str]]:
+    """Yield what a fact implies, itself first: relations with their subjects and objects."""
+    for implied, flipped in sorted(state.axioms.implied[relation], key=lambda each: each != (relation, False)):
+        start, end = (object_, subject) if flipped else (subject, object_)
+        yield state.vocabulary.relations[implied], start, end
+
+
+def written_facts(state: WorldState, subject: str, relation: str, object_: str) -> tuple[Fact, ...]:
+    """Return the facts, as they were written, from which one follows without transitivity."""
+    found = (
+        (source, object_, subject) if flipped else (source, subject, object_)
+        for source, flipped in state.axioms.sources[relation]
+    )
+    return tuple((start, iri, end) for iri, start, end in found if end in state.asserted[iri].forward.get(start))
+
+
+def _rivalry(state: WorldState, fact: Fact) -> tuple[str, tuple[Fact, ...]] | None:
+    """Say which other fact a functional relation cannot hold beside this one; None where this one stands alone.
+
+    A fact that was written and does not hold has lost its place to another of the same write.
+    """
+    short, stands = state.vocabulary.short, state.holds(*fact)
+    for term, start, end in _implied(state, *fact):
+        others = state.objects(start, term.iri) - {end} if term.functional else frozenset[str]()
+        holders = state.subjects(term.iri, end) - {start} if term.inverse_functional else frozenset[str]()
+        rivals = [(start, term.iri, other) for other in sorted(others)] or [
+            (holder, term.iri, end) for holder in sorted(holders)
+        ]
+        for rival in rivals[: None if stands else 1]:
+            written = written_facts(state, *rival)
+            if written or not stands:
+                kind, said = "functional" if term.functional else "inverse functional", " ".join(map(short, rival))
+                return f"{short(term.iri)} is {kind}, and `{said}` is said too", written
+    return None if stands else ("the same write takes it back", ())
+
+
+def _stated(state: WorldState, fact: Fact, violation: AxiomViolation | None) -> AxiomViolation | None:
+    """Return a violation with the fact that was written before its message."""
+    return violation and replace(violation, message=f"{_quoted(state, fact)}: {violation.message}")
+
+
+def _quoted(state: WorldState, fact: Fact) -> str:
+    return f"`{' '.join(map(state.vocabulary.short, fact))}`"
+
+
+def _types(state: WorldState, individual: str) -> tuple[Fact, ...]:
+    return tuple((individual, RDF_TYPE, cls) for cls in sorted(state.types(individual)))
+
+
+def _property(state: WorldState, individual: str, property_: str, value: Value) -> Iterator[AxiomViolation]:
+    short, term = state.vocabulary.short, state.vocabulary.properties[property_]
+
+    def stating(reason: str) -> str:
+        return f"`{short(individual)}.{short(property_)} = {show(value)}`: {reason}"
+
+    if not state.exists(individual):
+        yield AxiomViolation("unknown-individual", stating(f"there is no individual {short(individual)}"))
+        return
+    if term.computed_by is not None:
+        reason = "the property is computed from other facts and cannot be set"
+        yield AxiomViolation("computed-property", stating(reason))
+    if term.domains and not any(state.is_a(individual, domain) for domain in term.domains):
+        owners = " or ".join(_class(state, domain) for domain in term.domains)
+        message = stating(f"it belongs to {owners}; {_described(state, individual)}")
+        yield AxiomViolation("property-domain", message, causes=_types(state, individual), misfit=individual)
+    for one in value if isinstance(value, tuple) and not term.functional else (value,):
+        wrong = value_error(term, one)
+        if wrong:
+            yield AxiomViolation("wrong-data-type", stating(wrong))
+
+
+def _class(state: WorldState, iri: str) -> str:
+    return "Thing" if iri == THING else state.vocabulary.short(iri)
+
+
+def _described(state: WorldState, individual: str) -> str:
+    short = state.vocabulary.short
+    return f"{short(individual)} is a {' and a '.join(sorted(map(short, state.types(individual))))}"

@@ -1,0 +1,43 @@
+"""What follows from a fact by the axioms of its relation, worked out once per vocabulary."""
+
+from __future__ import annotations
+
+from skillc_compiler.library.closure import Directed
+from skillc_compiler.library.vocabulary import THING, Vocabulary
+from skillc_runtime.world.state.computed import Computed
+
+
+class Axioms:
+    """What the closure of the vocabulary's relations means for the facts that are kept of them.
+
+    `implied`, `sources` and `transitive` are those of the closure. `carriers[x]` are the transitive relations
+    whose every consequence also holds in x, which is not transitive itself. `plain` relations have only the facts
+    asserted of them. `computed` relations have none: they hold where their reasoners say so.
+    """
+
+    def __init__(self, vocabulary: Vocabulary) -> None:
+        self._vocabulary = vocabulary
+        self.computed = {
+            iri: Computed(term, term.computed_by)
+            for iri, term in vocabulary.relations.items()
+            if term.computed_by is not None
+        }
+        self._superclasses: dict[frozenset[str], frozenset[str]] = {}
+        closure = vocabulary.closure
+        self.implied, self.sources, self.transitive = closure.implied, closure.sources, closure.transitive
+        self.carriers: dict[str, tuple[Directed, ...]] = {
+            iri: tuple(
+                source for source in self.sources[iri] if source[0] in self.transitive and iri not in self.transitive
+            )
+            for iri in vocabulary.relations
+        }
+        self.plain = frozenset(
+            iri for iri, sources in self.sources.items() if sources == ((iri, False),) and iri not in self.transitive
+        )
+
+    def superclasses(self, types: frozenset[str]) -> frozenset[str]:
+        """Return the classes with all their superclasses and `owl:Thing`; the same object for the same classes."""
+        if types not in self._superclasses:
+            known = self._vocabulary.ancestors
+            self._superclasses[types] = frozenset({THING}).union(*(known.get(cls, {cls}) for cls in types))
+        return self._superclasses[types]

@@ -1,0 +1,141 @@
+"""A version of the world made of all its facts at once: the same as by one change each, in a fraction of the time."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from skillc_compiler.library.closure import reachable
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_runtime.world.state.axioms import Axioms
+from skillc_runtime.world.state.links import NONE, Links
+from skillc_runtime.world.state.members import Members
+from skillc_runtime.world.state.table import Table
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
+
+Pairs: TypeAlias = Iterable[tuple[str, str]]
+_Sets: TypeAlias = dict[str, frozenset[str]]
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """All that is said: the classes of each individual, the pairs of each relation, the values of each property."""
+
+    types: Mapping[str, Iterable[str]]
+    related: Mapping[str, Pairs]
+    valued: Mapping[str, dict[str, Value | None]]
+
+
+def state_of(vocabulary: Vocabulary, said: Facts) -> WorldState:
+    """Return the world of these facts, unchecked; none may take the place of another, as a functional relation's do."""
+    empty = WorldState.empty(vocabulary)
+    sets = _Freezer()
+    direct = {individual: sets.same(frozenset(types)) for individual, types in said.types.items()}
+    classes = {individual: empty.axioms.superclasses(types) for individual, types in direct.items()}
+    asserted = {**empty.asserted, **{iri: _links(pairs, sets) for iri, pairs in said.related.items()}}
+    return WorldState(
+        vocabulary,
+        empty.axioms,
+        Table(NONE, direct),
+        Table(NONE, classes),
+        _members(classes),
+        asserted,
+        _Consequences(empty.axioms, asserted, sets).all(),
+        {**empty.stored, **{iri: Table(None, values) for iri, values in said.valued.items()}},
+    )
+
+
+class _Freezer:
+    """Makes sets, equal ones once: most are of one element, and many of the same."""
+
+    def __init__(self) -> None:
+        self._one: dict[str, frozenset[str]] = {}
+        self._all: dict[frozenset[str], frozenset[str]] = {}
+
+    def same(self, members: frozenset[str]) -> frozenset[str]:
+        """Return the set that is equal to this one."""
+        return self._all.setdefault(members, members)
+
+    def grouped(self, pairs: Pairs) -> _Sets:
+        """Return the second members of the pairs by the first."""
+        one, found = self._one, dict[str, frozenset[str]]()
+        several: dict[str, set[str]] = {}
+        for first, second in pairs:
+            if first in several:
+                several[first].add(second)
+            elif first in found:
+                several[first] = {*found[first], second}
+            else:
+                found[first] = one.get(second) or one.setdefault(second, frozenset((second,)))
+        found.update((first, frozenset(members)) for first, members in several.items())
+        return found
+
+
+class _Consequences:
+    """Works out the facts of every relation from the assertions; Closure says what they are."""
+
+    def __init__(self, axioms: Axioms, asserted: dict[str, Links], sets: _Freezer) -> None:
+        self._axioms, self._asserted, self._sets = axioms, asserted, sets
+        self._facts: dict[str, Links] = {}
+        self._closed: dict[frozenset[tuple[str, bool]], Links] = {}
+
+    def all(self) -> dict[str, Links]:
+        """Return the facts by relation; those that are transitive first, because others follow from theirs."""
+        for relation in sorted(self._asserted, key=lambda iri: iri not in self._axioms.transitive):
+            self._facts[relation] = self._of(relation)
+        return {relation: self._facts[relation] for relation in self._asserted}
+
+    def _of(self, relation: str) -> Links:
+        sources = self._axioms.sources[relation]
+        written = [(self._asserted[source], flipped) for source, flipped in sources]
+        if relation in self._axioms.transitive:
+            turned = frozenset((source, not flipped) for source, flipped in sources)
+            if turned in self._closed:
+                return _turned(self._closed[turned])
+            closed = self._closed[frozenset(sources)] = self._transitive(self._united(written))
+            return closed
+        carried = [(self._facts[carrier], flipped) for carrier, flipped in self._axioms.carriers[relation]]
+        return self._united([*written, *carried])
+
+    def _united(self, parts: Iterable[tuple[Links, bool]]) -> Links:
+        full = [_turned(links) if flipped else links for links, flipped in parts if links.forward]
+        distinct = list({(id(links.forward), id(links.backward)): links for links in full}.values())
+        if len(distinct) <= 1:
+            return distinct[0] if distinct else Links.empty()
+        return _links([pair for links in distinct for pair in links.pairs()], self._sets)
+
+    def _transitive(self, edges: Links) -> Links:
+        following = dict(edges.forward.items())
+        if not any(each in following for objects in following.values() for each in objects):
+            return edges
+        forward = {
+            start: reachable(objects, lambda each: following.get(each, NONE)) for start, objects in following.items()
+        }
+        return _links([(start, end) for start, ends in forward.items() for end in ends], self._sets)
+
+
+def _links(pairs: Pairs, sets: _Freezer) -> Links:
+    listed = list(pairs)
+    forward, backward = sets.grouped(listed), sets.grouped((second, first) for first, second in listed)
+    return Links(Table(NONE, forward), Table(NONE, backward))
+
+
+def _turned(links: Links) -> Links:
+    return Links(links.backward, links.forward)
+
+
+def _members(classes: _Sets) -> dict[str, Members]:
+    """Return the individuals of each class; those of the same classes are taken together."""
+    alike: dict[frozenset[str], list[str]] = defaultdict(list)
+    for individual, of in classes.items():
+        alike[of].append(individual)
+    groups: dict[str, list[frozenset[str]]] = defaultdict(list)
+    for of in alike:
+        for cls in of:
+            groups[cls].append(of)
+    distinct = {tuple(group) for group in groups.values()}
+    united = {group: Members(frozenset().union(*(alike[of] for of in group))) for group in distinct}
+    return {cls: united[tuple(group)] for cls, group in groups.items()}

@@ -1,0 +1,93 @@
+"""Relations that nobody states: they follow from other facts by a computation, such as a thing being inside another."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from typing import Protocol, TypeVar
+
+from skillc_compiler.library.vocabulary import RelationTerm, Vocabulary, local_name
+from skillc_runtime.world.state.python_calls import Unknown, call_python, load_python
+
+State = TypeVar("State", contravariant=True)
+
+
+class ClassIndex(Protocol):
+    """What a version of the world says of classes."""
+
+    @property
+    def vocabulary(self) -> Vocabulary:
+        """The terms that there are."""
+        ...
+
+    def is_a(self, individual: str, cls: str) -> bool:
+        """Whether the individual is of the class or of a subclass."""
+        ...
+
+    def instances(self, cls: str) -> frozenset[str]:
+        """Return all individuals of a class and its subclasses."""
+        ...
+
+
+class Reasoner(Protocol[State]):
+    """Tells whether a relation holds in a `State`, a version of the world; vocabularies name its class.
+
+    The class is called without arguments.
+    """
+
+    def obstacle(self, state: State, subject: str, object_: str) -> str | None:
+        """Say what keeps the relation from holding, with the numbers; None when it holds.
+
+        It is asked about individuals of the relation's domain and range only. Unknown says that too little is known,
+        and then the relation does not hold; what else it raises fails the condition.
+        """
+        ...
+
+
+class Computed:
+    """A relation with the reasoner that tells whether it holds."""
+
+    def __init__(self, term: RelationTerm, target: str) -> None:
+        self._term, self._target, self._name = term, target, local_name(term.iri)
+
+    def holds(self, state: ClassIndex, subject: str, object_: str) -> bool:
+        """Whether the relation holds; EvaluationError when the reasoner is missing or fails."""
+        return self.obstacle(state, subject, object_) is None
+
+    def obstacle(self, state: ClassIndex, subject: str, object_: str) -> str | None:
+        """Say what keeps the relation from holding, None when it holds; EvaluationError as for `holds`."""
+        for each in self._term.signatures:
+            if state.is_a(subject, each.domain) and state.is_a(object_, each.range):
+                return call_python(self._asked, self._name, state, subject, object_)
+        short = state.vocabulary.short
+        taken = " or ".join(f"({short(each.domain)}, {short(each.range)})" for each in self._term.signatures)
+        return f"{short(self._term.iri)} takes {taken}"
+
+    def objects(self, state: ClassIndex, subject: str) -> frozenset[str]:
+        """Return all that the subject has the relation to, by asking about each."""
+        ranges = {each.range for each in self._term.signatures if state.is_a(subject, each.domain)}
+        found = frozenset[str]().union(*map(state.instances, ranges))
+        return frozenset(each for each in found if self.holds(state, subject, each))
+
+    def subjects(self, state: ClassIndex, object_: str) -> frozenset[str]:
+        """Return all that have the relation to the object, by asking about each."""
+        domains = {each.domain for each in self._term.signatures if state.is_a(object_, each.range)}
+        found = frozenset[str]().union(*map(state.instances, domains))
+        return frozenset(each for each in found if self.holds(state, each, object_))
+
+    def pairs(self, state: ClassIndex) -> Iterator[tuple[str, str]]:
+        """Yield every pair of which the relation holds."""
+        subjects = frozenset[str]().union(*(state.instances(each.domain) for each in self._term.signatures))
+        for subject in sorted(subjects):
+            yield from ((subject, object_) for object_ in sorted(self.objects(state, subject)))
+
+    def _asked(self, state: ClassIndex, subject: str, object_: str) -> str | None:
+        try:
+            return self._reasoner.obstacle(state, subject, object_)
+        except Unknown as missing:
+            return str(missing)
+
+    @cached_property
+    def _reasoner(self) -> Reasoner[ClassIndex]:
+        reasoner: Reasoner[ClassIndex] = load_python(self._target)()
+        return reasoner

@@ -1,0 +1,126 @@
+"""The data sheet of a device, read from the facts about it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from skillc_ontology.catalogue import model
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.world.state.terms import HAS_POSTURE, HAS_SHEET, JOINT_VALUES, POSTURE_NAME, SKILLC
+from skillc_runtime.world.state.world_state import WorldState
+
+
+class SheetError(ValueError):
+    """A fact about a device is missing or unreadable; the message says which, of what."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """A data sheet in one version of the world; names are those of the `skillc` vocabulary without prefix."""
+
+    state: WorldState
+    individual: str
+
+    def number(self, name: str) -> float:
+        """Return a number in SI units; SheetError when missing."""
+        return number(self.state, self.individual, SKILLC + name)
+
+    def text(self, name: str) -> str:
+        """Return a text; SheetError when missing."""
+        return text(self.state, self.individual, SKILLC + name)
+
+    @property
+    def model(self) -> Path:
+        """The file of the device's MJCF; SheetError when it is not stated or not there."""
+        try:
+            return model(self.text("model"))
+        except FileNotFoundError as error:
+            raise SheetError(f"{self._short(self.individual)}: {error}") from error
+
+    def numbers(self, name: str) -> Array:
+        """Return numbers that are written in one text, separated by spaces; SheetError when missing or unreadable."""
+        return _numbers(self.text(name), f"skillc:{name} of {self._short(self.individual)}")
+
+    def limits(self, name: str, count: int) -> Array:
+        """Return so many numbers above 0, one for each joint; SheetError when missing, others or of another count."""
+        found = self.numbers(name)
+        if found.size != count or not (found > 0).all():
+            what = f"skillc:{name} of {self._short(self.individual)}"
+            raise SheetError(f"{what} must be {count} numbers above 0, one for each joint: {self.text(name)!r}")
+        return found
+
+    def states(self, name: str) -> bool:
+        """Whether the sheet says something."""
+        return self.state.value(self.individual, SKILLC + name) is not None
+
+    def posture(self, name: str) -> Array:
+        """Return the joint values (nv,) rad of a named posture; SheetError lists the names there are."""
+        names = self._named_postures()
+        if name not in names:
+            known = ", ".join(self.posture_names) or "none"
+            raise SheetError(f"{self._short(self.individual)} has no posture {name!r}; it has {known}")
+        values = text(self.state, names[name], JOINT_VALUES)
+        return _numbers(values, f"posture {name} of {self._short(self.individual)}")
+
+    @property
+    def postures(self) -> tuple[str, ...]:
+        """The individuals that describe postures."""
+        return tuple(sorted(self.state.objects(self.individual, HAS_POSTURE)))
+
+    @property
+    def posture_names(self) -> tuple[str, ...]:
+        """What the postures are called, sorted."""
+        return tuple(sorted(self._named_postures()))
+
+    def _named_postures(self) -> dict[str, str]:
+        return {str(self.state.value(each, POSTURE_NAME)): each for each in self.postures}
+
+    def _short(self, individual: str) -> str:
+        return self.state.vocabulary.short(individual)
+
+
+def sheet_of(state: WorldState, individual: str) -> Sheet:
+    """Return the data sheet of a device; SheetError when it has none."""
+    sheets = sorted(state.objects(individual, HAS_SHEET))
+    if not sheets:
+        raise SheetError(f"{state.vocabulary.short(individual)} has no data sheet (skillc:hasSheet)")
+    return Sheet(state, sheets[0])
+
+
+def number(state: WorldState, individual: str, property_: str, default: float | None = None) -> float:
+    """Return a number in SI units of an individual; SheetError when missing and no default is given."""
+    found = state.value(individual, property_)
+    if isinstance(found, int | float):
+        return float(found)
+    if found is None and default is not None:
+        return default
+    short = state.vocabulary.short
+    raise SheetError(f"{short(individual)} has no number {short(property_)} in the world model")
+
+
+def range_below(state: WorldState, individual: str, property_: str, middle: float) -> float:
+    """Return how far a number in SI units may be from its middle, 0 where nothing is said; SheetError when beyond 0."""
+    found = number(state, individual, property_, default=0.0)
+    if found >= middle:
+        short = state.vocabulary.short
+        raise SheetError(f"{short(individual)} has a {short(property_)} of {found:g}; it must be below {middle:g}")
+    return found
+
+
+def text(state: WorldState, individual: str, property_: str) -> str:
+    """Return a text about an individual; SheetError when missing."""
+    found = state.value(individual, property_)
+    if isinstance(found, str):
+        return found
+    short = state.vocabulary.short
+    raise SheetError(f"{short(individual)} has no {short(property_)} in the world model")
+
+
+def _numbers(text: str, what: str) -> Array:
+    try:
+        return np.array([float(part) for part in text.split()])
+    except ValueError as error:
+        raise SheetError(f"{what} is not numbers separated by spaces: {text!r}") from error

@@ -1,0 +1,73 @@
+"""The changes that lead from one version of a world to another."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import TypeAlias
+
+from skillc_runtime.world.state.changes import (
+    AddIndividual,
+    AddRelation,
+    Change,
+    ClearProperty,
+    RemoveIndividual,
+    RemoveRelation,
+    SetProperty,
+)
+from skillc_runtime.world.state.values import Value, equal
+from skillc_runtime.world.state.world_state import WorldState
+
+_Fact: TypeAlias = tuple[str, str, str]
+
+
+def changes_between(before: WorldState, after: WorldState, about: Iterable[str] | None = None) -> tuple[Change, ...]:
+    """Return the changes that make `after` of `before`, two sound versions with one vocabulary, in a fixed order.
+
+    Only facts about the individuals `about` are looked at, all where they are not given.
+    """
+    individuals = sorted(before.individuals | after.individuals if about is None else set(about))
+    existing = list(_existing(before, after, individuals))
+    lost = _written(before, individuals) - _written(after, individuals)
+    changes = [*existing, *(RemoveRelation(*fact) for fact in sorted(lost))]
+    midway = before.changed(changes)
+    missing = _written(after, individuals) - _written(midway, individuals)
+    return (*changes, *(AddRelation(*fact) for fact in sorted(missing)), *_values(midway, after, individuals))
+
+
+def _existing(before: WorldState, after: WorldState, individuals: Iterable[str]) -> Iterator[Change]:
+    """Yield what makes each individual one of its classes; what loses a class begins anew."""
+    for individual in individuals:
+        former, present = before.types(individual), after.types(individual)
+        if not former <= present:
+            yield RemoveIndividual(individual)
+        if present and former != present:
+            yield AddIndividual(individual, tuple(sorted(present)))
+
+
+def _written(state: WorldState, individuals: Iterable[str]) -> set[_Fact]:
+    """Return the relations as they were written, from and to the individuals."""
+    return {
+        fact
+        for relation, links in state.asserted.items()
+        if links.forward
+        for individual in individuals
+        for fact in (
+            *((individual, relation, other) for other in links.forward.get(individual)),
+            *((other, relation, individual) for other in links.backward.get(individual)),
+        )
+    }
+
+
+def _values(before: WorldState, after: WorldState, individuals: Iterable[str]) -> Iterator[Change]:
+    for property_, table in sorted(after.stored.items()):
+        former = before.stored[property_]
+        for individual in individuals:
+            old, new = former.get(individual), table.get(individual)
+            if new is None and old is not None:
+                yield ClearProperty(individual, property_)
+            elif new is not None and not _alike(old, new):
+                yield SetProperty(individual, property_, new)
+
+
+def _alike(one: Value | None, other: Value) -> bool:
+    return one is other or (one is not None and type(one) is type(other) and equal(one, other))

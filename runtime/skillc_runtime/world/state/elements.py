@@ -1,0 +1,132 @@
+"""Individuals as somebody looks at them: classes, relations and values with units; and how to find them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from skillc_compiler.library.vocabulary import THING, NumberType, VectorType, Vocabulary
+from skillc_compiler.library.words import SI_UNITS
+from skillc_runtime.world.state.names import NoSuchName, individual_of, term_of
+from skillc_runtime.world.state.properties import property_of
+from skillc_runtime.world.state.values import Value, has, show
+from skillc_runtime.world.state.world_state import WorldState
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """The value of a property, and the SI unit that it counts, nothing where it counts none."""
+
+    property: str
+    value: Value
+    unit: str
+
+    def __str__(self) -> str:
+        return f"{show(self.value)} {self.unit}".strip()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Element:
+    """An individual in one version of the world. Terms are called by IRI or `prefix:name`; NoSuchName for others."""
+
+    state: WorldState
+    iri: str
+
+    def __str__(self) -> str:
+        return self.state.vocabulary.short(self.iri)
+
+    @property
+    def types(self) -> tuple[str, ...]:
+        """The classes that it was declared to be of, sorted."""
+        return tuple(sorted(self.state.types(self.iri)))
+
+    @property
+    def relations(self) -> tuple[tuple[str, str], ...]:
+        """Relations and objects that were written of it, sorted; what follows from them is left out."""
+        links = sorted(self.state.asserted.items())
+        return tuple((name, each) for name, pairs in links for each in sorted(pairs.forward.get(self.iri)))
+
+    @property
+    def quantities(self) -> tuple[Quantity, ...]:
+        """The properties that are stored of it, sorted."""
+        found = ((name, table.get(self.iri)) for name, table in sorted(self.state.stored.items()))
+        known = self.state.vocabulary
+        return tuple(Quantity(name, value, unit_of(name, known)) for name, value in found if value is not None)
+
+    def is_a(self, cls: str) -> bool:
+        """Whether it is of a class or of a subclass."""
+        return self.state.is_a(self.iri, term_of(cls, self.state.vocabulary))
+
+    def objects(self, relation: str) -> tuple[Element, ...]:
+        """Return all that it has the relation to, what follows from axioms too, sorted by IRI."""
+        found = self.state.objects(self.iri, _relation(relation, self.state.vocabulary))
+        return tuple(Element(self.state, each) for each in sorted(found))
+
+    def subjects(self, relation: str) -> tuple[Element, ...]:
+        """Return all that have the relation to it, what follows from axioms too, sorted by IRI."""
+        found = self.state.subjects(_relation(relation, self.state.vocabulary), self.iri)
+        return tuple(Element(self.state, each) for each in sorted(found))
+
+    def quantity(self, property_: str) -> Quantity | None:
+        """Return a property with its unit, computed if it is so declared; None when it has none."""
+        iri = _property(property_, self.state.vocabulary)
+        value = property_of(self.state, self.iri, iri)
+        return None if value is None else Quantity(iri, value, unit_of(iri, self.state.vocabulary))
+
+
+def element(state: WorldState, name: str) -> Element:
+    """Return the individual of that IRI or `prefix:name`; NoSuchName says which there are."""
+    return Element(state, individual_of(name, state))
+
+
+def find(
+    state: WorldState,
+    cls: str = THING,
+    related: Mapping[str, str] | None = None,
+    having: Mapping[str, Value] | None = None,
+) -> tuple[Element, ...]:
+    """Return the individuals of a class that have all these relations, to individuals, and values; sorted by IRI."""
+    known = state.vocabulary
+    found = state.instances(term_of(cls, known))
+    for relation, object_ in (related or {}).items():
+        found &= state.subjects(_relation(relation, known), individual_of(object_, state))
+    for name, value in (having or {}).items():
+        table = state.stored[_property(name, known)]
+        found = frozenset(each for each in found if has(table.get(each), value))
+    return tuple(Element(state, each) for each in sorted(found))
+
+
+def search(state: WorldState, words: str) -> tuple[Element, ...]:
+    """Return the individuals in whose names, classes or texts all the words occur, whatever their case; by IRI."""
+    wanted = words.casefold().split()
+    found = (Element(state, each) for each in sorted(state.individuals))
+    return tuple(each for each in found if all(word in _text(each) for word in wanted))
+
+
+def unit_of(property_: str, vocabulary: Vocabulary) -> str:
+    """Return the SI unit that a property counts, nothing where it counts none."""
+    match vocabulary.properties[property_].type:
+        case NumberType(dimension) | VectorType(dimension):
+            return SI_UNITS.get(dimension, "")
+        case _:
+            return ""
+
+
+def _text(each: Element) -> str:
+    short = each.state.vocabulary.short
+    texts = [show(quantity.value) for quantity in each.quantities]
+    return " ".join([str(each), *map(short, each.types), *texts]).casefold()
+
+
+def _relation(name: str, vocabulary: Vocabulary) -> str:
+    iri = term_of(name, vocabulary)
+    if iri not in vocabulary.relations:
+        raise NoSuchName(f"{vocabulary.short(iri)} is no relation")
+    return iri
+
+
+def _property(name: str, vocabulary: Vocabulary) -> str:
+    iri = term_of(name, vocabulary)
+    if iri not in vocabulary.properties:
+        raise NoSuchName(f"{vocabulary.short(iri)} is no property")
+    return iri

@@ -1,0 +1,55 @@
+"""What people call things: IRIs, or `prefix:name` by the prefixes of the vocabulary and its scene."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+
+from skillc_compiler.library.vocabulary import Vocabulary, local_name
+from skillc_runtime.world.state.world_state import WorldState
+
+LISTED = 8
+"""How many names a message lists at most."""
+
+
+class NoSuchName(LookupError):
+    """A name of nothing in the world or its vocabulary; the message says what it may have been meant to be."""
+
+
+def expand_name(name: str, vocabulary: Vocabulary) -> str:
+    """Return the IRI of a name, the term's own where it is another name of a term; NoSuchName for unknown prefixes."""
+    prefix, colon, local = name.partition(":")
+    if not colon:
+        raise NoSuchName(f"`{name}` is neither an IRI nor PREFIX:NAME")
+    if prefix in vocabulary.prefixes:
+        name = vocabulary.prefixes[prefix] + local
+    elif "/" not in local and prefix != "urn":
+        raise NoSuchName(f"there is no prefix `{prefix}`; there is {_some(sorted(vocabulary.prefixes))}")
+    return vocabulary.aliases.get(name, name)
+
+
+def individual_of(name: str, state: WorldState) -> str:
+    """Return the IRI of an individual that there is; NoSuchName says which are called alike."""
+    iri = expand_name(name, state.vocabulary)
+    if state.exists(iri):
+        return iri
+    short = state.vocabulary.short
+    by_name = {local_name(each): short(each) for each in sorted(state.individuals)}
+    near = [by_name[each] for each in get_close_matches(local_name(iri), by_name, n=3)]
+    cure = f"did you mean {' or '.join(near)}?" if near else f"there is {_some(sorted(by_name.values()))}"
+    raise NoSuchName(f"there is no individual {short(iri)}; {cure}")
+
+
+def term_of(name: str, vocabulary: Vocabulary) -> str:
+    """Return the IRI of a class, relation or property that there is; NoSuchName says which are called alike."""
+    iri = expand_name(name, vocabulary)
+    known = vocabulary.ancestors.keys() | vocabulary.relations.keys() | vocabulary.properties.keys()
+    if iri in known:
+        return iri
+    by_name = {local_name(each): vocabulary.short(each) for each in sorted(known)}
+    near = [by_name[each] for each in get_close_matches(local_name(iri), by_name, n=3)]
+    cure = f"; did you mean {' or '.join(near)}?" if near else ""
+    raise NoSuchName(f"there is no term {vocabulary.short(iri)}{cure}")
+
+
+def _some(names: list[str]) -> str:
+    return (", ".join(names[:LISTED]) + ", .." * (len(names) > LISTED)) or "none"

@@ -1,0 +1,41 @@
+"""Values of properties in a version of the world: stored, or computed by the Python that the vocabulary names."""
+
+from __future__ import annotations
+
+from typing import cast
+
+import numpy as np
+
+from skillc_compiler.library.vocabulary import local_name
+from skillc_runtime.world.state.python_calls import EvaluationError, call_python, load_python
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
+
+
+def property_of(state: WorldState, individual: str, property_: str) -> Value | None:
+    """Return the value of a property, stored or computed; None when missing, EvaluationError when its Python fails."""
+    term = state.vocabulary.properties[property_]
+    if term.computed_by is None:
+        return state.value(individual, property_)
+    return value_from_python(term.computed_by, local_name(property_), state, individual)
+
+
+def value_at(state: WorldState, individual: str, property_: str) -> Value | None:
+    """Return the value of a property, stored or computed; None where it has none or cannot be computed."""
+    try:
+        return property_of(state, individual, property_)
+    except EvaluationError:
+        return None
+
+
+def value_from_python(target: str, name: str, state: WorldState, *arguments: Value) -> Value | None:
+    """Call the Python behind a property or function called `name`; what it raises becomes an EvaluationError."""
+    result: Value | None = call_python(load_python(target), name, state, *arguments)
+    return None if result is None else _as_value(result)
+
+
+def _as_value(result: Value) -> Value:
+    """Return lists and NumPy's numbers, which Python functions like to give, as tuples and numbers, also in lists."""
+    if isinstance(result, np.generic):
+        return cast(Value, result.item())
+    return tuple(map(_as_value, result)) if isinstance(result, list | tuple) else result

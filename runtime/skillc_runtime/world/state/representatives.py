@@ -1,0 +1,66 @@
+"""Whether a whole world satisfies its axioms: of all facts that an axiom treats alike, one is looked at."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from math import isfinite
+from operator import itemgetter
+from typing import TypeAlias, cast
+
+from skillc_compiler.library.vocabulary import PropertyTerm
+from skillc_runtime.world.state.axiom_violations import Fact, axiom_violations, written_facts
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
+
+_Entries: TypeAlias = list[tuple[str, Value]]
+
+
+def satisfies_axioms(state: WorldState) -> bool:
+    """Whether no fact violates an axiom; the facts of a functional relation may compete, and then it does not."""
+    return not any(True for change in representatives(state) for _ in axiom_violations(state, change))
+
+
+def representatives(state: WorldState) -> Iterator[Change]:
+    """Yield changes that write facts of a version; where none of them violates an axiom, no fact does."""
+    alike = {types: individual for individual, types in state.direct.items()}
+    yield from (AddIndividual(individual, tuple(types)) for types, individual in alike.items())
+    related = [fact for relation in state.asserted for fact in _of_each_kind(state, relation)]
+    related += (fact for relation in state.facts for fact in _not_alone(state, relation))
+    yield from (AddRelation(*fact) for fact in related)
+    for property_, table in state.stored.items():
+        entries = [(individual, value) for individual, value in table.items() if value is not None]
+        term = state.vocabulary.properties[property_]
+        owners = {state.classes.get(individual): (individual, value) for individual, value in entries}
+        yield from (SetProperty(one, property_, value) for one, value in (*owners.values(), *_extremes(entries, term)))
+
+
+def _of_each_kind(state: WorldState, relation: str) -> Iterator[Fact]:
+    """Yield a fact as it was written for each pair of classes that it is between."""
+    of = state.classes.get
+    kinds = {(of(start), of(end), start == end): (start, end) for start, end in state.asserted[relation].pairs()}
+    yield from ((start, relation, end) for start, end in kinds.values())
+
+
+def _not_alone(state: WorldState, relation: str) -> Iterator[Fact]:
+    """Yield the facts, as they were written, beside which another one may not hold by the axioms of a relation."""
+    term, facts = state.vocabulary.relations[relation], state.facts[relation]
+    suspects: list[tuple[str, str]] = []
+    if term.functional:
+        suspects += ((one, each) for one, objects in facts.forward.items() if len(objects) > 1 for each in objects)
+    if term.inverse_functional:
+        suspects += ((each, one) for one, subjects in facts.backward.items() if len(subjects) > 1 for each in subjects)
+    if term.asymmetric:
+        suspects += ((start, end) for start, end in facts.pairs() if end in facts.backward.get(start))
+    for start, end in suspects:
+        yield from written_facts(state, start, relation, end)
+
+
+def _extremes(entries: _Entries, term: PropertyTerm) -> _Entries:
+    """Return entries with all values that matter: bounds are intervals, and where no texts are listed any will do."""
+    kinds = set(map(type, map(itemgetter(1), entries)))
+    if kinds == {float} and isfinite(sum(map(cast("Callable[[object], float]", itemgetter(1)), entries))):
+        return [min(entries, key=itemgetter(1)), max(entries, key=itemgetter(1))]
+    if kinds == {str}:
+        return list({value: (one, value) for one, value in entries}.values()) if term.values else entries[:1]
+    return entries

@@ -1,0 +1,208 @@
+"""Immutable versions of what is known of the world, indexed so that a check is a few dictionary probes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from typing import assert_never
+
+from skillc_compiler.library.vocabulary import THING, Vocabulary
+from skillc_runtime.world.state.axioms import Axioms
+from skillc_runtime.world.state.changes import (
+    AddIndividual,
+    AddRelation,
+    Change,
+    ClearProperty,
+    RemoveIndividual,
+    RemoveRelation,
+    SetProperty,
+)
+from skillc_runtime.world.state.closure import Closure
+from skillc_runtime.world.state.links import NONE, Links
+from skillc_runtime.world.state.members import Members
+from skillc_runtime.world.state.table import Table
+from skillc_runtime.world.state.values import Value, has
+
+
+@dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
+class WorldState:
+    """Individuals with their classes, relations and properties; closed world, unique names.
+
+    `asserted` holds the relations as they were written, `facts` also what follows from them: sub-relations, inverses,
+    symmetry, transitivity. Computed relations have no entries: `holds` and its like ask what computes them.
+    `direct` holds the classes as they were written, `classes` their superclasses too. Versions share all that did not
+    change.
+    """
+
+    vocabulary: Vocabulary
+    axioms: Axioms
+    direct: Table[str, frozenset[str]]
+    classes: Table[str, frozenset[str]]
+    members: dict[str, Members]
+    asserted: dict[str, Links]
+    facts: dict[str, Links]
+    stored: dict[str, Table[str, Value | None]]
+
+    @staticmethod
+    def empty(vocabulary: Vocabulary) -> WorldState:
+        """Return a world without individuals."""
+        links = {iri: Links.empty() for iri in vocabulary.relations}
+        stored: dict[str, Table[str, Value | None]] = {iri: Table(None) for iri in vocabulary.properties}
+        return WorldState(vocabulary, Axioms(vocabulary), Table(NONE), Table(NONE), {}, links, dict(links), stored)
+
+    @property
+    def individuals(self) -> frozenset[str]:
+        """All individuals."""
+        return self.instances(THING)
+
+    def exists(self, individual: str) -> bool:
+        """Whether there is such an individual."""
+        return bool(self.direct.get(individual))
+
+    def types(self, individual: str) -> frozenset[str]:
+        """Return the classes an individual was declared to be of, without their superclasses."""
+        return self.direct.get(individual)
+
+    def is_a(self, individual: str, cls: str) -> bool:
+        """Whether the individual is of the class or of a subclass."""
+        return cls in self.classes.get(individual)
+
+    def instances(self, cls: str) -> frozenset[str]:
+        """Return all individuals of a class and its subclasses."""
+        return self.members[cls].all() if cls in self.members else NONE
+
+    def holds(self, subject: str, relation: str, object_: str) -> bool:
+        """Whether the relation holds; KeyError for one the vocabulary lacks."""
+        computed = self.axioms.computed
+        if relation in computed:
+            return computed[relation].holds(self, subject, object_)
+        return object_ in self.facts[relation].forward.get(subject)
+
+    def objects(self, subject: str, relation: str) -> frozenset[str]:
+        """Return all that the subject has the relation to."""
+        computed = self.axioms.computed
+        if relation in computed:
+            return computed[relation].objects(self, subject)
+        return self.facts[relation].forward.get(subject)
+
+    def subjects(self, relation: str, object_: str) -> frozenset[str]:
+        """Return all that have the relation to the object."""
+        computed = self.axioms.computed
+        if relation in computed:
+            return computed[relation].subjects(self, object_)
+        return self.facts[relation].backward.get(object_)
+
+    def pairs(self, relation: str) -> Iterator[tuple[str, str]]:
+        """Yield every pair of which the relation holds, in no particular order."""
+        computed = self.axioms.computed
+        if relation in computed:
+            return computed[relation].pairs(self)
+        return self.facts[relation].pairs()
+
+    def value(self, individual: str, property_: str) -> Value | None:
+        """Return the stored value, None when missing; a tuple of all values for a property that is not functional."""
+        return self.stored[property_].get(individual)
+
+    def having(self, property_: str, value: Value) -> tuple[str, ...]:
+        """Return the individuals whose stored property has the value, sorted by IRI."""
+        return tuple(sorted(individual for individual, found in self.stored[property_].items() if has(found, value)))
+
+    def changed(self, changes: Iterable[Change]) -> WorldState:
+        """Return the next version with the changes made in order, unchecked (WorldModel.commit checks them).
+
+        A functional relation loses the former value, an inverse functional one the former holder.
+        """
+        builder = WorldStateBuilder(self)
+        for change in changes:
+            builder.make(change)
+        return builder.build()
+
+
+class WorldStateBuilder:
+    """The next version while changes are made to it: copies only what is written."""
+
+    def __init__(self, state: WorldState) -> None:
+        self._state = state
+        self._closure = Closure(state.axioms, state.asserted, state.facts)
+        self._direct: dict[str, frozenset[str]] = {}
+        self._classes: dict[str, frozenset[str]] = {}
+        self._members: dict[str, dict[str, bool]] = {}
+        self._values: dict[str, dict[str, Value | None]] = {}
+
+    def make(self, change: Change) -> None:
+        """Make one change, unchecked."""
+        match change:
+            case AddRelation(subject, relation, object_):
+                self._add_relation(subject, relation, object_)
+            case RemoveRelation(subject, relation, object_):
+                self._closure.remove(subject, relation, object_)
+            case SetProperty(individual, property_, value):
+                self._values.setdefault(property_, {})[individual] = value
+            case ClearProperty(individual, property_):
+                self._values.setdefault(property_, {})[individual] = None
+            case AddIndividual(individual, types):
+                self._classify(individual, self._types(individual) | set(types))
+            case RemoveIndividual(individual):
+                self._remove_individual(individual)
+            case _:
+                assert_never(change)
+
+    def build(self) -> WorldState:
+        """Return the finished version."""
+        state = self._state
+        asserted, facts = self._closure.frozen()
+        stored = state.stored
+        if self._values:
+            stored = {**stored, **{iri: stored[iri].updated(values) for iri, values in self._values.items()}}
+        state = replace(state, asserted=asserted, facts=facts, stored=stored)
+        if not self._direct:
+            return state
+        return replace(
+            state,
+            direct=state.direct.updated(self._direct),
+            classes=state.classes.updated(self._classes),
+            members={**state.members, **{cls: self._members_of(cls) for cls in self._members}},
+        )
+
+    def _add_relation(self, subject: str, relation: str, object_: str) -> None:
+        relations = self._state.vocabulary.relations
+        for implied, flipped in self._state.axioms.implied[relation]:
+            holder, held = (object_, subject) if flipped else (subject, object_)
+            if relations[implied].functional:
+                for former in self._closure.edges_from(holder, implied) - {held}:
+                    self._closure.remove(holder, implied, former)
+            if relations[implied].inverse_functional:
+                for former in self._closure.edges_to(implied, held) - {holder}:
+                    self._closure.remove(former, implied, held)
+        self._closure.add(subject, relation, object_)
+
+    def _types(self, individual: str) -> frozenset[str]:
+        return self._direct[individual] if individual in self._direct else self._state.types(individual)
+
+    def _classify(self, individual: str, types: frozenset[str]) -> None:
+        if individual in self._classes:
+            former = self._classes[individual]
+        else:
+            former = self._state.classes.get(individual)
+        present = self._state.axioms.superclasses(types) if types else NONE
+        for cls in former - present:
+            self._members.setdefault(cls, {})[individual] = False
+        for cls in present - former:
+            self._members.setdefault(cls, {})[individual] = True
+        self._direct[individual] = types or NONE
+        self._classes[individual] = present
+
+    def _members_of(self, cls: str) -> Members:
+        return self._state.members.get(cls, Members()).updated(self._members[cls])
+
+    def _remove_individual(self, individual: str) -> None:
+        for relation in self._state.vocabulary.relations:
+            for object_ in self._closure.edges_from(individual, relation):
+                self._closure.remove(individual, relation, object_)
+            for subject in self._closure.edges_to(relation, individual):
+                self._closure.remove(subject, relation, individual)
+        for property_, table in self._state.stored.items():
+            written = self._values.get(property_, {})
+            if individual in written or table.get(individual) is not None:
+                self._values.setdefault(property_, {})[individual] = None
+        self._classify(individual, NONE)
