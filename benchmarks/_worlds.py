@@ -16,10 +16,10 @@ from typing import TypeVar
 
 import pyoxigraph as ox
 
+from skillc.services import libraries
 from skillc_compiler.library.conditions import Condition, HasProperty, Holds, IsA, Variable
 from skillc_compiler.library.skills import Parameter, Requirement
 from skillc_compiler.library.vocabulary import ClassType, Position
-from skillc_runtime.commands import _library
 from skillc_runtime.world.changes import AddIndividual, AddRelation, SetProperty
 from skillc_runtime.world.conditions import compile_condition
 from skillc_runtime.world.documents import Document
@@ -70,7 +70,7 @@ def scene(objects: int) -> Iterator[str]:
 
 def measured(objects: int) -> dict[str, float]:
     """Return what was measured, by name with its unit; processor time, the best of several where it is short."""
-    vocabulary = _library.vocabulary()
+    vocabulary = libraries.vocabulary()
     load_sheets(vocabulary)
     with TemporaryDirectory() as folder:
         path = Path(folder, "scene.ttl")

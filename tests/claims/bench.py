@@ -9,10 +9,11 @@ from pathlib import Path
 
 from msgspec import structs
 
+from skillc.services import libraries
+from skillc.services.library_files import find_library
 from skillc_compiler.goals import parse_call, parse_goal
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, prepare
-from skillc_runtime.commands import _library
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Primitive, Status
 from skillc_runtime.robots.watchdog import Watchdog
@@ -43,7 +44,7 @@ RPARTS = "http://www.inf.ufrgs.br/phi-group/ontologies/RParts.owl#"
 
 @cache
 def library() -> SkillLibrary:
-    outcome = _library.compile_library(_library.find(Path(__file__).with_name("bench.skill")))
+    outcome = libraries.compile_library(find_library(Path(__file__).with_name("bench.skill")))
     assert outcome.ok, outcome.diagnostics
     return outcome.value
 

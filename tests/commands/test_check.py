@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
+from skillc.cli.main import skillc
 from skillc_compiler.families import REST, family
 from skillc_compiler.manual import pages
-from skillc_runtime.commands.main import skillc
 
 SKILL = """use skiros
 import "terms.skill"

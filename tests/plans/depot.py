@@ -7,11 +7,12 @@ from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
+from skillc.services import libraries
+from skillc.services.library_files import find_library
 from skillc_compiler.goals import parse_goal
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare
-from skillc_runtime.commands import _library
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.robots.watchdog import Watchdog
 from skillc_runtime.task import Execution, execute
@@ -27,7 +28,7 @@ AT, CONTAIN = SKIROS + "at", SKIROS + "contain"
 
 @cache
 def library() -> SkillLibrary:
-    outcome = _library.compile_library(_library.find(Path(__file__).with_name("depot.skill")))
+    outcome = libraries.compile_library(find_library(Path(__file__).with_name("depot.skill")))
     assert outcome.ok, outcome.diagnostics
     return outcome.value
 

@@ -8,10 +8,11 @@ from functools import cache
 
 import numpy as np
 
+from skillc.services import libraries
+from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, prepare
-from skillc_runtime.commands import _library
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.task import Execution, execute
@@ -46,7 +47,7 @@ class Outcome:
 
 @cache
 def library() -> SkillLibrary:
-    outcome = _library.compile_library(_library.find(_library.SHIPPED / "contact"))
+    outcome = libraries.compile_library(find_library(SHIPPED / "contact"))
     assert outcome.diagnostics == ()
     return outcome.value
 

@@ -8,11 +8,12 @@ from functools import cache
 
 import pytest
 
+from skillc.services import libraries
+from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.goals import parse_call
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, prepare
-from skillc_runtime.commands import _library
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.simulation.facts import SceneFacts
@@ -45,7 +46,7 @@ Reality = Callable[[SceneFacts, int], Variation]
 
 @cache
 def library() -> SkillLibrary:
-    outcome = _library.compile_library(_library.find(_library.SHIPPED / "wiping"))
+    outcome = libraries.compile_library(find_library(SHIPPED / "wiping"))
     assert outcome.ok
     return outcome.value
 

@@ -1,0 +1,67 @@
+"""Pages of the manual of diagnostics, for the terminal and as JSON."""
+
+from __future__ import annotations
+
+import sys
+import textwrap
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict
+
+import click
+
+from skillc.cli.console import has_colours, page_width
+from skillc_compiler.families import by_family, family
+from skillc_compiler.manual import Page
+
+_WIDEST = 100
+"""Cells of a line of prose that is read with ease."""
+
+
+def format_page(shown: Page) -> str:
+    """Return a page as text, in colours if the terminal has some."""
+    lines = [f"{_styled(shown.name, fg='cyan')}: {shown.title}", f"family: {family(shown.name)}", ""]
+    for paragraph in filter(None, shown.prose.split("\n\n")):
+        lines += [*_paragraph(paragraph), ""]
+    lines += [_styled("Bad", fg="red"), "", *_indented(shown.bad), ""]
+    lines += [_styled("Good", fg="green"), "", *_indented(shown.good)]
+    return "".join(f"{line}\n" for line in lines)
+
+
+def format_contents(pages: Mapping[str, Page]) -> str:
+    """Return the names and titles of all pages by family."""
+    widest = max(len(name) for name in pages)
+    lines: list[str] = []
+    for title, names in by_family(pages).items():
+        lines.append(_styled(title, fg="cyan"))
+        for name in names:
+            first, *rest = textwrap.wrap(pages[name].title, max(_width() - widest - 4, 24))
+            lines.append(f"  {name:{widest}}  {first}")
+            lines += (f"  {'':{widest}}  {line}" for line in rest)
+        lines.append("")
+    return "".join(f"{line}\n" for line in (*lines, "skillc explain NAME shows a page with examples."))
+
+
+def page_data(shown: Page) -> dict[str, str]:
+    """Return the fields of a page."""
+    return {**asdict(shown), "family": family(shown.name)}
+
+
+def _paragraph(text: str) -> Iterator[str]:
+    """Yield a paragraph in lines of the page's width; what is indented or a list stays as it is."""
+    lines = text.split("\n")
+    if any(line.startswith((" ", "- ", "* ", "|")) for line in lines):
+        yield from lines
+    else:
+        yield from textwrap.wrap(" ".join(lines), _width(), break_long_words=False, break_on_hyphens=False)
+
+
+def _indented(program: str) -> list[str]:
+    return [f"    {line}".rstrip() for line in program.rstrip("\n").split("\n")]
+
+
+def _width() -> int:
+    return min(page_width(sys.stdout) or _WIDEST, _WIDEST)
+
+
+def _styled(text: str, *, fg: str) -> str:
+    return click.style(text, fg=fg, bold=True) if has_colours(sys.stdout) else text
