@@ -11,7 +11,7 @@ from msgspec import structs
 
 from skillc.services import libraries
 from skillc.services.library_files import find_library
-from skillc_compiler.goals import parse_call, parse_goal
+from skillc_compiler.goals.parsing import parse_call, parse_goal
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, prepare
 from skillc_runtime.motion.pose import Pose

@@ -3,7 +3,7 @@
 import pytest
 from shipped import library, shelf, vocabulary
 
-from skillc_compiler.goals import parse_call, parse_goal
+from skillc_compiler.goals.parsing import parse_call, parse_goal
 from skillc_compiler.library.conditions import And, Condition, Exists, Forall, Individual, Literal
 from skillc_compiler.library.vocabulary import Position
 from skillc_compiler.pipeline import compile

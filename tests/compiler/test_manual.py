@@ -12,7 +12,7 @@ from shipped import shelf, vocabulary
 
 from skillc.services import library_checks
 from skillc.services.library_files import find_library
-from skillc_compiler.goals import parse_goal
+from skillc_compiler.goals.parsing import parse_goal
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.manual import Page, foresight, of_module, pages, vocabularies
 from skillc_compiler.pipeline import compile

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from skillc.services import libraries
 from skillc.services.library_files import find_library
-from skillc_compiler.goals import parse_goal
+from skillc_compiler.goals.parsing import parse_goal
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_runtime.assignment import Assignment, Prepared, Reach, prepare

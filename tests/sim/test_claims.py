@@ -10,7 +10,7 @@ import pytest
 
 from skillc.services import libraries
 from skillc.services.library_files import SHIPPED, find_library
-from skillc_compiler.goals import parse_call
+from skillc_compiler.goals.parsing import parse_call
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.assignment import Assignment, Perform, Prepared, Reach, prepare

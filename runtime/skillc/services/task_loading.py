@@ -14,7 +14,7 @@ from skillc.services.libraries import compile_valid, find_task, split_reference
 from skillc.services.library_files import SHIPPED, find_library, find_scene
 from skillc.services.reporting import Reporter
 from skillc.services.stores import NO_STORE, StoreChoice, open_world
-from skillc_compiler.goals import parse_call, parse_goal
+from skillc_compiler.goals.parsing import parse_call, parse_goal
 from skillc_compiler.library.skills import SkillLibrary, Task
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source

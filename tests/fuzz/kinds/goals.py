@@ -10,7 +10,7 @@ from random import Random
 from fuzz.kinds._texts import make_text
 from skillc.services import libraries, task_scenes
 from skillc.services.library_files import SHIPPED, find_library
-from skillc_compiler.goals import parse_goal
+from skillc_compiler.goals.parsing import parse_goal
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import SkillLibrary

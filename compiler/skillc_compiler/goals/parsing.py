@@ -8,10 +8,10 @@ from typing import TypeVar
 
 import msgspec
 
-from skillc_compiler.asking.pddl_text import COMPARING, Group, PddlGoalError, Word, goal, read_group
-from skillc_compiler.asking.setting import setting
-from skillc_compiler.asking.slips import EXAMPLES, Asked, slips, told_plainly
 from skillc_compiler.checks import check
+from skillc_compiler.goals.context import make_context
+from skillc_compiler.goals.mistakes import EXAMPLES, Asked, find_mistakes, reword
+from skillc_compiler.goals.pddl_text import COMPARING, Group, PddlGoalError, Word, goal, read_group
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.reading import is_deeper
@@ -41,24 +41,24 @@ BETWEEN = frozenset(("==", "!=", "<", "<=", ">", ">=", "is", "has"))
 def parse_goal(
     text: str, vocabulary: Vocabulary, individuals: Individuals, prefixes: Mapping[str, str] | None = None
 ) -> Outcome[Condition | None]:
-    """Understand a goal such as `lab:Board.isClean == true` or `(skiros:contain lab:Box-1 lab:Part-1)`.
+    """Parse a goal such as `lab:Board.isClean == true` or `(skiros:contain lab:Box-1 lab:Part-1)`.
 
     `individuals` are the IRIs of the scene with their classes, `prefixes` those its file declares. The value is None
     if there are errors; spans count in `text`, under the path `goal`.
     """
-    return _bounded(lambda: _goal(text, setting(vocabulary, individuals, prefixes or {})), text, "goal")
+    return _bounded(lambda: _goal(text, make_context(vocabulary, individuals, prefixes or {})), text, "goal")
 
 
 def parse_call(
     text: str, library: SkillLibrary, individuals: Individuals, prefixes: Mapping[str, str] | None = None
 ) -> Outcome[tree.Call | None]:
-    """Understand a call such as `Wipe(surface: lab:Board)`; as `parse_goal`, with the path `call`."""
-    asked = setting(library.vocabulary, individuals, prefixes or {}, library.skills)
+    """Parse a call such as `Wipe(surface: lab:Board)`; as `parse_goal`, with the path `call`."""
+    asked = make_context(library.vocabulary, individuals, prefixes or {}, library.skills)
     return _bounded(lambda: _call(text, asked), text, "call")
 
 
 def _bounded(understand: Callable[[], Outcome[T]], text: str, what: Asked) -> Outcome[T | None]:
-    """Understand a text unless it is longer, or nested deeper, than anybody would write it."""
+    """Parse a text unless it is longer, or nested deeper, than anybody would write it."""
     if len(text) > LONGEST:
         return _refused(what, f"the {what} has {len(text)} characters, and {LONGEST} at most are read")
     try:
@@ -75,33 +75,33 @@ def _refused(what: Asked, message: str) -> Outcome[None]:
 
 
 def _goal(text: str, asked: Setting) -> Outcome[Condition | None]:
-    wrong = _slips(asked, text, "goal")
+    wrong = _mistakes(asked, text, "goal")
     if wrong:
         return Outcome(None, wrong)
     group = read_group(text, "goal")
     if group is not None and _is_pddl(group, asked.names):
-        understood = _understood(asked, _from_pddl(group, text, asked.names))
+        resolved = _resolve(asked, _from_pddl(group, text, asked.names))
     else:
-        understood = _in_text(_understood(asked, _wrapped(text, "goal")), text, "goal")
-    reached = understood.value.goal if understood.value else None
-    return Outcome(fold_condition(reached.meaning) if reached else None, understood.diagnostics)
+        resolved = _in_text(_resolve(asked, _wrapped(text, "goal")), text, "goal")
+    reached = resolved.value.goal if resolved.value else None
+    return Outcome(fold_condition(reached.meaning) if reached else None, resolved.diagnostics)
 
 
 def _call(text: str, asked: Setting) -> Outcome[tree.Call | None]:
-    wrong = _slips(asked, text, "call")
+    wrong = _mistakes(asked, text, "call")
     if wrong:
         return Outcome(None, wrong)
-    understood = _in_text(_understood(asked, _wrapped(text, "call")), text, "call")
-    called = node(understood.value.body) if understood.value and understood.value.body else None
+    resolved = _in_text(_resolve(asked, _wrapped(text, "call")), text, "call")
+    called = node(resolved.value.body) if resolved.value and resolved.value.body else None
     if not isinstance(called, tree.Call):
-        return Outcome(None, understood.diagnostics)
-    return Outcome(msgspec.structs.replace(called, source=Position("call", 1, 1)), understood.diagnostics)
+        return Outcome(None, resolved.diagnostics)
+    return Outcome(msgspec.structs.replace(called, source=Position("call", 1, 1)), resolved.diagnostics)
 
 
-def _slips(asked: Setting, text: str, what: Asked) -> tuple[Diagnostic, ...]:
+def _mistakes(asked: Setting, text: str, what: Asked) -> tuple[Diagnostic, ...]:
     names = asked.names
     written = (names.short(iri) for iri in asked.individuals or ())
-    return slips(text, what, written, lambda word: any(names.is_term(kind, word) for kind in KINDS))
+    return find_mistakes(text, what, written, lambda word: any(names.is_term(kind, word) for kind in KINDS))
 
 
 def _is_pddl(group: Group, names: Names) -> bool:
@@ -135,8 +135,10 @@ def _wrapped(text: str, what: Asked) -> Outcome[s.TaskDeclaration | None]:
     member = "goal" if what == "goal" else "do"
     parsed = parse(Source(what, f"task {what} {{\n{member}\n{text}\n}}\n"))
     if parsed.diagnostics:
-        told = ((problem, *told_plainly(problem, what)) for problem in parsed.diagnostics)
-        return Outcome(None, tuple(replace(problem, message=message, help=help_) for problem, message, help_ in told))
+        reworded = ((problem, *reword(problem, what)) for problem in parsed.diagnostics)
+        return Outcome(
+            None, tuple(replace(problem, message=message, help=help_) for problem, message, help_ in reworded)
+        )
     match parsed.value:
         case s.File(header=(), declarations=[s.TaskDeclaration(scene=None) as alone]):
             is_goal = alone.goal is not None and alone.body is None
@@ -147,13 +149,13 @@ def _wrapped(text: str, what: Asked) -> Outcome[s.TaskDeclaration | None]:
     return Outcome(None, (Diagnostic("syntax", span, f"this is not one {what}", EXAMPLES[what]),))
 
 
-def _understood(asked: Setting, written: Outcome[s.TaskDeclaration | None]) -> Outcome[Task | None]:
+def _resolve(asked: Setting, written: Outcome[s.TaskDeclaration | None]) -> Outcome[Task | None]:
     """Resolve and check; the value is None if there are errors."""
     if written.value is None:
         return Outcome(None, written.diagnostics)
-    understood = task(asked, written.value)
-    program = Program("", asked.vocabulary, (), {}, (), (understood,), {})
-    outcome: Outcome[Task | None] = Outcome(understood, (*asked.names.problems, *check(program)))
+    resolved = task(asked, written.value)
+    program = Program("", asked.vocabulary, (), {}, (), (resolved,), {})
+    outcome: Outcome[Task | None] = Outcome(resolved, (*asked.names.problems, *check(program)))
     return outcome if outcome.ok else Outcome(None, outcome.diagnostics)
 
 

@@ -1,4 +1,4 @@
-"""The setting in which a goal or a call is understood: all vocabularies, a library's skills, a scene's individuals."""
+"""What names in a goal or a call can refer to: all vocabularies, a library's skills, a scene's individuals."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from skillc_compiler.types import Type, of_library
 from skillc_dsl.source import Span
 
 
-def setting(
+def make_context(
     vocabulary: Vocabulary,
     individuals: Individuals,
     prefixes: Mapping[str, str],
     skills: Mapping[str, library.Skill] | None = None,
 ) -> Setting:
-    """Return the setting: every term may be written bare where that is unambiguous.
+    """Return the context in which a goal is resolved: every term may be written bare where that is unambiguous.
 
     `individuals` are the IRIs known, with their classes; `prefixes` may be written besides the vocabulary's.
     """
-    understood = {name: _skill(skill) for name, skill in (skills or {}).items()}
+    callees = {name: _skill(skill) for name, skill in (skills or {}).items()}
     names = Names(
         bare=bare_terms(vocabulary, vocabulary.prefixes),
         known={
@@ -36,20 +36,20 @@ def setting(
         vocabulary=vocabulary,
         prefixes={**prefixes, **vocabulary.prefixes},
         functions=vocabulary.functions,
-        skills=set(understood),
+        skills=set(callees),
         elsewhere={},
     )
     return Setting(
         names=names,
         vocabulary=vocabulary,
-        skills=understood,
+        skills=callees,
         implementations={name: skill.implementations for name, skill in (skills or {}).items()},
         individuals=narrowest(vocabulary, individuals),
     )
 
 
 def _skill(skill: library.Skill) -> Skill:
-    """Return a compiled skill as the callee that calls are understood against."""
+    """Return a compiled skill as the callee that calls are resolved against."""
     return Skill(
         name=skill.name,
         doc=skill.doc,

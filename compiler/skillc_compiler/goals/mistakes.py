@@ -1,4 +1,4 @@
-"""Slips in a goal or call, found in its text before it is parsed, so that it is not taken for something else."""
+"""Mistakes in a goal or call that are found in its text before it is parsed, which would take it for something else."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _BARE = re.compile(r"(?<![\w:.?\"-])[A-Za-z]\w*(?:-\w+)*(?![\w:(\"-])")
 _DECLARED = re.compile(r"([A-Za-z]\w*)\s*:\s")
 
 
-def slips(
+def find_mistakes(
     text: str, what: Asked, individuals: Iterable[str], means_something: Callable[[str], bool]
 ) -> tuple[Diagnostic, ...]:
     """Return what is wrong: nothing is written, a parenthesis lacks its other half, or an individual its prefix.
@@ -34,7 +34,7 @@ def slips(
     return tuple(_parentheses(lines, what)) or tuple(_prefixes(lines, what, sorted(individuals), means_something))
 
 
-def told_plainly(problem: Diagnostic, what: Asked) -> tuple[str, str]:
+def reword(problem: Diagnostic, what: Asked) -> tuple[str, str]:
     """Return message and help of a syntax error in words of goals and calls, not of the task that was put round it."""
     found, _, expected = problem.message.partition(": expected ")
     if "a member of a task" in expected or "`}`" in expected:
@@ -52,7 +52,7 @@ def _parentheses(lines: list[str], what: Asked) -> Iterator[Diagnostic]:
             elif opened:
                 opened.pop()
             else:
-                yield Diagnostic("syntax", span, "this `)` closes nothing", "take it away, or add the `(` before it")
+                yield Diagnostic("syntax", span, "this `)` closes nothing", "remove it, or add the `(` before it")
     for span in opened:
         yield Diagnostic("syntax", span, "this `(` is not closed: a `)` is missing", "add `)` where it ends")
 
