@@ -16,10 +16,10 @@ from typing import TypeVar
 
 import pyoxigraph as ox
 
+from skillc.services import libraries
 from skillc_compiler.library.conditions import Condition, HasProperty, Holds, IsA, Variable
 from skillc_compiler.library.skills import Parameter, Requirement
 from skillc_compiler.library.vocabulary import ClassType, Position
-from skillc_runtime.commands import _library
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import load_scene, load_sheets, scene_of, sheet_documents
 from skillc_runtime.scene.saving import save
@@ -70,7 +70,7 @@ def scene(objects: int) -> Iterator[str]:
 
 def measured(objects: int) -> dict[str, float]:
     """Return what was measured, by name with its unit; processor time, the best of several where it is short."""
-    vocabulary = _library.vocabulary()
+    vocabulary = libraries.vocabulary()
     load_sheets(vocabulary)
     with TemporaryDirectory() as folder:
         path = Path(folder, "scene.ttl")

@@ -19,6 +19,8 @@ from pathlib import Path
 from time import process_time
 from typing import TypeVar
 
+from skillc.services.libraries import vocabulary
+from skillc.services.library_files import SHIPPED
 from skillc_compiler.checks import checks
 from skillc_compiler.lower.library import lower
 from skillc_compiler.pipeline import compile
@@ -26,7 +28,6 @@ from skillc_compiler.resolve.files import read
 from skillc_compiler.resolve.program import resolve
 from skillc_dsl.parsing.grammar import load_parser
 from skillc_dsl.source import Source
-from skillc_runtime.commands._library import SHIPPED, vocabulary
 
 Result = TypeVar("Result")
 ROUNDS = 5
@@ -86,7 +87,7 @@ def _processes(sources: Sequence[Source]) -> Iterator[tuple[str, float]]:
         for source in sources:
             (library / source.path).write_text(source.text, encoding="utf-8")
         os.environ["XDG_CACHE_HOME"] = str(Path(folder, "cache"))
-        check = [sys.executable, "-c", "from skillc_runtime.commands.main import main; main()", "check", str(library)]
+        check = [sys.executable, "-c", "from skillc.cli.main import main; main()", "check", str(library)]
         shipped = [*check[:-1], "wiping"]
         bare = [sys.executable, "-c", "import click"]
         _process(check), _process(shipped)

@@ -13,10 +13,11 @@ from time import perf_counter
 import mujoco
 import numpy as np
 
+from skillc.services import libraries
+from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _library
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.motion.path import path
@@ -117,7 +118,7 @@ def whole(library_name: str, task: str) -> tuple[float, float]:
 
     The tree, records and the world model are included; planning and preparing are not.
     """
-    library = _library.compile_library(_library.find(_library.SHIPPED / library_name)).value
+    library = libraries.compile_library(find_library(SHIPPED / library_name)).value
     goal, scene = library.tasks[task].goal, library.tasks[task].scene
     assert goal is not None
     assert scene is not None

@@ -17,12 +17,12 @@ from time import process_time
 
 from compile import generated
 
+from skillc.lsp import problems
+from skillc.lsp.libraries import Libraries
 from skillc_compiler.ide import highlighting
 from skillc_compiler.ide.completion import complete
 from skillc_compiler.ide.hover import hover
 from skillc_dsl.parsing.grammar import load_parser
-from skillc_runtime.commands._server import problems
-from skillc_runtime.commands._server.libraries import Libraries
 
 EDITS = 15
 _HEADER = re.compile(r"^(use|import) .*\n", re.MULTILINE)

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from functools import partial
 from time import perf_counter
 
+from skillc.services import libraries
+from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.library import codec
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _library
 from skillc_runtime.evaluation.trials.experiment import Experiment, TrialRunner
 from skillc_runtime.evaluation.trials.workers import run_all
 
@@ -31,7 +32,7 @@ class Series:
 
 def experiment(task: str) -> Experiment:
     """Return what is tried: a task in its own scene, undisturbed."""
-    library = _library.compile_library(_library.find(_library.SHIPPED / "contact")).value
+    library = libraries.compile_library(find_library(SHIPPED / "contact")).value
     scene = library.tasks[task].scene
     assert scene is not None
     return Experiment(codec.dumps(library), task, catalogue.scene(scene), "none")

@@ -9,9 +9,10 @@ from pathlib import Path
 
 from msgspec import structs
 
-from skillc_compiler.goals import parse_call, parse_goal
+from skillc.services import libraries
+from skillc.services.library_files import find_library
+from skillc_compiler.goals.parsing import parse_call, parse_goal
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.commands import _library
 from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task
@@ -43,7 +44,7 @@ RPARTS = "http://www.inf.ufrgs.br/phi-group/ontologies/RParts.owl#"
 
 @cache
 def library() -> SkillLibrary:
-    outcome = _library.compile_library(_library.find(Path(__file__).with_name("bench.skill")))
+    outcome = libraries.compile_library(find_library(Path(__file__).with_name("bench.skill")))
     assert outcome.ok, outcome.diagnostics
     return outcome.value
 

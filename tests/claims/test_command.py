@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from skillc_runtime.commands import main
+from skillc.cli import main
 
 LIBRARY = """
 use skiros

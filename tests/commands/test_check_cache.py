@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from skillc_dsl.keeping import keep, kept
+from skillc.cli.main import skillc
+from skillc.services import check_cache, library_checks
+from skillc_dsl.cache import load, store
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _checking, _digests
-from skillc_runtime.commands.main import skillc
 
 HEAVY = ("lark", "rich", "pyoxigraph", "rdflib", "numpy", "mujoco", "jinja2", "skillc_compiler.pipeline")
 TASK = """
@@ -40,10 +40,10 @@ impl looking of Look { run python "lab_primitives.look:Look" }
 
 @pytest.fixture
 def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a folder for this test's verdicts, which nothing but the library and what it names invalidates."""
+    """Return the folder of this test's cache, which nothing but the library and what it names invalidates."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.setattr(_digests, "installation", lambda: ("this one",))
-    return tmp_path / "cache" / "skillc" / "verdicts"
+    monkeypatch.setattr(check_cache, "installation", lambda: ("this one",))
+    return tmp_path / "cache" / "skillc" / "checks"
 
 
 @pytest.fixture
@@ -102,7 +102,7 @@ def test_whatever_changes_is_seen(library: Path, own: Path, change: Callable[[Pa
 def test_what_has_not_changed_is_not_checked_again(library: Path, own: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     before = check(library)
     assert len(list(own.iterdir())) == 1
-    monkeypatch.setattr(_checking, "check", lambda *_: pytest.fail("checked again"))
+    monkeypatch.setattr(library_checks, "check_library", lambda *_: pytest.fail("checked again"))
     assert check(library) == before
 
 
@@ -112,12 +112,12 @@ def test_nothing_is_remembered_without_the_cache(library: Path, own: Path) -> No
 
 
 @pytest.mark.parametrize("damage", [b"", b"short", b"x" * 200])
-def test_a_damaged_verdict_is_none(library: Path, own: Path, damage: bytes) -> None:
+def test_a_damaged_entry_is_none(library: Path, own: Path, damage: bytes) -> None:
     before = check(library)
-    (verdict,) = own.iterdir()
-    verdict.write_bytes(damage)
+    (entry,) = own.iterdir()
+    entry.write_bytes(damage)
     assert check(library) == before
-    assert verdict.read_bytes() != damage
+    assert entry.read_bytes() != damage
 
 
 @pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="everything is writable for root")
@@ -136,7 +136,7 @@ def test_a_cache_that_is_no_folder_only_costs_time(library: Path, own: Path) -> 
 def test_writers_and_readers_at_once_see_all_or_nothing(tmp_path: Path) -> None:
     path, bodies = tmp_path / "x", [bytes([number]) * 50_000 for number in range(8)]
     with ThreadPoolExecutor(8) as pool:
-        seen = [found for turn in range(20) for found in pool.map(lambda body: keep(path, body) or kept(path), bodies)]
+        seen = [found for turn in range(20) for found in pool.map(lambda body: store(path, body) or load(path), bodies)]
     assert len(seen) == 160
     assert all(found in bodies for found in seen)
     assert [file.name for file in tmp_path.iterdir()] == ["x"]
@@ -149,22 +149,22 @@ def test_another_state_of_the_installation_is_another_digest(tmp_path: Path, mon
     module = package / "inner" / "module.py"
     module.write_text("a = 1\n", encoding="utf-8")
     monkeypatch.syspath_prepend(str(tmp_path))
-    monkeypatch.setattr(_digests, "PACKAGES", ("some_package",))
-    states = [tuple(_digests.installation())]
-    assert tuple(_digests.installation()) == states[0]
+    monkeypatch.setattr(check_cache, "PACKAGES", ("some_package",))
+    states = [tuple(check_cache.installation())]
+    assert tuple(check_cache.installation()) == states[0]
     module.write_text("a = 12\n", encoding="utf-8")
-    states.append(tuple(_digests.installation()))
+    states.append(tuple(check_cache.installation()))
     (package / "inner" / "added.py").touch()
-    states.append(tuple(_digests.installation()))
+    states.append(tuple(check_cache.installation()))
     (tmp_path / "another_package").mkdir()
-    states.append(tuple(_digests.installation()))
+    states.append(tuple(check_cache.installation()))
     assert len(set(states)) == 4
 
 
 def test_nothing_heavy_is_imported_for_what_is_remembered(library: Path, cache: Path) -> None:
     program = f"""
 import sys
-from skillc_runtime.commands.main import main
+from skillc.cli.main import main
 try:
     main(["check", {str(library)!r}, "--format", sys.argv[1]])
 except SystemExit:
@@ -186,13 +186,13 @@ import sys
 opened = set()
 sys.addaudithook(lambda event, arguments: opened.add(str(arguments[0])) if event == "open" else None)
 from pathlib import Path
-from skillc_runtime.commands import _checking, _digests, _files
-library = _files.find(Path({str(library)!r}))
+from skillc.services import check_cache, library_checks, library_files
+library = library_files.find_library(Path({str(library)!r}))
 opened.clear()
-_digests.digest_of(library, None)
+check_cache.digest_of(library, None)
 counted = set(opened) | set(map(str, library.places.values()))
 opened.clear()
-_checking.check(library, None)
+library_checks.check_library(library, None)
 print(*sorted(opened - counted), sep="\\n")
 print(*counted, sep="\\n", file=sys.stderr)
 """

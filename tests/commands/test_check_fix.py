@@ -10,8 +10,8 @@ from typing import NoReturn
 import pytest
 from click.testing import CliRunner, Result
 
+from skillc.cli.main import skillc
 from skillc_ontology import catalogue
-from skillc_runtime.commands.main import skillc
 
 BROKEN = """use rparts
 skill Rest {
@@ -110,15 +110,15 @@ def test_a_file_that_is_not_utf_8_is_left_alone(library: Path) -> None:
 
 
 def test_a_file_that_was_changed_meanwhile_is_left_alone(library: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from skillc_runtime.commands import _fixing
+    from skillc.services import fixing
 
-    write: Callable[[_fixing.Cured], tuple[Path, ...]] = _fixing.write
+    write: Callable[[fixing.Fixes], int] = fixing.write_fixes
 
-    def late(cured: _fixing.Cured) -> tuple[Path, ...]:
+    def late(fixes: fixing.Fixes) -> int:
         (library / "rest.skill").write_text("# new\n", encoding="utf-8")
-        return write(cured)
+        return write(fixes)
 
-    monkeypatch.setattr(_fixing, "write", late)
+    monkeypatch.setattr(fixing, "write_fixes", late)
     result = check("--fix")
     assert (result.exit_code, (library / "rest.skill").read_text("utf-8")) == (1, "# new\n")
     assert "was changed by someone else" in result.stderr

@@ -19,7 +19,7 @@ class Watcher:
 
     def __init__(self, folder: Path) -> None:
         arguments = ["check", "--watch", "--format", "concise", str(folder)]
-        main = "import sys; from skillc_runtime.commands.main import main; sys.exit(main())"
+        main = "import sys; from skillc.cli.main import main; sys.exit(main())"
         self.process = subprocess.Popen(
             [sys.executable, "-u", "-c", main, *arguments],
             stdout=subprocess.PIPE,
@@ -81,7 +81,7 @@ def test_a_folder_that_goes_and_comes_back_is_watched_on(watcher: Watcher, libra
 
 
 def test_a_path_that_does_not_exist_is_refused() -> None:
-    main = "import sys; from skillc_runtime.commands.main import main; sys.exit(main())"
+    main = "import sys; from skillc.cli.main import main; sys.exit(main())"
     ended = subprocess.run(
         [sys.executable, "-c", main, "check", "--watch", "nowhere"], capture_output=True, text=True, timeout=PATIENCE_S
     )

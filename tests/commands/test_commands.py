@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
+from skillc.cli.main import skillc
 from skillc_ontology import catalogue
-from skillc_runtime.commands.main import skillc
 
 LIBRARY = """
 use skiros, rparts

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from skillc_runtime.commands import _formatting, _library
-from skillc_runtime.commands.main import main
+from skillc.cli.main import main
+from skillc.services import formatting, libraries
 
 SKILL = 'skill Rest { noplan }\nimpl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }\n'
 COMMANDS = {
@@ -45,8 +45,8 @@ def test_a_failure_is_one_message_with_a_report(
     name: str, library: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     fail = raising(KeyError("nobody\nthought of it"))
-    monkeypatch.setattr(_library, "compile_library", fail)
-    monkeypatch.setattr(_formatting, "format_source", fail)
+    monkeypatch.setattr(libraries, "compile_library", fail)
+    monkeypatch.setattr(formatting, "format_source", fail)
     monkeypatch.setattr(sys, "argv", ["skillc", *COMMANDS[name]])
     with pytest.raises(SystemExit) as ended:
         main(COMMANDS[name])
@@ -61,7 +61,7 @@ def test_a_failure_is_one_message_with_a_report(
 
 
 def test_an_interrupt_is_no_failure(library: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(_library, "compile_library", raising(KeyboardInterrupt()))
+    monkeypatch.setattr(libraries, "compile_library", raising(KeyboardInterrupt()))
     with pytest.raises(SystemExit) as ended:
         main(COMMANDS["check"])
     assert ended.value.code == 130
@@ -70,7 +70,7 @@ def test_an_interrupt_is_no_failure(library: Path, monkeypatch: pytest.MonkeyPat
 
 def test_a_reader_that_goes_is_no_failure(library: Path) -> None:
     (library / "many.skill").write_text("".join(f"class A{n} < B{n}\n" for n in range(2000)))
-    code = "from skillc_runtime.commands.main import main; main(['check', '--no-cache', 'many.skill'])"
+    code = "from skillc.cli.main import main; main(['check', '--no-cache', 'many.skill'])"
     environment = {**os.environ, "XDG_CACHE_HOME": str(library)}
     with subprocess.Popen(
         [sys.executable, "-c", code],

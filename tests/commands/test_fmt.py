@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from skillc_runtime.commands.main import skillc
+from skillc.cli.main import skillc
 
 WILD = "## Point.\nskill  Point{in arm:  ArmDevice   # which\nnoplan}\n"
 TAME = "## Point.\nskill Point {\n    in   arm: ArmDevice  # which\n    noplan\n}\n"

@@ -9,8 +9,8 @@ import pytest
 from click.testing import CliRunner
 
 from commands.test_output import lab, skillc_in
-from skillc_runtime.commands import _mission, _running
-from skillc_runtime.commands.main import skillc
+from skillc.cli.main import skillc
+from skillc.services import running, task_loading
 
 GOAL = "lab:b contain lab:crate"
 __all__ = ["lab"]
@@ -43,7 +43,7 @@ def test_a_new_library_is_whole_or_not_there(name: str, tmp_path: Path, monkeypa
 
 def test_a_folder_that_cannot_be_made_is_told_first(lab: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (lab / "file").touch()
-    monkeypatch.setattr(_mission, "of_scene", lambda *_: pytest.fail("the mission was begun"))
+    monkeypatch.setattr(task_loading, "load_task", lambda *_: pytest.fail("the task was loaded"))
     result = skillc_in(lab, "run", GOAL, "--out", str(lab / "file" / "out"))
     assert (result.exit_code, result.stdout) == (1, "")
     assert result.stderr.startswith(f"error: cannot write to {lab / 'file' / 'out'}: ")
@@ -53,7 +53,7 @@ def test_a_folder_that_cannot_be_made_is_told_first(lab: Path, monkeypatch: pyte
 def test_a_report_that_cannot_be_written_hides_no_outcome(
     form: list[str], lab: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(_running, "write_report", full)
+    monkeypatch.setattr(running, "write_report", full)
     result = skillc_in(lab, "run", GOAL, "--out", str(lab / "out"), *form)
     assert result.exit_code == 1
     assert f"error: cannot write to {lab / 'out'}: No space left on device" in result.stderr

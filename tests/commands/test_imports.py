@@ -4,8 +4,8 @@ from pathlib import Path
 
 from click.testing import CliRunner
 
-from skillc_runtime.commands._files import SHIPPED
-from skillc_runtime.commands.main import skillc
+from skillc.cli.main import skillc
+from skillc.services.library_files import SHIPPED
 
 WORK = """
 use skillc, contact

@@ -10,10 +10,9 @@ import pytest
 from click.testing import CliRunner, Result
 from rich.status import Status
 
-from skillc_runtime.commands._live import Live
-from skillc_runtime.commands._results import show
-from skillc_runtime.commands._trialling import Told, Wanted
-from skillc_runtime.commands.main import skillc
+from skillc.cli.main import skillc
+from skillc.cli.progress import RunProgress, TrialProgress
+from skillc.cli.run_output import print_results
 from skillc_runtime.evaluation.report.result import StepResult, TaskResult
 
 LIBRARY = """use skiros
@@ -86,7 +85,7 @@ def test_a_table_of_results_has_the_text_as_it_is(text: str, capsys: pytest.Capt
         replanned=(text,),
         failure=text,
     )
-    show([result], Path(text))
+    print_results([result], Path(text))
     assert capsys.readouterr().out.count(text) >= 7
 
 
@@ -99,7 +98,7 @@ def test_progress_has_the_text_as_it_is(
     update = Status.update
     monkeypatch.setattr(Status, "update", lambda self, status: (shown.append(str(status)), update(self, status)))
     monkeypatch.setattr(sys.stderr, "isatty", lambda: terminal)
-    with Live(text, quiet=False) as live:
+    with RunProgress(text, quiet=False) as live:
         live.say(text)
     told = shown if terminal else [capsys.readouterr().err.strip()]
     assert told == [f"{text}: {text}"]
@@ -111,7 +110,7 @@ def test_the_bar_of_trials_has_the_text_as_it_is(
 ) -> None:
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     monkeypatch.setenv("TTY_COMPATIBLE", "1")
-    with Told(text, Wanted(text, "none", range(1), 1, None, False), 0):
+    with TrialProgress(text, "none", 1, 0, quiet=False):
         pass
     assert text in capsys.readouterr().err
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from skillc_runtime.commands.main import skillc
+from skillc.cli.main import skillc
 
 LONG = "x" * 300
 SKILL = 'skill Rest { noplan }\nimpl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }\n'

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from skillc_runtime.commands.main import main
+from skillc.cli.main import main
 
 SKILL = 'skill Rest { noplan }\nimpl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }\n'
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-MAIN = "from skillc_runtime.commands.main import main; main()"
+MAIN = "from skillc.cli.main import main; main()"
 FULL = "error: cannot write to the standard output: No space left on device\n"
 CLOSED = "error: cannot write to the standard output: Bad file descriptor\n"
 GOOD = 'skill Rest { noplan }\nimpl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }\n'

@@ -4,7 +4,7 @@ import msgspec
 import pytest
 from shipped import library, shelf, vocabulary
 
-from skillc_compiler.goals import parse_call, parse_goal
+from skillc_compiler.goals.parsing import parse_call, parse_goal
 from skillc_compiler.library.conditions import And, Condition, Exists, Forall, Individual, Literal
 from skillc_compiler.library.format_condition import format_condition
 from skillc_compiler.library.vocabulary import Position

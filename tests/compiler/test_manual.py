@@ -10,7 +10,9 @@ from tempfile import TemporaryDirectory
 import pytest
 from shipped import shelf, vocabulary
 
-from skillc_compiler.goals import parse_goal
+from skillc.services import library_checks
+from skillc.services.library_files import find_library
+from skillc_compiler.goals.parsing import parse_goal
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.manual import Page, page_names, pages, parse_page
 from skillc_compiler.pipeline import compile
@@ -20,19 +22,12 @@ from skillc_dsl.formatting.formatter import check_layout
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
-from skillc_runtime.commands import _checking, _files
 from skillc_runtime.scene.documents import SceneError
 from skillc_runtime.scene.load import read_scene
 
 ROOT = Path(__file__).parent.parent.parent
 GIVERS = {"Diagnostic", "report", "report_unknown", "AxiomViolation", "SceneViolation", "_problem_name"}
-PLACES = (
-    "dsl",
-    "compiler",
-    "runtime/skillc_runtime/world",
-    "runtime/skillc_runtime/scene",
-    "runtime/skillc_runtime/commands",
-)
+PLACES = ("dsl", "compiler", "runtime/skillc_runtime/world", "runtime/skillc_runtime/scene", "runtime/skillc")
 NAME = re.compile(r"[a-z]+(-[a-z]+)*")
 LAB = "http://example.org/lab#"
 SCENE = {
@@ -109,7 +104,7 @@ def in_library(text: str) -> list[str]:
     """Return the names of the problems that `skillc check` finds in a library of one file."""
     with TemporaryDirectory() as folder:
         Path(folder, "example.skill").write_text(text, "utf-8")
-        return [d.name for d in _checking.check(_files.find(Path(folder)), None)]
+        return [d.name for d in library_checks.check_library(find_library(Path(folder)), None)]
 
 
 def beside_scene(text: str) -> list[str]:
@@ -117,7 +112,7 @@ def beside_scene(text: str) -> list[str]:
     with TemporaryDirectory() as folder:
         Path(folder, "example.skill").write_text("use skiros\nclass Rag < Product\n", "utf-8")
         Path(folder, "example.ttl").write_text(text, "utf-8")
-        return [d.name for d in _checking.check(_files.find(Path(folder)), Path(folder, "example.ttl"))]
+        return [d.name for d in library_checks.check_library(find_library(Path(folder)), Path(folder, "example.ttl"))]
 
 
 @pytest.mark.parametrize("page", pages().values(), ids=lambda page: page.name)

@@ -7,11 +7,12 @@ from pathlib import Path
 
 import pytest
 
+from skillc.services import libraries
+from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler import pipeline
 from skillc_dsl.formatting.formatter import check_layout
 from skillc_dsl.rendering.concise import render
 from skillc_dsl.source import Source
-from skillc_runtime.commands import _library
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -34,8 +35,8 @@ def test_example_is_laid_out_as_the_formatter_does(text: str) -> None:
 
 @pytest.mark.parametrize("text", EXAMPLES)
 def test_example_compiles(text: str) -> None:
-    shelf = _library.find(_library.SHIPPED / "wiping")
-    neighbours = shelf.shelf | {source.path: source for source in shelf.sources}
-    outcome = pipeline.compile([Source("example.skill", text)], _library.vocabulary(), neighbours, "example")
+    shelf = find_library(SHIPPED / "wiping")
+    neighbours = shelf.importable | {source.path: source for source in shelf.sources}
+    outcome = pipeline.compile([Source("example.skill", text)], libraries.vocabulary(), neighbours, "example")
     unexpected = [each for each in outcome.diagnostics if each.name != "no-implementation"]
     assert not unexpected, render(unexpected, {})

@@ -11,9 +11,9 @@ import pytest
 from click.testing import CliRunner
 
 from docs.pages import ROOT, blocks
+from skillc.cli.main import skillc
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
-from skillc_runtime.commands.main import skillc
 from vocabularies.reading import HEAD, beside
 
 PAGE = ROOT / "docs" / "ontologies.md"

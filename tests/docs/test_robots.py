@@ -10,8 +10,8 @@ import mujoco
 import pytest
 
 from docs.pages import ROOT, Reader
+from skillc.services import libraries
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _library
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.data_sheet import Sheet
 from skillc_runtime.world.state.terms import SKILLC
@@ -22,7 +22,7 @@ CODE = ("runtime", "compiler", "dsl", "ontology")
 
 
 def test_the_table_says_what_the_sheets_say() -> None:
-    state = load_scene(catalogue.scene("iiwa_table"), _library.vocabulary())
+    state = load_scene(catalogue.scene("iiwa_table"), libraries.vocabulary())
     rows = ROW.findall(PAGE.read_text("utf-8"))
     assert {model for _, model, _, _ in rows} == {
         path.relative_to(catalogue.ROOT).as_posix()

@@ -6,7 +6,7 @@ import re
 from typing import get_args
 
 from docs.pages import ROOT
-from skillc_runtime.commands import _library
+from skillc.services import libraries
 from skillc_runtime.evaluation.trials.targets import METRICS
 from skillc_runtime.evaluation.trials.trial import Disturbance
 from skillc_runtime.world.state.terms import CONTACT, SKILLC
@@ -18,7 +18,7 @@ def test_the_properties_of_the_page_are_in_the_vocabulary() -> None:
     for prefix, namespace in (("skillc", SKILLC), ("contact", CONTACT)):
         named = set(re.findall(rf"{prefix}:(\w+)", PAGE))
         assert len(named) > 4
-        assert {namespace + name for name in named} <= _library.vocabulary().properties.keys()
+        assert {namespace + name for name in named} <= libraries.vocabulary().properties.keys()
 
 
 def test_the_page_has_every_metric_with_its_target_and_every_disturbance() -> None:

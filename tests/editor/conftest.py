@@ -13,7 +13,7 @@ from pytest_lsp import ClientServerConfig, LanguageClient, client_capabilities, 
 
 from editor.desk import Desk
 
-SERVER = [sys.executable, "-c", "from skillc_runtime.commands.main import main; main(['lsp', '--stdio'])"]
+SERVER = [sys.executable, "-c", "from skillc.cli.main import main; main(['lsp', '--stdio'])"]
 _numbers = itertools.count()
 
 

@@ -10,6 +10,9 @@ from pathlib import Path
 
 import pytest
 
+from skillc.lsp.files import importable
+from skillc.services.libraries import vocabulary
+from skillc.services.library_files import SHIPPED
 from skillc_compiler.ide import highlighting, outline
 from skillc_compiler.ide.analysis import Analysis, Library, analyse
 from skillc_compiler.ide.calls import signature
@@ -19,8 +22,6 @@ from skillc_compiler.ide.places import definition, references
 from skillc_compiler.ide.rename import rename
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
-from skillc_runtime.commands._library import SHIPPED, vocabulary
-from skillc_runtime.commands._server.files import shelf
 
 ROUNDS = int(os.environ.get("SKILLC_EDITOR_ROUNDS", "3"))
 FILES = ("wiping/wipe.skill", "wiping/tasks.skill", "std/handling.skill", "std/driving.skill")
@@ -36,7 +37,7 @@ def broken(text: str, chance: random.Random) -> str:
 
 def understood(text: str) -> Analysis:
     """Analyse a text as the only file of a library."""
-    return analyse(Library("l", {"a.skill": Source("a.skill", text)}, shelf(), vocabulary()), remembered)
+    return analyse(Library("l", {"a.skill": Source("a.skill", text)}, importable(), vocabulary()), remembered)
 
 
 @pytest.mark.parametrize("name", FILES)

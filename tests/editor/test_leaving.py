@@ -39,7 +39,7 @@ def test_an_editor_that_vanishes_ends_it_with_1() -> None:
 
 
 def test_without_pygls_it_says_what_to_install() -> None:
-    script = "import sys; sys.modules['pygls'] = None; from skillc_runtime.commands.main import main; main(['lsp'])"
+    script = "import sys; sys.modules['pygls'] = None; from skillc.cli.main import main; main(['lsp'])"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, timeout=PATIENCE_S, check=False)
     assert done.returncode == 2
     assert b"pip install 'skillc[editor]'" in done.stderr

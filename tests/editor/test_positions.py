@@ -8,8 +8,8 @@ import pytest
 from lsprotocol import types
 
 from editor.desk import Desk
+from skillc.lsp.positions import Lines, column, units
 from skillc_dsl.source import Span
-from skillc_runtime.commands._server.positions import Lines, column, units
 
 UTF_8, UTF_16, UTF_32 = (kind.value for kind in types.PositionEncodingKind)
 SAMPLES = ["", "arm", "Größe", "🦾 arm", "a🦾ß\u2028b\x0cc"]

@@ -8,10 +8,11 @@ from pathlib import Path
 import pytest
 from lsprotocol import types
 
+from skillc.lsp.libraries import Libraries
+from skillc.lsp.problems import by_uri
+from skillc.services import library_checks
+from skillc.services.library_files import SHIPPED, find_library
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _checking, _files
-from skillc_runtime.commands._server.libraries import Libraries
-from skillc_runtime.commands._server.problems import by_uri
 
 CASES = Path(__file__).parents[1] / "cases" / "errors"
 
@@ -19,7 +20,7 @@ CASES = Path(__file__).parents[1] / "cases" / "errors"
 @pytest.mark.parametrize("name", ["data_flow.skill", "authoring.skill", "quantities.skill", "ontology.skill"])
 def test_a_file_has_the_same_problems(name: str, tmp_path: Path) -> None:
     file = Path(shutil.copy(CASES / name, tmp_path))
-    checked = _checking.check(_files.find(tmp_path), None)
+    checked = library_checks.check_library(find_library(tmp_path), None)
     told = problems(file)
     assert told
     assert told == {(d.name, d.span.line, d.span.column, d.message, d.help) for d in checked}
@@ -27,7 +28,7 @@ def test_a_file_has_the_same_problems(name: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["std", "wiping"])
 def test_a_shipped_library_has_none(name: str) -> None:
-    assert problems(next((_files.SHIPPED / name).glob("*.skill"))) == set()
+    assert problems(next((SHIPPED / name).glob("*.skill"))) == set()
 
 
 def problems(file: Path) -> set[tuple[str, int, int, str, str]]:
@@ -58,7 +59,7 @@ def test_what_keeps_tasks_from_being_done_is_told_as_by_check(tmp_path: Path) ->
         'task look {\n    scene "cell.ttl"\n    do    Wipe(surface: lab:Table-1)\n}\n'
     )
     (tmp_path / "cell.ttl").write_text(catalogue.scene("iiwa_table").read_text("utf-8"), "utf-8")
-    checked = _checking.check(_files.find(tmp_path), None)
+    checked = library_checks.check_library(find_library(tmp_path), None)
     assert {d.name for d in checked} == {"unreachable-goal", "no-answer"}
     libraries = Libraries((tmp_path,))
     libraries.write(file.as_uri(), file.read_text("utf-8"))
@@ -93,7 +94,7 @@ def test_a_prefix_of_the_authors_own_is_that_of_no_scene(tmp_path: Path) -> None
         libraries.write(file.as_uri(), written)
         root = libraries.view(file.as_uri()).root
         shown = {each.name for each in (*libraries.analysis(root).problems, *libraries.problems_of_scenes(root))}
-        checked = {each.name for each in _checking.check(_files.find(tmp_path), None)}
+        checked = {each.name for each in library_checks.check_library(find_library(tmp_path), None)}
         assert shown == checked == expected
 
 
@@ -101,7 +102,7 @@ def test_a_byte_order_mark_is_no_part_of_the_text(tmp_path: Path) -> None:
     file = tmp_path / "one.skill"
     text = "\ufeffskill Rest { noplan }\n"
     file.write_text(text, "utf-8")
-    checked = _checking.check(_files.find(tmp_path), None)
+    checked = library_checks.check_library(find_library(tmp_path), None)
     libraries = Libraries((tmp_path,))
     libraries.write(file.as_uri(), text)
     shown = libraries.view(file.as_uri()).analysis.problems

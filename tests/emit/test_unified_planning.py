@@ -8,7 +8,8 @@ from types import ModuleType
 
 import pytest
 
-from skillc_runtime.commands._mission import Mission, of_task
+from skillc.services.reporting import Silent
+from skillc.services.task_loading import LoadedTask, TaskRequest, load_task
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.plan import Plan, Solved
 from skillc_runtime.planning.problem.pose import Posed, pose_problem
@@ -27,22 +28,23 @@ def unified() -> ModuleType:
 
 
 @cache
-def mission(task: str) -> Mission:
-    return of_task(task)
+def loaded(task: str) -> LoadedTask:
+    with load_task(TaskRequest(task), Silent()) as found:
+        return found
 
 
 @cache
 def posed(task: str) -> Posed:
-    aim = mission(task).assignment.objective
+    aim = loaded(task).assignment.objective
     assert isinstance(aim, AchieveGoal)
-    return pose_problem(mission(task).library, mission(task).assignment.state, aim.goal)
+    return pose_problem(loaded(task).library, loaded(task).assignment.state, aim.goal)
 
 
 @cache
 def plan(task: str) -> Plan:
-    assignment = mission(task).assignment
+    assignment = loaded(task).assignment
     assert isinstance(assignment.objective, AchieveGoal)
-    solved = solve(mission(task).library, assignment.state, assignment.objective.goal, (AStar(),))
+    solved = solve(loaded(task).library, assignment.state, assignment.objective.goal, (AStar(),))
     assert isinstance(solved, Solved)
     return solved.plan
 
@@ -75,6 +77,6 @@ def test_a_plan_without_one_of_its_steps_is_none(unified: ModuleType, task: str)
 
 @pytest.mark.parametrize("task", TASKS)
 def test_every_step_has_the_effects_that_it_has_in_the_world(unified: ModuleType, task: str) -> None:
-    wrong, tried = unified.disagreements(posed(task), mission(task).assignment.state)
+    wrong, tried = unified.disagreements(posed(task), loaded(task).assignment.state)
     assert wrong == []
     assert tried

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import assert_never
 
-from skillc_compiler.goals import parse_goal
+from skillc_compiler.goals.parsing import parse_goal
 from skillc_compiler.library.conditions import (
     And,
     Anything,

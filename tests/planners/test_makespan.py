@@ -7,18 +7,18 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from random import Random
 
-import click
 import pytest
 
 from planners.test_schedule_simulation import BOTH, GOOD, WORLD, carry, in_order, step
 from planning.samples import LAB, library, post, skill
 from plans import depot
+from skillc.services.errors import RequestError
+from skillc.services.planning import with_minimal_makespan
+from skillc.services.task_loading import LoadedTask
 from skillc_compiler.library.conditions import Condition, Holds, Individual
 from skillc_compiler.library.pddl.problem import Problem
 from skillc_compiler.library.tree import Sequence
 from skillc_compiler.library.vocabulary import Position
-from skillc_runtime.commands import _planners
-from skillc_runtime.commands._mission import Mission
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.planning.aries.solver import Aries, find_aries
 from skillc_runtime.planning.fast_downward import solver as fast_downward
@@ -225,7 +225,6 @@ def test_what_is_to_be_over_early_is_run_like_that() -> None:
 
 def test_what_is_not_planned_cannot_be_over_early() -> None:
     nothing = Sequence(children=(), reactive=False, source=Position(path="x.skill", line=1, column=1))
-    mission = Mission(LIBRARY, Assignment("carry", TWO_AWAY, ExecuteBody(nothing)), WorldModel(TWO_AWAY))
-    assert _planners.aimed(mission, "work") is mission
-    with pytest.raises(click.UsageError, match="there is no plan to minimise"):
-        _planners.aimed(mission, "makespan")
+    loaded = LoadedTask(LIBRARY, Assignment("carry", TWO_AWAY, ExecuteBody(nothing)), WorldModel(TWO_AWAY))
+    with pytest.raises(RequestError, match="there is no plan to minimise"):
+        with_minimal_makespan(loaded)

@@ -12,10 +12,10 @@ from click.testing import CliRunner
 
 from planners.test_schedule_simulation import BOTH, GOOD, WORLD
 from plans import depot
+from skillc.cli.main import skillc
+from skillc.services import planning
+from skillc.services.planning import FolderPlanCache
 from skillc_compiler.library.pddl.problem import Problem
-from skillc_runtime.commands import _shelf
-from skillc_runtime.commands._shelf import FolderShelf
-from skillc_runtime.commands.main import skillc
 from skillc_runtime.planning.cache import CachingPlanner, CachingScheduler
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.problem.pose import pose_problem
@@ -48,14 +48,14 @@ class Counting:
 
 def test_the_same_problem_is_not_solved_twice(tmp_path: Path) -> None:
     planner = Counting()
-    first = CachingPlanner(planner, FolderShelf(tmp_path), "one 1.0")
+    first = CachingPlanner(planner, FolderPlanCache(tmp_path), "one 1.0")
     assert isinstance(ANSWER, Solved)
     assert [first.plan(PROBLEM, 10.0) for _ in range(3)] == [ANSWER] * 3
     assert len(planner.asked) == 1
-    assert CachingPlanner(planner, FolderShelf(tmp_path), "one 1.0").plan(PROBLEM, 99.0) == ANSWER
+    assert CachingPlanner(planner, FolderPlanCache(tmp_path), "one 1.0").plan(PROBLEM, 99.0) == ANSWER
     assert len(planner.asked) == 1
     first.plan(OTHER, 10.0)
-    CachingPlanner(planner, FolderShelf(tmp_path), "one 1.1").plan(PROBLEM, 10.0)
+    CachingPlanner(planner, FolderPlanCache(tmp_path), "one 1.1").plan(PROBLEM, 10.0)
     renamed = replace(PROBLEM, names={name: iri + "x" for name, iri in PROBLEM.names.items()})
     first.plan(renamed, 10.0)
     assert len(planner.asked) == 4, "another problem, another version, other things"
@@ -63,7 +63,7 @@ def test_the_same_problem_is_not_solved_twice(tmp_path: Path) -> None:
 
 def test_schedules_are_remembered_too(tmp_path: Path) -> None:
     scheduler = Counting()
-    remembering = CachingScheduler(scheduler, FolderShelf(tmp_path), "one 1.0")
+    remembering = CachingScheduler(scheduler, FolderPlanCache(tmp_path), "one 1.0")
     assert [remembering.schedule(PROBLEM, 10.0) for _ in range(2)] == [GOOD] * 2
     assert len(scheduler.asked) == 1
 
@@ -71,7 +71,7 @@ def test_schedules_are_remembered_too(tmp_path: Path) -> None:
 def test_who_has_more_time_than_a_plan_that_was_cut_short_asks_again(tmp_path: Path) -> None:
     assert isinstance(ANSWER, Solved)
     planner = Counting(replace(ANSWER, optimal="best found"))
-    remembering = CachingPlanner(planner, FolderShelf(tmp_path), "one 1.0")
+    remembering = CachingPlanner(planner, FolderPlanCache(tmp_path), "one 1.0")
     for seconds in (0.0, 0.0, 10.0, 99.0, 5.0):
         remembering.plan(PROBLEM, seconds)
     assert planner.asked == [0.0, 10.0], "the second was not cut short, so it is good for all"
@@ -80,7 +80,7 @@ def test_who_has_more_time_than_a_plan_that_was_cut_short_asks_again(tmp_path: P
 @pytest.mark.parametrize("answer", [GaveUp("no"), Unsolvable("no")])
 def test_only_plans_are_remembered(tmp_path: Path, answer: PlanResult) -> None:
     planner = Counting(answer)
-    remembering = CachingPlanner(planner, FolderShelf(tmp_path), "one 1.0")
+    remembering = CachingPlanner(planner, FolderPlanCache(tmp_path), "one 1.0")
     assert [remembering.plan(PROBLEM, 10.0) for _ in range(2)] == [answer] * 2
     assert len(planner.asked) == 2
 
@@ -91,7 +91,7 @@ def damaged(content: bytes) -> tuple[bytes, ...]:
 
 def test_what_is_damaged_counts_as_missing_and_is_replaced(tmp_path: Path) -> None:
     planner = Counting()
-    remembering = CachingPlanner(planner, FolderShelf(tmp_path), "one 1.0")
+    remembering = CachingPlanner(planner, FolderPlanCache(tmp_path), "one 1.0")
     remembering.plan(PROBLEM, 10.0)
     (file,) = tmp_path.iterdir()
     whole = file.read_bytes()
@@ -123,14 +123,14 @@ def test_what_is_whole_but_something_else_counts_as_missing() -> None:
 def test_a_shelf_that_cannot_be_used_only_costs_time(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("in the way")
     planner = Counting()
-    remembering = CachingPlanner(planner, FolderShelf(tmp_path / "file"), "one 1.0")
+    remembering = CachingPlanner(planner, FolderPlanCache(tmp_path / "file"), "one 1.0")
     assert [remembering.plan(PROBLEM, 10.0) for _ in range(2)] == [ANSWER] * 2
     assert len(planner.asked) == 2
 
 
 def test_the_oldest_are_thrown_away(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(_shelf, "MOST", 5)
-    shelf = FolderShelf(tmp_path)
+    monkeypatch.setattr(planning, "MOST_PLANS", 5)
+    shelf = FolderPlanCache(tmp_path)
     (tmp_path / "somebody's folder").mkdir()
     for number in range(20):
         shelf.put(str(number), b"content")
@@ -140,12 +140,12 @@ def test_the_oldest_are_thrown_away(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 def _use(folder: Path) -> int:
     """Plan often on a shelf that others use, of which all but a few answers are thrown away; return the wrong ones."""
-    _shelf.MOST = 2
-    remembering = CachingPlanner(Counting(), FolderShelf(folder), "one 1.0")
+    planning.MOST_PLANS = 2
+    remembering = CachingPlanner(Counting(), FolderPlanCache(folder), "one 1.0")
     wrong = 0
     for _ in range(15):
         wrong += remembering.plan(PROBLEM, 10.0) != ANSWER
-        FolderShelf(folder).put("other", b"something")
+        FolderPlanCache(folder).put("other", b"something")
     return wrong
 
 

@@ -12,9 +12,10 @@ from random import Random
 import pytest
 
 from plans import depot
+from skillc.services import libraries
+from skillc.services.library_files import find_library
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.commands import _library
 from skillc_runtime.planning.makespan.scheduling import schedule_plan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule
 from skillc_runtime.planning.plan import Plan, Solved, Step
@@ -91,7 +92,7 @@ def test_planted_mistakes_are_found(name: str) -> None:
 
 @cache
 def shop() -> SkillLibrary:
-    outcome = _library.compile_library(_library.find(Path(__file__).with_name("shop.skill")))
+    outcome = libraries.compile_library(find_library(Path(__file__).with_name("shop.skill")))
     assert outcome.ok, outcome.diagnostics
     return outcome.value
 

@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from oracle.well_typed import mistakes
-from skillc_runtime.commands.main import skillc
+from skillc.cli.main import skillc
 
 HEAD = """
 use sumo

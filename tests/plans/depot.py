@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
-from skillc_compiler.goals import parse_goal
+from skillc.services import libraries
+from skillc.services.library_files import find_library
+from skillc_compiler.goals.parsing import parse_goal
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.commands import _library
 from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task
@@ -27,7 +28,7 @@ AT, CONTAIN = SKIROS + "at", SKIROS + "contain"
 
 @cache
 def library() -> SkillLibrary:
-    outcome = _library.compile_library(_library.find(Path(__file__).with_name("depot.skill")))
+    outcome = libraries.compile_library(find_library(Path(__file__).with_name("depot.skill")))
     assert outcome.ok, outcome.diagnostics
     return outcome.value
 

@@ -2,11 +2,11 @@
 
 import pytest
 
+from skillc.services.libraries import vocabulary
 from skillc_compiler.emit.artifacts import artifacts
 from skillc_compiler.pipeline import compile
 from skillc_dsl.parsing.nesting import DEEPEST
 from skillc_dsl.source import Source
-from skillc_runtime.commands._library import vocabulary
 
 LIBRARY = """\
 use wiping

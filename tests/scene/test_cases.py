@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from skillc.services import libraries
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _library
 from skillc_runtime.scene.load import read_scene
 
 CASES = sorted((Path(__file__).parent / "cases").glob("*.ttl"))
@@ -17,7 +17,7 @@ EXPECTED = re.compile(r'#! ([a-z-]+) "((?:[^"\\]|\\.)*)"?')
 
 
 def problems(path: Path) -> tuple[Diagnostic, ...]:
-    return read_scene(path, _library.vocabulary()).problems
+    return read_scene(path, libraries.vocabulary()).problems
 
 
 @pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)

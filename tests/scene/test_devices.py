@@ -6,10 +6,11 @@ from pathlib import Path
 
 import pytest
 
+from skillc.services import library_checks
+from skillc.services.check_cache import digest_of
+from skillc.services.library_files import find_library
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _checking, _files
-from skillc_runtime.commands._digests import digest_of
 
 SCENE = catalogue.scene("iiwa_table").read_text("utf-8")
 OWN = """
@@ -29,7 +30,7 @@ def told(folder: Path, sheet: str, own: str = "", device: str = "skillc:iiwa14-s
     assert device in SCENE
     (folder / "s.ttl").write_text(SCENE.replace(device, sheet) + own, "utf-8")
     (folder / "t.skill").write_text("use skiros\nclass Rag < Product\n", "utf-8")
-    return list(_checking.check(_files.find(folder), folder / "s.ttl"))
+    return list(library_checks.check_library(find_library(folder), folder / "s.ttl"))
 
 
 @pytest.mark.parametrize(
@@ -87,7 +88,7 @@ def test_of_what_is_told_elsewhere_no_sheet_is_blamed(tmp_path: Path) -> None:
     wrong = OWN.replace("lab:own-sheet a", 'lab:Iiwa-1 skiros:CompliantController "impedence" .\nlab:own-sheet a')
     (tmp_path / "s.ttl").write_text(SCENE.replace('skiros:CompliantController "impedance" ;', "") + wrong, "utf-8")
     (tmp_path / "t.skill").write_text("use skiros\nclass Rag < Product\n", "utf-8")
-    (found,) = _checking.check(_files.find(tmp_path), tmp_path / "s.ttl")
+    (found,) = library_checks.check_library(find_library(tmp_path), tmp_path / "s.ttl")
     assert found.name == "unknown-controller"
 
 
@@ -98,10 +99,10 @@ def test_what_was_found_does_not_hold_once_a_model_has_changed(tmp_path: Path, m
     monkeypatch.setenv(catalogue.VARIABLE, str(own))
     sheet = OWN.replace("robots/iiwa14.xml", "robots/mine.xml")
     (missing,) = told(library, "lab:own-sheet", sheet)
-    before = digest_of(_files.find(library), library / "s.ttl")
+    before = digest_of(find_library(library), library / "s.ttl")
     (own / "robots" / "mine.xml").write_text(catalogue.model("robots/iiwa14.xml").read_text("utf-8"), "utf-8")
     assert "no model robots/mine.xml" in missing.message
-    assert digest_of(_files.find(library), library / "s.ttl") != before
+    assert digest_of(find_library(library), library / "s.ttl") != before
     assert told(library, "lab:own-sheet", sheet) == []
 
 

@@ -6,9 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from skillc.services import library_checks
+from skillc.services.library_files import SHIPPED, find_library
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _checking, _files
 
 HEAD = """use skiros, skillc, wiping
 import "wiping/wipe.skill"
@@ -57,7 +58,7 @@ def checked(folder: Path, member: str, more: str = "", controller: str = "impeda
     scene = catalogue.scene("iiwa_table").read_text("utf-8").replace('"impedance"', f'"{controller}"')
     (folder / "s.ttl").write_text(scene + more, "utf-8")
     (folder / "t.skill").write_text(f'{HEAD}task t {{\n    scene "s.ttl"\n    {member}\n}}\n', "utf-8")
-    found = _checking.check(_files.find(folder), None)
+    found = library_checks.check_library(find_library(folder), None)
     assert not [each for each in found if each.severity == "error" and each.name not in FORESEEN]
     return [each for each in found if each.name in FORESEEN]
 
@@ -121,4 +122,4 @@ def test_a_controller_that_there_is_not_is_told_in_its_line(
 
 @pytest.mark.parametrize("name", ["wiping", "std"])
 def test_nothing_is_foreseen_of_shipped_libraries(name: str) -> None:
-    assert _checking.check(_files.find(_files.SHIPPED / name), None) == ()
+    assert library_checks.check_library(find_library(SHIPPED / name), None) == ()

@@ -8,10 +8,11 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from skillc.cli.main import skillc
+from skillc.lsp.libraries import Libraries
+from skillc.services import library_checks
+from skillc.services.library_files import find_library
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _checking, _files
-from skillc_runtime.commands._server.libraries import Libraries
-from skillc_runtime.commands.main import skillc
 
 HEAD = """use rparts
 import "motion.skill"
@@ -168,7 +169,7 @@ def test_the_warning_can_be_allowed_and_the_error_not(tmp_path: Path) -> None:
 
 def checked_names(folder: Path) -> set[str]:
     """Return the names of all that is reported of a library."""
-    return {each.name for each in _checking.check(_files.find(folder), None)}
+    return {each.name for each in library_checks.check_library(find_library(folder), None)}
 
 
 @pytest.mark.parametrize("task", ["", TASK % ("iiwa_table.ttl", "Fold(arm: lab:Iiwa-1)")])
@@ -178,7 +179,7 @@ def test_the_editor_reports_the_same(tmp_path: Path, task: str) -> None:
     libraries = Libraries((tmp_path,))
     libraries.write(file.as_uri(), file.read_text("utf-8"))
     shown = libraries.problems_of_scenes(libraries.view(file.as_uri()).root)
-    checked = [d for d in _checking.check(_files.find(tmp_path), None) if d.name == "unknown-value"]
+    checked = [d for d in library_checks.check_library(find_library(tmp_path), None) if d.name == "unknown-value"]
     assert len(checked) == 2
     assert {(d.span.line, d.span.column, d.severity, d.message) for d in shown} == {
         (d.span.line, d.span.column, d.severity, d.message) for d in checked
@@ -209,7 +210,7 @@ def test_names_of_another_form_are_refused_with_the_class(tmp_path: Path, monkey
     monkeypatch.syspath_prepend(str(tmp_path))
     text = OWN_SKILL.replace("MODULE", "own_bad") + TASK % ("iiwa_table.ttl", "Own(arm: lab:Iiwa-1)")
     (tmp_path / "t.skill").write_text(text, "utf-8")
-    (found,) = (d for d in _checking.check(_files.find(tmp_path), None) if d.severity == "error")
+    (found,) = (d for d in library_checks.check_library(find_library(tmp_path), None) if d.severity == "error")
     assert (
         found.name == "no-implementation-fits" and "`text_names` of `own_bad:Own` is not {parameter:" in found.message
     )

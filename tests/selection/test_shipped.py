@@ -7,12 +7,13 @@ from functools import cache
 
 import pytest
 
+from skillc.services import libraries
+from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Individual
 from skillc_compiler.library.skills import Primitive, SkillLibrary
 from skillc_compiler.library.vocabulary import Position
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _library
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.execution.selection.python_targets import import_matching_primitive
 from skillc_runtime.execution.selection.select import NoneSelected, SelectedImplementation, select_implementation
@@ -28,7 +29,7 @@ HERE = Position("task.skill", 3, 1)
 @cache
 def library() -> SkillLibrary:
     """Compile the shipped library."""
-    return _library.compile_library(_library.find(_library.SHIPPED / "wiping")).value
+    return libraries.compile_library(find_library(SHIPPED / "wiping")).value
 
 
 @cache

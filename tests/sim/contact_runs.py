@@ -8,9 +8,10 @@ from functools import cache
 
 import numpy as np
 
+from skillc.services import libraries
+from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _library
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.motion.pose import Array
@@ -46,7 +47,7 @@ class Outcome:
 
 @cache
 def library() -> SkillLibrary:
-    outcome = _library.compile_library(_library.find(_library.SHIPPED / "contact"))
+    outcome = libraries.compile_library(find_library(SHIPPED / "contact"))
     assert outcome.diagnostics == ()
     return outcome.value
 

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from skillc.cli.main import skillc
 from skillc_ontology import catalogue
-from skillc_runtime.commands.main import skillc
 
 pytestmark = pytest.mark.sim
 

@@ -8,10 +8,11 @@ from functools import cache
 
 import pytest
 
-from skillc_compiler.goals import parse_call
+from skillc.services import libraries
+from skillc.services.library_files import SHIPPED, find_library
+from skillc_compiler.goals.parsing import parse_call
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _library
 from skillc_runtime.evaluation.trials.disturbance import reality
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task
@@ -46,7 +47,7 @@ Reality = Callable[[SceneFacts, int], Variation]
 
 @cache
 def library() -> SkillLibrary:
-    outcome = _library.compile_library(_library.find(_library.SHIPPED / "wiping"))
+    outcome = libraries.compile_library(find_library(SHIPPED / "wiping"))
     assert outcome.ok
     return outcome.value
 

@@ -7,10 +7,11 @@ from functools import cache
 import pytest
 from msgspec import structs
 
+from skillc.services import libraries
+from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.library.conditions import Literal
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _library
 from skillc_runtime.evaluation.report.choices import Choices
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.report.summary import summarise
@@ -29,7 +30,7 @@ WIPE, TARGET_S = "Wipe.wipe_lanes", 0.02
 @cache
 def without_overlay() -> SkillLibrary:
     """Return the library for wiping, whose circle has no radius."""
-    outcome = _library.compile_library(_library.find(_library.SHIPPED / "wiping"))
+    outcome = libraries.compile_library(find_library(SHIPPED / "wiping"))
     assert outcome.ok
     library: SkillLibrary = outcome.value
     wipe = library.implementations[WIPE]

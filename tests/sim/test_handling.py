@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from skillc.services import libraries
+from skillc.services.library_files import find_library
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _library
 from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.primitives.primitive import Status
@@ -47,7 +48,7 @@ def test_pick_and_place_moves_the_object_and_the_world_model_knows(tmp_path: Pat
     (tmp_path / "tidy.skill").write_text(TASK, encoding="utf-8")
     scene = tmp_path / "scene.ttl"
     scene.write_text(catalogue.scene("iiwa_table").read_text(encoding="utf-8") + PLACING, encoding="utf-8")
-    outcome = _library.compile_library(_library.find(tmp_path))
+    outcome = libraries.compile_library(find_library(tmp_path))
     assert outcome.ok, outcome.diagnostics
     state = load_scene(scene, outcome.value.vocabulary)
     body = outcome.value.tasks["tidy_up"].body

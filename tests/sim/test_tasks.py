@@ -12,9 +12,10 @@ from pathlib import Path
 
 import pytest
 
+from skillc.services import libraries
+from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _library
 from skillc_runtime.evaluation.report.choices import Choices
 from skillc_runtime.evaluation.report.summary import summarise
 from skillc_runtime.evaluation.report.wiping import find_wipings
@@ -34,7 +35,7 @@ ARMS = {"clean_whiteboard": LAB + "Ur5e-1", "clean_table": LAB + "Iiwa-1", "clea
 
 @cache
 def library() -> SkillLibrary:
-    outcome = _library.compile_library(_library.find(_library.SHIPPED / "wiping"))
+    outcome = libraries.compile_library(find_library(SHIPPED / "wiping"))
     assert outcome.ok
     return outcome.value
 
@@ -122,7 +123,7 @@ def test_the_same_seed_gives_the_same_run() -> None:
 
 
 def test_ctrl_c_halts_reports_and_exits_with_3(tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "skillc_runtime", "run", "clean_table", "--json", "--out", str(tmp_path)]
+    command = [sys.executable, "-m", "skillc", "run", "clean_table", "--json", "--out", str(tmp_path)]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env={**os.environ, "PYTHONUNBUFFERED": "1"})
     events = tmp_path / "events.jsonl"
     try:

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from skillc_runtime.commands.main import skillc
+from skillc.cli.main import skillc
 
 pytestmark = pytest.mark.sim
 

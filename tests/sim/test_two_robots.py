@@ -6,9 +6,10 @@ from functools import cache
 
 import pytest
 
+from skillc.services import libraries
+from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _library
 from skillc_runtime.evaluation.report.choices import Choices
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.summary import summarise
@@ -26,7 +27,7 @@ pytestmark = pytest.mark.sim
 
 @cache
 def library() -> SkillLibrary:
-    outcome = _library.compile_library(_library.find(_library.SHIPPED / "wiping"))
+    outcome = libraries.compile_library(find_library(SHIPPED / "wiping"))
     assert outcome.ok
     return outcome.value
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from skillc_dsl import keeping
+from skillc_dsl import cache
 from skillc_runtime import cache_folder
 
 HERE = Path.cwd()
@@ -28,7 +28,7 @@ def test_all_packages_keep_things_in_one_folder(
         monkeypatch.delenv(name, raising=False)
     for name, value in environment.items():
         monkeypatch.setenv(name, value)
-    assert cache_folder.cache_folder() == keeping.cache_folder() == folder
+    assert cache_folder.cache_folder() == cache.cache_folder() == folder
 
 
 def test_without_a_home_nothing_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -39,4 +39,4 @@ def test_without_a_home_nothing_is_kept(monkeypatch: pytest.MonkeyPatch) -> None
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setattr(Path, "home", homeless)
     assert cache_folder.cache_folder() is None
-    assert keeping.cache_folder() is None
+    assert cache.cache_folder() is None

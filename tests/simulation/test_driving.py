@@ -6,11 +6,12 @@ from functools import cache
 
 from cells import LAB, world
 
+from skillc.services import libraries
+from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.library import tree
 from skillc_compiler.library.conditions import Individual
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import Position
-from skillc_runtime.commands import _library
 from skillc_runtime.execution.selection.select import NoneSelected, select_implementation
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
@@ -23,7 +24,7 @@ ROBOT, DOCK, STORE = LAB + "Heron-1", LAB + "Dock", LAB + "Store"
 
 @cache
 def library() -> SkillLibrary:
-    return _library.compile_library(_library.find(_library.SHIPPED / "wiping")).value
+    return libraries.compile_library(find_library(SHIPPED / "wiping")).value
 
 
 def test_a_drive_halted_half_way_has_left_and_not_arrived() -> None:

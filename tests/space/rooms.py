@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import strategies as st
 
-from skillc_runtime.commands import _library
+from skillc.services import libraries
 from skillc_runtime.motion.pose import Array, Pose, exp
 from skillc_runtime.world.space.frames import placed
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
@@ -14,7 +14,7 @@ from skillc_runtime.world.state.world_state import WorldState
 
 LAB = "http://example.org/lab#"
 PART = SKIROS + "Part"
-EMPTY = WorldState.empty(_library.vocabulary())
+EMPTY = WorldState.empty(libraries.vocabulary())
 
 
 def lab(name: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from skillc.services import libraries
 from skillc_compiler.library.conditions import (
     Anything,
     Condition,
@@ -23,7 +24,6 @@ from skillc_compiler.pipeline import compile as compiled
 from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _library
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
@@ -146,7 +146,7 @@ impl tidy of Tidy {{ {STAND_IN} }}
 
 
 def library(text: str) -> SkillLibrary:
-    outcome = compiled([Source("care.skill", text)], _library.vocabulary(), {}, "care", {})
+    outcome = compiled([Source("care.skill", text)], libraries.vocabulary(), {}, "care", {})
     assert not [each for each in outcome.diagnostics if each.severity == "error"], outcome.diagnostics
     return outcome.value
 
@@ -183,7 +183,7 @@ def test_what_reads_a_relation_that_skills_move_is_left_out_of_planning_with_the
 
 
 def found(text: str) -> list[str]:
-    outcome = compiled([Source("care.skill", HEAD + text)], _library.vocabulary(), {}, "care", {})
+    outcome = compiled([Source("care.skill", HEAD + text)], libraries.vocabulary(), {}, "care", {})
     return sorted(each.name for each in outcome.diagnostics if each.name != "unused-use")
 
 

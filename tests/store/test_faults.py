@@ -11,7 +11,7 @@ from urllib.parse import urlsplit
 import pyoxigraph as ox
 import pytest
 
-from skillc_runtime.commands._keeping import Keeping
+from skillc.services.stores import StoreChoice
 from skillc_runtime.store import http
 from skillc_runtime.store.address import Address
 from skillc_runtime.store.finding import find_endpoint
@@ -202,7 +202,7 @@ def test_credentials_are_in_no_message(proxy: Proxy, fault: Fault, address: str)
     place = address.format(host=urlsplit(proxy.address).netloc)
     endpoint = HttpEndpoint(place, "/query", "/update", 0.05)
     proxy.fail(fault, 100)
-    shown = [str(endpoint), repr(endpoint), repr(Keeping(place)), Keeping(place).name, repr(Address.of(place))]
+    shown = [str(endpoint), repr(endpoint), repr(StoreChoice(place)), StoreChoice(place).name, repr(Address.of(place))]
     for ask in (lambda: endpoint.query("ASK {}", "text/csv"), lambda: SparqlStore(endpoint, patience_s=0.0).read()):
         try:
             ask()

@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from docs.pages import ROOT, Reader
-from skillc_runtime.commands.main import skillc
+from skillc.cli.main import skillc
 
 PAGE = ROOT / "docs/stores.md"
 

@@ -10,9 +10,10 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
+from skillc.cli.main import skillc
+from skillc.services import libraries, task_loading, trial_runs
+from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.library.skills import SkillLibrary
-from skillc_runtime.commands import _library, _mission, _trialling
-from skillc_runtime.commands.main import skillc
 from skillc_runtime.evaluation.trials.journal import FILE
 from skillc_runtime.evaluation.trials.trial import Trial
 from skillc_runtime.evaluation.trials.workers import Prepare
@@ -24,7 +25,7 @@ TILTED = 8
 
 @cache
 def shipped() -> SkillLibrary:
-    return _mission.compiled(_library.find(_library.SHIPPED / "wiping"))
+    return libraries.compile_valid(find_library(SHIPPED / "wiping"))
 
 
 @pytest.fixture(autouse=True)
@@ -38,8 +39,8 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[int]:
             seeds_run.append(seed)
             yield good(seed, wiping(tilt_rms_deg=0.9 if seed == TILTED else 0.1))
 
-    monkeypatch.setattr(_trialling, "run_all", run_all)
-    monkeypatch.setattr(_mission, "compiled", lambda files: library)
+    monkeypatch.setattr(trial_runs, "run_all", run_all)
+    monkeypatch.setattr(task_loading, "compile_valid", lambda files: library)
     return seeds_run
 
 
@@ -96,7 +97,7 @@ def test_a_file_where_a_folder_is_wanted_is_one_clear_error(tmp_path: Path) -> N
 
 
 def test_a_page_that_cannot_be_written_hides_no_outcome(tmp_path: Path) -> None:
-    (tmp_path / _trialling.PAGE).mkdir()
+    (tmp_path / trial_runs.PAGE).mkdir()
     result = run("clean_table", "-n", 1, "--out", tmp_path)
     assert result.exit_code == 1
     assert "1 of 1 as they should be" in result.stdout
@@ -108,7 +109,7 @@ def test_interrupted_it_keeps_what_is_done_and_says_so(monkeypatch: pytest.Monke
         yield good(seeds[0])
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(_trialling, "run_all", interrupted)
+    monkeypatch.setattr(trial_runs, "run_all", interrupted)
     result = run("clean_table", "-n", 3, "--out", tmp_path)
     assert result.exit_code == 3
     assert "interrupted" in result.stderr and "1 of 3 as they should be, 2 not done" in result.stdout

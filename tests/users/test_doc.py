@@ -15,14 +15,15 @@ from posixpath import dirname, join, normpath
 import pytest
 from click.testing import CliRunner
 
+from skillc.cli.commands.doc import command
+from skillc.services import libraries
+from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.emit.docs import prose
 from skillc_compiler.emit.docs.reasons import reasons
 from skillc_compiler.emit.docs.site import site
 from skillc_compiler.resolve.files import read
-from skillc_runtime.commands import _library
-from skillc_runtime.commands.doc import command
 
-WIPING = _library.SHIPPED / "wiping"
+WIPING = SHIPPED / "wiping"
 RANKED = """
 use rparts, skillc
 
@@ -67,8 +68,8 @@ class Page(HTMLParser):
 
 @cache
 def made() -> dict[str, str]:
-    library = _library.find(WIPING)
-    return site(_library.compile_library(library).value, read(library.sources, library.shelf, library.name).value)
+    library = find_library(WIPING)
+    return site(libraries.compile_library(library).value, read(library.sources, library.importable, library.name).value)
 
 
 @cache
@@ -114,7 +115,7 @@ def test_a_page_shows_what_its_skill_says() -> None:
 
 
 def test_another_process_writes_the_same_bytes(tmp_path: Path) -> None:
-    command_line = [sys.executable, "-m", "skillc_runtime", "doc", str(WIPING), "-o", str(tmp_path)]
+    command_line = [sys.executable, "-m", "skillc", "doc", str(WIPING), "-o", str(tmp_path)]
     subprocess.run(command_line, check=True, capture_output=True, env={**os.environ, "PYTHONHASHSEED": "7"})
     written = {path.relative_to(tmp_path).as_posix(): path for path in tmp_path.rglob("*.*")}
     assert {path: file.read_text(encoding="utf-8") for path, file in written.items()} == made()
@@ -140,7 +141,7 @@ def test_the_order_of_implementations_is_explained(tmp_path: Path) -> None:
         "Tried last.",
     ):
         assert words in text
-    assert reasons((), _library.vocabulary()) == ()
+    assert reasons((), libraries.vocabulary()) == ()
 
 
 def test_pages_of_skills_that_are_gone_go_and_other_files_stay(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 import pytest
 from click.testing import CliRunner
 
+from skillc.cli.commands.graph import command
 from skillc_compiler.emit.picture import mermaid, svg
 from skillc_compiler.emit.picture.boxes import Box
 from skillc_compiler.emit.picture.find import drawable, picture_of
@@ -16,7 +17,6 @@ from skillc_compiler.emit.picture.layout import Placed, lay_out
 from skillc_compiler.emit.picture.wrapping import cells, wrapped
 from skillc_compiler.resolve.files import read
 from skillc_dsl.source import Source
-from skillc_runtime.commands.graph import command
 
 HERE = Path(__file__).parent / "every_node.skill"
 FILES = read([Source("every_node.skill", HERE.read_text(encoding="utf-8"))], {}, "users").value

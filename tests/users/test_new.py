@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from skillc_runtime.commands.main import skillc
+from skillc.cli.main import skillc
 
 
 def call(*arguments: str) -> Result:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from skillc_runtime.commands.main import skillc
+from skillc.cli.main import skillc
 
 SKILLS = """\
 prefix lab: <http://example.org/lab#>

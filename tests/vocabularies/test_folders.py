@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
+from skillc.cli.main import skillc
+from skillc.lsp.libraries import Libraries
+from skillc.lsp.problems import by_uri
 from skillc_ontology import catalogue
-from skillc_runtime.commands._server.libraries import Libraries
-from skillc_runtime.commands._server.problems import by_uri
-from skillc_runtime.commands.main import skillc
 from vocabularies.reading import STOCK
 
 SKILL = """use skiros, plant

@@ -10,8 +10,8 @@ from xml.etree import ElementTree
 import pytest
 from click.testing import CliRunner, Result
 
+from skillc.cli.main import skillc
 from skillc_ontology import catalogue
-from skillc_runtime.commands.main import skillc
 
 
 @pytest.fixture

@@ -9,8 +9,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 from selection.library import call, library, scene
+from skillc.cli.main import skillc
 from skillc_compiler.library.conditions import Individual
-from skillc_runtime.commands.main import skillc
 from skillc_runtime.world.state.model import WorldModel
 from tree.stage import Stage
 from why.stories import events_of, written
@@ -60,7 +60,7 @@ def test_a_run_that_was_cut_short_is_explained_as_far_as_it_goes(run: Path) -> N
         result = why(run)
         assert result.exit_code == 0
         assert "before the task does" in result.stdout
-        assert ("is cut short" in result.stderr) == (whole[length - 1 : length] != b"\n")
+        assert ("is incomplete" in result.stderr) == (whole[length - 1 : length] != b"\n")
 
 
 @pytest.mark.parametrize(

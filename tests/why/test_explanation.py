@@ -6,8 +6,8 @@ import pytest
 from msgspec import structs
 
 from selection.library import call, library, scene
+from skillc.cli.story_output import format_answer, format_overview
 from skillc_compiler.library.conditions import Individual
-from skillc_runtime.commands import _why
 from skillc_runtime.recording.question import QuestionError, find_answer
 from skillc_runtime.recording.story import Story
 from skillc_runtime.world.state.changes import Change, RemoveRelation
@@ -27,11 +27,11 @@ def picked(*changes: Change) -> Story:
 
 def told(story: Story, question: str) -> str:
     """Return the answer to a question."""
-    return _why.explanation(find_answer(story, question))
+    return format_answer(find_answer(story, question))
 
 
 def test_the_overview_numbers_the_steps_and_says_what_led_to_the_failure() -> None:
-    lines = _why.overview(picked(), "out").splitlines()
+    lines = format_overview(picked(), "out").splitlines()
     assert lines[0].startswith("play: failure after 0.0 s")
     assert lines[1].split()[:3] == ["1", "Pick[from_above]", "failure"]
     assert lines[2].strip() == "arm: t:arm, object: t:eraser, gripper: t:gripper, from: t:shelf"

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import pytest
 
+from skillc.services import libraries
+from skillc.services.library_files import SHIPPED, find_library
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _library
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import scene_in
 
-VOCABULARY = _library.compile_library(_library.find(_library.SHIPPED / "wiping")).value.vocabulary
+VOCABULARY = libraries.compile_library(find_library(SHIPPED / "wiping")).value.vocabulary
 SCENE = catalogue.scene("iiwa_outlet").read_text(encoding="utf-8")
 STRAIGHT = "OrientationW 1.0 ; skiros:OrientationX 0.0 ; skiros:OrientationY 0.0 ; skiros:OrientationZ 0.0"
 PATCH = "skillc:hasPatch lab:Outlet-1 ; skillc:hasHole lab:Label-1"

@@ -10,9 +10,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from scene.mutations import mutants
+from skillc.services import libraries
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _library
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import load_in_bulk, scene_of
 from skillc_runtime.world.state.bulk import Facts, state_of
@@ -58,7 +58,7 @@ def _asserted(state: WorldState) -> set[tuple[str, str, str]]:
 
 @pytest.fixture(scope="module")
 def shipped() -> Vocabulary:
-    return _library.vocabulary()
+    return libraries.vocabulary()
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -6,13 +6,14 @@ from pathlib import Path
 
 import pytest
 
+from skillc.services import libraries
+from skillc.services.library_files import SHIPPED, find_library
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _library
 from skillc_runtime.scene.documents import SceneError
 from skillc_runtime.scene.load import load_scene
 
-SHIPPED = _library.compile_library(_library.find(_library.SHIPPED / "wiping")).value.vocabulary
+SHIPPED = libraries.compile_library(find_library(SHIPPED / "wiping")).value.vocabulary
 SCENE = catalogue.scene("iiwa_table").read_text(encoding="utf-8")
 
 

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from skillc.services import libraries
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _library
 from skillc_runtime.scene import saving
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import load_in_bulk, load_scene, load_sheets, world_of
@@ -55,7 +55,7 @@ def test_no_number_or_text_is_changed(number: float, texts: list[str]) -> None:
 
 @pytest.mark.parametrize("name", catalogue.scenes())
 def test_shipped_scenes_come_back_with_labels_and_without_data_sheets(name: str) -> None:
-    vocabulary = _library.vocabulary()
+    vocabulary = libraries.vocabulary()
     state, sheets = load_scene(catalogue.scene(name), vocabulary), load_sheets(vocabulary)
     source = Document.read(catalogue.scene(name))
     text = turtle(state, sheets, source)

@@ -16,7 +16,7 @@ from lark import Lark, Token
 from lark.parsers.lalr_analysis import Shift
 from lark.parsers.lalr_parser_state import ParseConf
 
-from skillc_dsl.keeping import cache_folder, keep, kept
+from skillc_dsl import cache
 from skillc_dsl.units import UNITS
 
 END = "$END"
@@ -32,7 +32,7 @@ def grammar_text() -> str:
 @functools.cache
 def load_parser() -> Lark:
     """Return the parser of the language."""
-    return make_parser(grammar_text(), cache_folder())
+    return make_parser(grammar_text(), cache.cache_folder())
 
 
 @functools.cache
@@ -95,13 +95,13 @@ def make_parser(grammar: str, folder: Path | None) -> Lark:
         return _make(grammar)
     key = f"{lark.__version__} {sys.version_info[:2]}\n{grammar}"
     path = folder / f"grammar-{hashlib.sha256(key.encode()).hexdigest()[:16]}"
-    tables = kept(path)
+    tables = cache.load(path)
     if tables is not None:
         return Lark.load(io.BytesIO(tables))
     parser = _make(grammar)
     content = io.BytesIO()
     parser.save(content)
-    keep(path, content.getvalue())
+    cache.store(path, content.getvalue())
     return parser
 
 

@@ -11,7 +11,7 @@ import threading
 from itertools import count
 from typing import IO, Any
 
-SERVER = [sys.executable, "-c", "from skillc_runtime.commands.main import main; main(['lsp', '--stdio'])"]
+SERVER = [sys.executable, "-c", "from skillc.cli.main import main; main(['lsp', '--stdio'])"]
 PATIENCE_S = 60.0
 _ENVIRONMENT = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
 """The server finds the Python modules that `check` finds in this process."""

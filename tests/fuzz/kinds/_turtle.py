@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import cache
 from random import Random
 
+from skillc.services import libraries
 from skillc_compiler.turtle.tokens import tokens
-from skillc_runtime.commands import _library
 
 HEAD = """@prefix lab: <http://example.org/lab#> .
 @prefix rdf: <http://www.w3.org/1999/02/22-rdf-syntax-ns#> .
@@ -98,7 +98,7 @@ def _statement(random: Random) -> str:
 @cache
 def _terms() -> tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]:
     """Return classes, relations and properties; those of which much is said in scenes more than once."""
-    vocabulary = _library.vocabulary()
+    vocabulary = libraries.vocabulary()
     often = ("skiros:contain", "skiros:hasA", "skiros:at", "skiros:contain", "skillc:attachedTo")
     shorts = (sorted(map(vocabulary.short, each)) for each in (vocabulary.classes, vocabulary.properties))
     classes, properties = shorts
@@ -107,7 +107,7 @@ def _terms() -> tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]:
 
 
 def _prefixes() -> str:
-    prefixes = _library.vocabulary().prefixes.items()
+    prefixes = libraries.vocabulary().prefixes.items()
     return HEAD + "".join(f"@prefix {name}: <{base}> .\n" for name, base in sorted(prefixes) if f"{name}:" not in HEAD)
 
 

@@ -7,7 +7,8 @@ from random import Random
 
 from fuzz.kinds._lsp import Server
 from fuzz.kinds._texts import change, make_text
-from skillc_runtime.commands import _checking, _files
+from skillc.services import library_checks
+from skillc.services.library_files import find_library
 
 EDITS = 20
 SECONDS = 60.0
@@ -63,7 +64,7 @@ def _ask(server: Server, random: Random, document: dict[str, str], text: str) ->
 
 def _checked(folder: Path) -> list[tuple[int, str]]:
     """Return the line and name of each problem that `skillc check` finds in the file."""
-    found = _checking.check(_files.find(folder), None)
+    found = library_checks.check_library(find_library(folder), None)
     return sorted((each.span.line, each.name) for each in found if Path(each.span.path).name == NAME)
 
 

@@ -8,14 +8,15 @@ from pathlib import Path
 from random import Random
 
 from fuzz.kinds._texts import make_text
-from skillc_compiler.goals import parse_goal
+from skillc.services import libraries, task_scenes
+from skillc.services.library_files import SHIPPED, find_library
+from skillc_compiler.goals.parsing import parse_goal
 from skillc_compiler.library.conditions import Condition
 from skillc_compiler.library.reading import free_variables
 from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.library.vocabulary import PlainType
 from skillc_dsl.diagnostics import Outcome
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _library, _mission, _scenes
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.explain import explain
@@ -175,7 +176,7 @@ def _changed(random: Random, text: str) -> str:
 
 @cache
 def _library_of() -> SkillLibrary:
-    return _mission.compiled(_library.find(_library.SHIPPED / "wiping"))
+    return libraries.compile_valid(find_library(SHIPPED / "wiping"))
 
 
 @cache
@@ -183,7 +184,7 @@ def _lab(scene: str) -> Lab:
     library = _library_of()
     vocabulary = library.vocabulary
     state = load_scene(catalogue.scene(scene), vocabulary)
-    individuals = _scenes.classes_of(state, vocabulary)
+    individuals = task_scenes.classes_by_individual(state, vocabulary)
     short = state.vocabulary.short
     flags = (iri for iri, term in vocabulary.properties.items() if term.type == PlainType("Bool"))
     return Lab(

@@ -9,10 +9,10 @@ from random import Random
 import pyoxigraph as ox
 
 from fuzz.kinds._turtle import generated, mutated
+from skillc.services import libraries
 from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_ontology import catalogue
-from skillc_runtime.commands import _library
 from skillc_runtime.scene.checks.identity import PROPERTY, SOURCE, TARGETS
 from skillc_runtime.scene.documents import BASE, Document, SceneError, parse
 from skillc_runtime.scene.load import Scene, load_in_bulk, scene_of, world_of
@@ -58,7 +58,7 @@ def _text(random: Random) -> str:
 
 @cache
 def _vocabulary() -> Vocabulary:
-    return _library.vocabulary()
+    return libraries.vocabulary()
 
 
 @cache

@@ -1,0 +1,87 @@
+"""What names in a goal or a call can refer to: all vocabularies, a library's skills, a scene's individuals."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from skillc_compiler.library import skills as library
+from skillc_compiler.library.conditions import Expression, Literal
+from skillc_compiler.library.vocabulary import Position, Vocabulary
+from skillc_compiler.program.typed import Parameter, Skill, TypedExpression
+from skillc_compiler.program.types import Type, of_library
+from skillc_compiler.resolve.individuals import Individuals, narrowest
+from skillc_compiler.resolve.names import Names, bare_terms
+from skillc_compiler.resolve.scope import FileContext
+from skillc_dsl.source import Span
+
+
+def make_context(
+    vocabulary: Vocabulary,
+    individuals: Individuals,
+    prefixes: Mapping[str, str],
+    skills: Mapping[str, library.Skill] | None = None,
+) -> FileContext:
+    """Return the context in which a goal is resolved: every term may be written bare where that is unambiguous.
+
+    `individuals` are the IRIs known, with their classes; `prefixes` may be written besides the vocabulary's.
+    """
+    callees = {name: _skill(skill) for name, skill in (skills or {}).items()}
+    names = Names(
+        bare=bare_terms(vocabulary, vocabulary.prefixes),
+        known={
+            "class": set(vocabulary.classes),
+            "relation": set(vocabulary.relations),
+            "property": set(vocabulary.properties),
+        },
+        vocabulary=vocabulary,
+        prefixes={**prefixes, **vocabulary.prefixes},
+        functions=vocabulary.functions,
+        skills=set(callees),
+        elsewhere={},
+    )
+    return FileContext(
+        names=names,
+        vocabulary=vocabulary,
+        skills=callees,
+        implementations={name: skill.implementations for name, skill in (skills or {}).items()},
+        individuals=narrowest(vocabulary, individuals),
+    )
+
+
+def _skill(skill: library.Skill) -> Skill:
+    """Return a compiled skill as the callee that calls are resolved against."""
+    return Skill(
+        name=skill.name,
+        doc=skill.doc,
+        parameters=tuple(_parameter(p) for p in skill.parameters),
+        requirements=(),
+        duration=None,
+        devices=(),
+        flags=frozenset({"scoped"}) if skill.scoped else frozenset(),
+        name_span=_span(skill.source),
+        span=_span(skill.source),
+    )
+
+
+def _parameter(parameter: library.Parameter) -> Parameter:
+    kind, span = of_library(parameter.type), _span(parameter.source)
+    return Parameter(
+        name=parameter.name,
+        direction=parameter.direction,
+        any_=parameter.any_,
+        declared=parameter.type,
+        type=kind,
+        default=_valued(parameter.default, kind, span),
+        low=_valued(None if parameter.low is None else Literal(parameter.low), kind, span),
+        high=_valued(None if parameter.high is None else Literal(parameter.high), kind, span),
+        doc=parameter.doc,
+        span=span,
+    )
+
+
+def _valued(meaning: Expression | None, kind: Type, span: Span) -> TypedExpression | None:
+    return TypedExpression(meaning, kind, span) if meaning is not None else None
+
+
+def _span(place: Position) -> Span:
+    return Span(place.path, place.line, place.column, place.line, place.column + 1)

@@ -1,0 +1,73 @@
+"""Mistakes in a goal or call that are found in its text before it is parsed, which would take it for something else."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Callable, Iterable, Iterator
+from typing import Literal
+
+from skillc_dsl.diagnostics import Diagnostic, Fix
+from skillc_dsl.source import Span
+
+Asked = Literal["goal", "call"]
+
+EXAMPLES: dict[Asked, str] = {
+    "goal": "a goal is a condition, such as `lab:Board-1.isClean == true` or `(contain lab:Box-1 lab:Part-1)`",
+    "call": "a call is `Skill(parameter: value, ..)`",
+}
+_COMMENT = re.compile(r"[#;].*")
+_BARE = re.compile(r"(?<![\w:.?\"-])[A-Za-z]\w*(?:-\w+)*(?![\w:(\"-])")
+_DECLARED = re.compile(r"([A-Za-z]\w*)\s*:\s")
+
+
+def find_mistakes(
+    text: str, what: Asked, individuals: Iterable[str], means_something: Callable[[str], bool]
+) -> tuple[Diagnostic, ...]:
+    """Return what is wrong: nothing is written, a parenthesis lacks its other half, or an individual its prefix.
+
+    `individuals` are those of the scene as they are written, `means_something` tells which bare names are taken.
+    """
+    if not text.strip():
+        return (Diagnostic("syntax", Span(what, 1, 1, 1, 2), f"the {what} is empty", EXAMPLES[what]),)
+    lines = [_COMMENT.sub("", line) for line in text.split("\n")]
+    return tuple(_parentheses(lines, what)) or tuple(_prefixes(lines, what, sorted(individuals), means_something))
+
+
+def reword(problem: Diagnostic, what: Asked) -> tuple[str, str]:
+    """Return message and help of a syntax error in words of goals and calls, not of the task that was put round it."""
+    found, _, expected = problem.message.partition(": expected ")
+    if "a member of a task" in expected or "`}`" in expected:
+        return found, EXAMPLES[what]
+    return problem.message, problem.help
+
+
+def _parentheses(lines: list[str], what: Asked) -> Iterator[Diagnostic]:
+    opened: list[Span] = []
+    for number, line in enumerate(lines, start=1):
+        for found in re.finditer(r"[()]", line):
+            span = Span(what, number, found.start() + 1, number, found.end() + 1)
+            if found.group() == "(":
+                opened.append(span)
+            elif opened:
+                opened.pop()
+            else:
+                yield Diagnostic("syntax", span, "this `)` closes nothing", "remove it, or add the `(` before it")
+    for span in opened:
+        yield Diagnostic("syntax", span, "this `(` is not closed: a `)` is missing", "add `)` where it ends")
+
+
+def _prefixes(
+    lines: list[str], what: Asked, individuals: list[str], means_something: Callable[[str], bool]
+) -> Iterator[Diagnostic]:
+    local = {name.rpartition(":")[2]: name for name in individuals}
+    variables = {name for line in lines for name in _DECLARED.findall(line)}
+    for number, line in enumerate(lines, start=1):
+        for found in _BARE.finditer(line):
+            word = found.group()
+            alike = [word] if word in local else difflib.get_close_matches(word, local, n=1) if "-" in word else []
+            if alike and word not in variables and not means_something(word):
+                span = Span(what, number, found.start() + 1, number, found.end() + 1)
+                meant = local[alike[0]]
+                fix = Fix(span, meant, f"write `{meant}`")
+                yield Diagnostic("missing-prefix", span, f"`{word}` has no prefix", f"write `{meant}`", fix=fix)

@@ -1,0 +1,176 @@
+"""Goals and calls given at run time, in `.skill` or PDDL text, understood and checked like those in files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import TypeVar
+
+import msgspec
+
+from skillc_compiler.checks import check
+from skillc_compiler.goals.context import make_context
+from skillc_compiler.goals.mistakes import EXAMPLES, Asked, find_mistakes, reword
+from skillc_compiler.goals.pddl_text import COMPARING, Group, PddlGoalError, Word, goal, read_group
+from skillc_compiler.library import tree
+from skillc_compiler.library.conditions import Condition
+from skillc_compiler.library.reading import is_deeper
+from skillc_compiler.library.rewriting import fold
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_compiler.library.vocabulary import Position, Vocabulary
+from skillc_compiler.lower.bodies import node
+from skillc_compiler.program.typed import Program, Task
+from skillc_compiler.resolve.individuals import Individuals
+from skillc_compiler.resolve.names import KINDS, Names
+from skillc_compiler.resolve.scope import FileContext
+from skillc_compiler.resolve.tasks import task
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.parsing.parser import parse
+from skillc_dsl.source import Source, Span
+
+T = TypeVar("T")
+
+LONGEST, DEEPEST = 50_000, 100
+"""How many characters a goal or a call may have, and how deep it may be nested."""
+LINES_ABOVE = 2
+BETWEEN = frozenset(("==", "!=", "<", "<=", ">", ">=", "is", "has"))
+"""Words that stand between two others in a condition of the language."""
+
+
+def parse_goal(
+    text: str, vocabulary: Vocabulary, individuals: Individuals, prefixes: Mapping[str, str] | None = None
+) -> Outcome[Condition | None]:
+    """Parse a goal such as `lab:Board.isClean == true` or `(skiros:contain lab:Box-1 lab:Part-1)`.
+
+    `individuals` are the IRIs of the scene with their classes, `prefixes` those its file declares. The value is None
+    if there are errors; spans count in `text`, under the path `goal`.
+    """
+    return _bounded(lambda: _goal(text, make_context(vocabulary, individuals, prefixes or {})), text, "goal")
+
+
+def parse_call(
+    text: str, library: SkillLibrary, individuals: Individuals, prefixes: Mapping[str, str] | None = None
+) -> Outcome[tree.Call | None]:
+    """Parse a call such as `Wipe(surface: lab:Board)`; as `parse_goal`, with the path `call`."""
+    asked = make_context(library.vocabulary, individuals, prefixes or {}, library.skills)
+    return _bounded(lambda: _call(text, asked), text, "call")
+
+
+def _bounded(understand: Callable[[], Outcome[T]], text: str, what: Asked) -> Outcome[T | None]:
+    """Parse a text unless it is longer, or nested deeper, than anybody would write it."""
+    if len(text) > LONGEST:
+        return _refused(what, f"the {what} has {len(text)} characters, and {LONGEST} at most are read")
+    try:
+        outcome = understand()
+    except RecursionError:
+        return _refused(what, f"the {what} is nested too deeply")
+    if isinstance(outcome.value, msgspec.Struct) and is_deeper(outcome.value, DEEPEST):
+        return _refused(what, f"the {what} is nested more than {DEEPEST} deep")
+    return outcome
+
+
+def _refused(what: Asked, message: str) -> Outcome[None]:
+    return Outcome(None, (Diagnostic("syntax", Span(what, 1, 1, 1, 2), message, EXAMPLES[what]),))
+
+
+def _goal(text: str, asked: FileContext) -> Outcome[Condition | None]:
+    wrong = _mistakes(asked, text, "goal")
+    if wrong:
+        return Outcome(None, wrong)
+    group = read_group(text, "goal")
+    if group is not None and _is_pddl(group, asked.names):
+        resolved = _resolve(asked, _from_pddl(group, text, asked.names))
+    else:
+        resolved = _in_text(_resolve(asked, _wrapped(text, "goal")), text, "goal")
+    reached = resolved.value.goal if resolved.value else None
+    return Outcome(fold(reached.meaning) if reached else None, resolved.diagnostics)
+
+
+def _call(text: str, asked: FileContext) -> Outcome[tree.Call | None]:
+    wrong = _mistakes(asked, text, "call")
+    if wrong:
+        return Outcome(None, wrong)
+    resolved = _in_text(_resolve(asked, _wrapped(text, "call")), text, "call")
+    called = node(resolved.value.body) if resolved.value and resolved.value.body else None
+    if not isinstance(called, tree.Call):
+        return Outcome(None, resolved.diagnostics)
+    return Outcome(msgspec.structs.replace(called, source=Position("call", 1, 1)), resolved.diagnostics)
+
+
+def _mistakes(asked: FileContext, text: str, what: Asked) -> tuple[Diagnostic, ...]:
+    names = asked.names
+    written = (names.short(iri) for iri in asked.individuals or ())
+    return find_mistakes(text, what, written, lambda word: any(names.is_term(kind, word) for kind in KINDS))
+
+
+def _is_pddl(group: Group, names: Names) -> bool:
+    """Whether a text in parentheses is PDDL: `(a r b)` is not when `r` is a relation and `a` is none."""
+    match group.parts:
+        case [Word(text="not"), Group() as inner]:
+            return _is_pddl(inner, names)
+        case [Word(text="exists" | "forall"), Word(text=first), *_]:
+            return not first.endswith(":")
+        case [Word(text="and" | "or" | "imply" | "exists" | "forall" | "="), *_]:
+            return True
+        case [Word(text=operator), Group(), _] | [Word(text=operator), _, Group()] if operator in COMPARING:
+            return True
+        case [Word(text=first), Word(text=second), Word()]:
+            return names.is_term("relation", first) or not (second in BETWEEN or names.is_term("relation", second))
+        case [Word(), Word()]:
+            return True
+    return False
+
+
+def _from_pddl(group: Group, text: str, names: Names) -> Outcome[s.TaskDeclaration | None]:
+    try:
+        condition = goal(group, lambda name: names.is_term("class", name))
+    except PddlGoalError as refusal:
+        return Outcome(None, (refusal.problem,))
+    return Outcome(s.TaskDeclaration(s.Name("goal", group.span), None, condition, text, None, "", group.span))
+
+
+def _wrapped(text: str, what: Asked) -> Outcome[s.TaskDeclaration | None]:
+    """Parse a goal or a call as the only member of a task, which begins LINES_ABOVE lines before it."""
+    member = "goal" if what == "goal" else "do"
+    parsed = parse(Source(what, f"task {what} {{\n{member}\n{text}\n}}\n"))
+    if parsed.diagnostics:
+        reworded = ((problem, *reword(problem, what)) for problem in parsed.diagnostics)
+        return Outcome(
+            None, tuple(replace(problem, message=message, help=help_) for problem, message, help_ in reworded)
+        )
+    match parsed.value:
+        case s.File(header=(), declarations=[s.TaskDeclaration(scene=None) as alone]):
+            is_goal = alone.goal is not None and alone.body is None
+            is_call = alone.goal is None and alone.body is not None and isinstance(alone.body.node, s.CallSkill)
+            if is_goal if what == "goal" else is_call:
+                return Outcome(alone)
+    span = Span(what, 1 + LINES_ABOVE, 1, 1 + LINES_ABOVE, 2)
+    return Outcome(None, (Diagnostic("syntax", span, f"this is not one {what}", EXAMPLES[what]),))
+
+
+def _resolve(asked: FileContext, written: Outcome[s.TaskDeclaration | None]) -> Outcome[Task | None]:
+    """Resolve and check; the value is None if there are errors."""
+    if written.value is None:
+        return Outcome(None, written.diagnostics)
+    resolved = task(asked, written.value)
+    program = Program("", asked.vocabulary, (), {}, (), (resolved,), {})
+    outcome: Outcome[Task | None] = Outcome(resolved, (*asked.names.problems, *check(program)))
+    return outcome if outcome.ok else Outcome(None, outcome.diagnostics)
+
+
+def _in_text(outcome: Outcome[Task | None], text: str, path: str) -> Outcome[Task | None]:
+    """Count places in the text itself, not in the task that was put around it."""
+    last = max(1, len(text.splitlines()))
+
+    def place(span: Span) -> Span:
+        if span.path != path:
+            return span
+        lines = (min(max(line - LINES_ABOVE, 1), last) for line in (span.line, span.end_line))
+        return Span(path, next(lines), span.column, next(lines), span.end_column)
+
+    moved = (
+        replace(d, span=place(d.span), labels=tuple(replace(label, span=place(label.span)) for label in d.labels))
+        for d in outcome.diagnostics
+    )
+    return Outcome(outcome.value, tuple(moved))

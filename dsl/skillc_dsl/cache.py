@@ -1,0 +1,66 @@
+"""Files in the user's cache folder: found whole and intact, or not at all."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import os
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+_DIGEST_BYTES = 32
+
+
+def cache_folder() -> Path | None:
+    """Return SKILLC_CACHE, else skillc's folder in the user's cache; None for a user without a home."""
+    if named := os.environ.get("SKILLC_CACHE"):
+        return Path(named).absolute()
+    try:
+        base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    except RuntimeError:
+        return None
+    return base / "skillc" if base.is_absolute() else None
+
+
+def load(path: Path) -> bytes | None:
+    """Return what `store` wrote there; None where there is nothing, or where it is damaged."""
+    try:
+        content = path.read_bytes()
+    except OSError:
+        return None
+    body = content[_DIGEST_BYTES:]
+    return body if hashlib.sha256(body).digest() == content[:_DIGEST_BYTES] else None
+
+
+def store(path: Path, body: bytes) -> None:
+    """Write a file whole or not at all, whoever else does; a folder that cannot be written only costs time."""
+    name = None
+    try:
+        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=".new-")
+        with os.fdopen(descriptor, "wb") as file:
+            file.write(hashlib.sha256(body).digest() + body)
+        Path(name).replace(path)
+    except OSError:
+        if name is not None:
+            Path(name).unlink(missing_ok=True)
+
+
+def delete_oldest(folder: Path, most: int, left: int) -> None:
+    """Delete the oldest files of a folder until `left` are left, where there are more than `most`.
+
+    Other processes may delete some at the same time; a folder that cannot be read stays as it is.
+    """
+    with contextlib.suppress(OSError):
+        files = sorted(_ages(folder))
+        for _, path in files[: len(files) - left] if len(files) > most else ():
+            path.unlink(missing_ok=True)
+
+
+def _ages(folder: Path) -> Iterator[tuple[float, Path]]:
+    """Yield files with the time of their last change."""
+    for path in folder.iterdir():
+        with contextlib.suppress(FileNotFoundError):
+            if path.is_file():
+                yield path.stat().st_mtime, path

@@ -1,0 +1,5 @@
+"""`python -m skillc` is the command `skillc`."""
+
+from skillc.cli.main import main
+
+main()

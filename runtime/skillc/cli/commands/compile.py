@@ -1,0 +1,25 @@
+"""Compile a library to JSON, OWL, PDDL, trees and pages.
+
+The same input gives the same bytes. Exit code 1 when the library has errors; nothing is written then.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from skillc.cli.command import Command
+from skillc.cli.options import FOLDER, PATH
+
+
+@click.command(cls=Command)
+@click.argument("path", type=PATH)
+@click.option("-o", "--output", required=True, type=FOLDER, help="The folder to write to.")
+def command(path: Path, output: Path) -> None:
+    """Compile the library at PATH into the folder OUTPUT."""
+    from skillc.cli.console import Terminal
+    from skillc.services.artifacts import write_artifacts
+
+    for file in write_artifacts(path, output, Terminal()):
+        click.echo(file)

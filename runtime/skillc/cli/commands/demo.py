@@ -1,0 +1,52 @@
+"""Wipe a board and a table with one skill and two robots.
+
+Exit code 3 when a task does not succeed.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from skillc.cli.command import Command
+from skillc.cli.options import FOLDER, looks_option
+
+SEED = 1
+"""With this seed both surfaces lie more than a centimetre away from where the world model believes."""
+
+TASKS = {"ur5e": "clean_whiteboard", "iiwa": "clean_table"}
+
+
+@click.command(cls=Command)
+@click.option("--robot", type=click.Choice([*TASKS, "all"]), default="all", show_default=True, help="Which robot.")
+@click.option("--out", type=FOLDER, help="A folder for reports, figures, films.")
+@click.option("--seed", default=SEED, show_default=True, help="How reality differs from the world model.")
+@looks_option
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON document: a list with one object a task.")
+def command(robot: str, out: Path | None, seed: int, looks: str, as_json: bool) -> int:
+    """Run the two shipped wiping tasks in simulation."""
+    from skillc.cli.console import Terminal, print_json
+    from skillc.cli.run_output import print_results, run_with_progress
+    from skillc.services.files import check_writable
+    from skillc.services.running import RunOptions, RunResult, write_comparison
+    from skillc.services.task_loading import TaskRequest, load_task
+
+    check_writable(out)
+    runs: list[RunResult] = []
+    for task in TASKS.values() if robot == "all" else [TASKS[robot]]:
+        folder = out / task if out is not None else None
+        options = RunOptions(folder, seed, looks=looks)
+        check_writable(folder)
+        with load_task(TaskRequest(task), Terminal()) as loaded:
+            runs.append(run_with_progress(loaded, options, quiet=as_json))
+        if not as_json:
+            print_results([runs[-1].result], folder if runs[-1].written else None)
+    if as_json:
+        print_json([run.result for run in runs])
+    figure = out and write_comparison(out, [drawing for run in runs for drawing in run.drawings])
+    if figure and not as_json:
+        click.echo(f"side by side: {figure}")
+    if any(run.result.status != "success" for run in runs):
+        return 3
+    return 0 if all(run.written for run in runs) else 1

@@ -1,0 +1,25 @@
+"""Write a reference of a library to browse.
+
+Pages for skills, tasks, terms and files that link to each other; they work without a server. The same input gives the
+same bytes. Exit code 1 when the library has errors; nothing is written then.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from skillc.cli.command import Command
+from skillc.cli.options import FOLDER, PATH
+
+
+@click.command(cls=Command)
+@click.argument("path", type=PATH)
+@click.option("-o", "--output", required=True, type=FOLDER, help="The folder to write to.")
+def command(path: Path, output: Path) -> None:
+    """Write the reference of the library at PATH into the folder OUTPUT."""
+    from skillc.cli.console import Terminal
+    from skillc.services.artifacts import write_reference
+
+    click.echo(write_reference(path, output, Terminal()))

@@ -1,0 +1,32 @@
+"""Explain a diagnostic: what is wrong, why it matters, a bad and a good example.
+
+Without a name, lists all diagnostics by family. Exit code 2 for a name that there is not.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+
+import click
+
+from skillc.cli.command import Command
+
+
+@click.command(cls=Command)
+@click.argument("name", required=False)
+@click.option("--json", "as_json", is_flag=True, help="Print the page, or all pages, as JSON.")
+def command(name: str | None, as_json: bool) -> None:
+    """Explain the diagnostic NAME, such as `unknown-class`; list them all without a name."""
+    from skillc.cli.manual_pages import format_contents, format_page
+    from skillc_compiler.manual import page, page_names, pages
+    from skillc_dsl.diagnostics import did_you_mean
+
+    if name is not None and name not in page_names():
+        hint = did_you_mean(name, page_names()) or "`skillc explain` lists them all"
+        raise click.UsageError(f"there is no diagnostic `{name}`; {hint}")
+    if as_json:
+        data = asdict(page(name)) if name else [asdict(each) for each in pages().values()]
+        click.echo(json.dumps(data, indent=2, ensure_ascii=False))
+    else:
+        click.echo(format_page(page(name)) if name else format_contents(pages()), nl=False, color=True)

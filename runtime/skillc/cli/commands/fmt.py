@@ -1,0 +1,94 @@
+"""Lay out skill files in the one way there is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from skillc.cli.command import Command
+from skillc.cli.options import PATH
+
+if TYPE_CHECKING:
+    from skillc.services.formatting import FormattedFile
+
+STDIN = Path("-")
+
+
+@click.command(cls=Command)
+@click.argument("paths", nargs=-1, type=PATH)
+@click.option("--check", is_flag=True, help="Write nothing; list the files that are not formatted, and exit with 1.")
+@click.option("--diff", is_flag=True, help="Write nothing; show what would change.")
+@click.option("--stdin-filename", type=PATH, help="What the text that is read from `-` is called in messages.")
+def command(paths: tuple[Path, ...], check: bool, diff: bool, stdin_filename: Path | None) -> int:
+    """Format the skill files at PATHS, files or folders, or in the current folder. `-` is the standard input, which is
+    printed formatted.
+
+    There are no options of style. Comments stay, and so does the meaning, which is compared before a file is written. A
+    file with syntax errors is left as it is and they are shown; exit code 1.
+    """
+    from skillc.cli.console import read_stdin
+    from skillc.services.formatting import format_files, format_text
+
+    if stdin_filename and paths != (STDIN,):
+        raise click.UsageError("--stdin-filename names the text of `-`, which must be the only path")
+    if STDIN in paths and len(paths) > 1:
+        raise click.UsageError("`-` must be the only path")
+    if STDIN in paths:
+        files = [format_text(stdin_filename or Path("stdin.skill"), read_stdin())]
+    else:
+        files = list(format_files(paths or (Path(),)))
+    if diff:
+        click.echo("".join(file.diff() for file in files), nl=False)
+    if check:
+        return _show_unformatted(files)
+    return _show_problems(files) if diff else _write(files)
+
+
+def _write(files: Sequence[FormattedFile]) -> int:
+    """Write every file that changes, and print why others could not be formatted."""
+    from skillc.services.errors import ServiceError
+    from skillc.services.reporting import count_of
+
+    failed = _show_problems(files)
+    for file in files:
+        if file.path is None and not file.problems:
+            click.echo(file.text, nl=False)
+    changed = [file for file in files if file.path is not None and file.changes]
+    for file in changed:
+        try:
+            file.write()
+        except ServiceError as error:
+            click.echo(f"error: {error}", err=True)
+            failed = error.exit_code
+        else:
+            click.echo(f"formatted {file.source.path}", err=True)
+    if not changed and not failed and files[0].path is not None:
+        click.echo(f"{count_of(len(files), 'file')} formatted already", err=True)
+    return failed
+
+
+def _show_problems(files: Sequence[FormattedFile]) -> int:
+    """Print on stderr why files cannot be formatted."""
+    from skillc.cli.console import Terminal
+    from skillc.cli.diagnostics_output import exit_code
+
+    problems = [problem for file in files for problem in file.problems]
+    Terminal().show(problems, {file.source.path: file.source for file in files})
+    return exit_code(problems)
+
+
+def _show_unformatted(files: Sequence[FormattedFile]) -> int:
+    """List the files that are not formatted, and print why others could not be."""
+    from skillc.cli.diagnostics_output import render_diagnostics
+    from skillc.services.reporting import count_of
+    from skillc_dsl.formatting.formatter import check_layout
+
+    warnings = [warning for file in files if (warning := check_layout(file.source)) is not None]
+    click.echo(render_diagnostics(warnings, {}, "concise"), nl=False)
+    failed = _show_problems(files)
+    if warnings:
+        click.echo(f"{count_of(len(warnings), 'file')} not formatted; run `skillc fmt`", err=True)
+    return 1 if warnings or failed else 0

@@ -1,0 +1,51 @@
+"""Draw a skill's behaviour trees, a task or its plan.
+
+SVG opens in every browser; Mermaid goes into Markdown.
+
+Exit code 1 when the library has errors, 3 when there is no plan.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import click
+
+from skillc.cli.command import Command
+from skillc.cli.options import PATH
+
+FILE = click.Path(path_type=Path, dir_okay=False)
+
+
+@click.command(cls=Command)
+@click.argument("path", type=PATH)
+@click.argument("name")
+@click.option("--plan", "with_plan", is_flag=True, help="Plan for the goal of a task, and draw the steps too.")
+@click.option("--format", "form", type=click.Choice(["svg", "mermaid"]), help="SVG, unless the output ends in .mmd.")
+@click.option("-o", "--output", type=FILE, help="The file to write; without, it is printed.")
+def command(path: Path, name: str, with_plan: bool, form: str | None, output: Path | None) -> int:
+    """Draw the skill or the task NAME of the library at PATH."""
+    from skillc.cli.console import Terminal
+    from skillc.services.pictures import draw_declaration, draw_plan
+    from skillc_compiler.emit.picture import mermaid, svg
+    from skillc_compiler.emit.picture.boxes import Box
+
+    box = draw_declaration(path, name)
+    if with_plan:
+        plan = draw_plan(path, name, Terminal())
+        if not isinstance(plan, Box):
+            click.echo(plan.message, err=True)
+            return 3
+        box = replace(box, children=(*box.children, plan))
+    wanted = form or ("mermaid" if output and output.suffix in {".mmd", ".mermaid"} else "svg")
+    text = mermaid.draw(box) if wanted == "mermaid" else svg.document(box)
+    if output is None:
+        click.echo(text, nl=False)
+        return 0
+    try:
+        output.parent.mkdir(parents=True, exist_ok=True)
+        output.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise click.UsageError(f"cannot write {output}: {error.strerror}") from error
+    return 0

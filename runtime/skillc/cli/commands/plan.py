@@ -1,0 +1,87 @@
+"""Plan for a task or a goal; nothing moves.
+
+Says whether the plan is proved optimal: by the time that all steps take together, or by the time at which the last one
+is over.
+
+Exit code 3 when there is no plan.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from skillc.cli.command import Command
+from skillc.cli.options import PATH, json_option, planner_options, store_options
+
+if TYPE_CHECKING:
+    from skillc.services.planning import Measure
+
+NOTICE_AFTER_S = 2.0
+
+
+@click.command(cls=Command)
+@click.argument("task", required=False)
+@click.option("--scene", type=PATH, help="The scene to plan in, instead of a task's.")
+@click.option("--goal", help="The goal, as in a .skill file or as PDDL.")
+@click.option("--library", type=PATH, help="The skills to plan with, if not the shipped ones.")
+@store_options
+@planner_options
+@click.option("--prove", is_flag=True, help="Take in more of a large scene until the plan is proved optimal.")
+@click.option(
+    "--deadline",
+    type=click.FloatRange(min=0.1),
+    default=30.0,
+    show_default=True,
+    help="Seconds the planner may take.",
+)
+@json_option
+def command(
+    task: str | None,
+    scene: Path | None,
+    goal: str | None,
+    library: Path | None,
+    store: str | None,
+    reset: bool,
+    minimise: str,
+    plan_cache: bool,
+    prove: bool,
+    deadline: float,
+    as_json: bool,
+) -> int:
+    """Plan for TASK (`LIBRARY:NAME`, or a shipped task), or for a goal in a scene."""
+    from skillc.cli.console import Terminal
+    from skillc.cli.plan_output import format_plan, plan_as_json
+    from skillc.services.planning import plan_goal, prepare_planners
+    from skillc.services.stores import StoreChoice
+    from skillc.services.task_loading import TaskRequest, load_task
+    from skillc_runtime.planning.plan import GaveUp, Unsolvable
+
+    request = TaskRequest(task, scene, goal, None, library, StoreChoice(store, reset))
+    request.check(calls=False)
+    if prove and minimise != "work":
+        raise click.UsageError("--prove goes with --minimise work; by makespan an answer says what is known")
+    measure: Measure = "makespan" if minimise == "makespan" else "proven work" if prove else "work"
+    with load_task(request, Terminal()) as loaded:
+        with _notice_if_slow(deadline):
+            answer = plan_goal(loaded, measure, prepare_planners(plan_cache), deadline)
+        click.echo(plan_as_json(answer, loaded) if as_json else format_plan(answer, loaded))
+    return 3 if isinstance(answer, Unsolvable | GaveUp) else 0
+
+
+@contextmanager
+def _notice_if_slow(deadline_s: float) -> Iterator[None]:
+    """Say on stderr that planning goes on, once it has taken so long that somebody may wonder."""
+    text = f"planning, for {deadline_s:g} s at most .."
+    notice = threading.Timer(NOTICE_AFTER_S, lambda: click.echo(text, err=True))
+    notice.daemon = True
+    notice.start()
+    try:
+        yield
+    finally:
+        notice.cancel()

@@ -1,0 +1,22 @@
+"""Print the vocabulary of a library as SHACL shapes, by which other tools check scenes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from skillc.cli.command import Command
+from skillc.cli.options import PATH
+
+
+@click.command(cls=Command)
+@click.argument("path", required=False, type=PATH)
+def command(path: Path | None) -> None:
+    """Print the shapes of the vocabulary of the library at PATH, or of the shipped one, in Turtle."""
+    from skillc.services.libraries import compile_valid
+    from skillc.services.library_files import SHIPPED, find_library
+    from skillc_runtime.scene.shapes import shapes
+
+    library = compile_valid(find_library(path or SHIPPED / "wiping"))
+    click.echo(shapes(library.vocabulary), nl=False)

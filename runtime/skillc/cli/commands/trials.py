@@ -1,0 +1,58 @@
+"""Run a task many times in realities that differ, and say how good it is.
+
+Exit code 3 when a trial did not go as it should.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import get_args
+
+import click
+
+from skillc.cli.command import Command
+from skillc.cli.options import FOLDER, json_option
+from skillc_runtime.evaluation.trials.trial import Disturbance
+
+
+@click.command(cls=Command)
+@click.argument("task")
+@click.option("-n", "--number", type=click.IntRange(min=1), default=50, show_default=True, help="How many trials.")
+@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Seed of the first trial.")
+@click.option("--jobs", type=click.IntRange(min=1), help="Trials at a time.  [default: one a core]")
+@click.option(
+    "--disturb",
+    type=click.Choice(get_args(Disturbance)),
+    default="none",
+    show_default=True,
+    help="What happens besides: what is worked on is missing, something is in the way, a person pushes the arm.",
+)
+@click.option("--out", type=FOLDER, help="A folder that keeps the trials.")
+@json_option
+def command(
+    task: str, number: int, seed: int, jobs: int | None, disturb: Disturbance, out: Path | None, as_json: bool
+) -> int:
+    """Run TASK (`LIBRARY:NAME`, or a shipped task) in simulation with -n seeds from --seed on.
+
+    Each seed draws how reality differs, within the ranges in the scene. With --out the trials are kept, and those that
+    are there already are not run again.
+    """
+    from skillc.cli.console import Terminal, print_json, rich_console
+    from skillc.cli.progress import TrialProgress
+    from skillc.services.trial_runs import TrialRequest, run_trials, write_page
+    from skillc_runtime.evaluation.trials.table import render
+
+    def progress(name: str, done: int) -> TrialProgress:
+        return TrialProgress(name, disturb, number, done, quiet=as_json)
+
+    at_a_time = min(jobs or os.cpu_count() or 1, number)
+    request = TrialRequest(task, disturb, range(seed, seed + number), at_a_time, out)
+    result = run_trials(request, progress, Terminal())
+    if as_json:
+        print_json(result)
+    else:
+        rich_console().print(render(result))
+    if out is not None:
+        write_page(result, out)
+    return 0 if result.good else 3

@@ -1,0 +1,37 @@
+"""Explain a recorded run: why this implementation, why this object, why did it fail.
+
+Without a question an overview of the steps and, of a run that failed, what led there.
+
+Exit code 1 when there is no recording that can be read, 2 for a question about something that is not in it.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from skillc.cli.command import Command
+from skillc.cli.options import PATH, json_option
+
+
+@click.command(cls=Command)
+@click.argument("run", metavar="RUN_DIR", type=PATH)
+@click.argument("question", required=False)
+@json_option
+def command(run: Path, question: str | None, as_json: bool) -> None:
+    """Explain what `skillc run --out RUN_DIR` recorded.
+
+    QUESTION is the number of a step (`2`, and `2.1` for a call inside it), the name of a skill or of an implementation
+    (`Pick`), or a parameter (`gripper`, `Pick.gripper`, `2.gripper`).
+    """
+    from skillc.cli.console import Terminal, print_json
+    from skillc.cli.story_output import format_answer, format_overview
+    from skillc.services.recordings import answer_question, read_run
+
+    story = read_run(run, Terminal())
+    answer = answer_question(story, question) if question is not None else None
+    if as_json:
+        print_json(answer or story)
+    else:
+        click.echo(format_overview(story, str(run)) if answer is None else format_answer(answer))

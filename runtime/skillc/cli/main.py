@@ -1,0 +1,99 @@
+"""The `skillc` command: finds its commands in their folder and imports only the one that runs."""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import pkgutil
+import sys
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+import click
+
+from skillc.cli import streams
+from skillc.cli.options import WITH_ONTOLOGY, add_ontology_option
+from skillc.services import crash_reports
+from skillc.services.errors import OutputError
+
+COMMANDS = Path(__file__).parent / "commands"
+INTERNAL = 70
+"""EX_SOFTWARE of sysexits.h."""
+INTERRUPTED = 130
+BROKEN_PIPE = 141
+"""What shells say of a process that ended by SIGINT, and by SIGPIPE."""
+
+
+class Commands(click.Group):
+    """A group whose commands are the modules of `commands`; each has a click command named `command`."""
+
+    def main(self, *args: Any, **kwargs: Any) -> Any:
+        """Run the command line; a standard output that takes nothing more ends it."""
+        try:
+            with streams.guard_streams():
+                return super().main(*args, **kwargs)
+        except OutputError as error:
+            if isinstance(error.reason, BrokenPipeError):
+                sys.exit(BROKEN_PIPE)
+            click.echo(f"error: {error}", err=True)
+            sys.exit(1)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the command; what goes wrong with skillc itself becomes one message and a report."""
+        try:
+            return super().invoke(ctx)
+        except (click.ClickException, click.exceptions.Exit, click.Abort, OutputError):
+            raise
+        except KeyboardInterrupt:
+            sys.exit(INTERRUPTED)
+        except Exception as error:  # noqa: BLE001 - the boundary of the process
+            click.echo(crash_reports.write_report(error, sys.argv[1:]), err=True)
+            sys.exit(INTERNAL)
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return the names of all commands, without importing them."""
+        return sorted(module.name for module in pkgutil.iter_modules([str(COMMANDS)]))
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Import one command; None for an unknown name."""
+        if cmd_name not in self.list_commands(ctx):
+            return None
+        command: click.Command = importlib.import_module(f"skillc.cli.commands.{cmd_name}").command
+        return add_ontology_option(command) if cmd_name in WITH_ONTOLOGY else command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find the command, naming those that exist where there is none."""
+        if args and not args[0].startswith("-") and args[0] not in self.list_commands(ctx):
+            near = get_close_matches(args[0], self.list_commands(ctx), n=1)
+            hint = f"did you mean '{near[0]}'?" if near else f"there is {', '.join(self.list_commands(ctx))}"
+            ctx.fail(f"there is no command '{args[0]}'; {hint}")
+        return super().resolve_command(ctx, args)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """List the commands with the first line of each module, read without importing it."""
+        rows = [(name, _first_line(COMMANDS / f"{name}.py")) for name in self.list_commands(ctx)]
+        with formatter.section("Commands"):
+            formatter.write_dl(rows)
+
+
+def _first_line(path: Path) -> str:
+    docstring = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+    return docstring.partition("\n")[0]
+
+
+@click.command(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(package_name="skillc", message="skillc %(version)s")
+def skillc() -> None:
+    """Check, compile, plan and run robot skills.
+
+    Exit codes: 0 all is well, 1 the input has errors, 2 the command line is wrong, 3 a task failed,
+    70 skillc itself has failed, 130 it was interrupted, 141 nobody reads what it prints.
+    """
+
+
+def main(arguments: list[str] | None = None) -> Any:
+    """Run the command line."""
+    return skillc(arguments)

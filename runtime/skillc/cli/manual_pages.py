@@ -1,0 +1,60 @@
+"""Pages of the manual of diagnostics, for the terminal and as JSON."""
+
+from __future__ import annotations
+
+import sys
+import textwrap
+from collections.abc import Iterator, Mapping
+
+import click
+
+from skillc.cli.console import has_colours, page_width
+from skillc_compiler.manual import Page, by_family
+
+_WIDEST = 100
+"""Cells of a line of prose that is read with ease."""
+
+
+def format_page(shown: Page) -> str:
+    """Return a page as text, in colours if the terminal has some."""
+    lines = [f"{_styled(shown.name, fg='cyan')}: {shown.title}", f"family: {shown.family}", ""]
+    for paragraph in filter(None, shown.prose.split("\n\n")):
+        lines += [*_paragraph(paragraph), ""]
+    lines += [_styled("Bad", fg="red"), "", *_indented(shown.bad), ""]
+    lines += [_styled("Good", fg="green"), "", *_indented(shown.good)]
+    return "".join(f"{line}\n" for line in lines)
+
+
+def format_contents(pages: Mapping[str, Page]) -> str:
+    """Return the names and titles of all pages by family."""
+    widest = max(len(name) for name in pages)
+    lines: list[str] = []
+    for family, members in by_family(pages.values()).items():
+        lines.append(_styled(family, fg="cyan"))
+        for each in members:
+            first, *rest = textwrap.wrap(each.title, max(_width() - widest - 4, 24))
+            lines.append(f"  {each.name:{widest}}  {first}")
+            lines += (f"  {'':{widest}}  {line}" for line in rest)
+        lines.append("")
+    return "".join(f"{line}\n" for line in (*lines, "skillc explain NAME shows a page with examples."))
+
+
+def _paragraph(text: str) -> Iterator[str]:
+    """Yield a paragraph in lines of the page's width; what is indented or a list stays as it is."""
+    lines = text.split("\n")
+    if any(line.startswith((" ", "- ", "* ", "|")) for line in lines):
+        yield from lines
+    else:
+        yield from textwrap.wrap(" ".join(lines), _width(), break_long_words=False, break_on_hyphens=False)
+
+
+def _indented(program: str) -> list[str]:
+    return [f"    {line}".rstrip() for line in program.rstrip("\n").split("\n")]
+
+
+def _width() -> int:
+    return min(page_width(sys.stdout) or _WIDEST, _WIDEST)
+
+
+def _styled(text: str, *, fg: str) -> str:
+    return click.style(text, fg=fg, bold=True) if has_colours(sys.stdout) else text

@@ -1,0 +1,88 @@
+"""Options that several commands have; nothing heavy is imported here."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+
+from skillc_ontology import catalogue
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+FOLDER = click.Path(path_type=Path, file_okay=False)
+PATH = click.Path(path_type=Path)
+WITH_ONTOLOGY = ("check", "compile", "doc", "graph", "plan", "run", "world")
+"""The commands that read libraries or scenes."""
+
+
+def json_option(function: Function) -> Function:
+    """Add `--json`, as `as_json`."""
+    return click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")(function)
+
+
+def store_options(function: Function) -> Function:
+    """Add `--store` and `--reset`."""
+    function = click.option("--reset", is_flag=True, help="Empty the store and fill it with the scene again.")(function)
+    help_ = "Keep the world in a folder or on a SPARQL server; the first use fills it with the scene."
+    return click.option("--store", metavar="FOLDER|URL", help=help_)(function)
+
+
+def planner_options(function: Function) -> Function:
+    """Add `--minimise` and `--no-plan-cache`, as `minimise` and `plan_cache`."""
+    cache = click.option(
+        "--plan-cache/--no-plan-cache", default=True, help="Take plans that were found before for the same problem."
+    )
+    measure = click.option(
+        "--minimise",
+        type=click.Choice(("work", "makespan")),
+        default="work",
+        show_default=True,
+        help="The time that all steps take together, or the time until the last one is over.",
+    )
+    return cache(measure(function))
+
+
+def looks_option(function: Function) -> Function:
+    """Add `--looks`, whose meshes films show."""
+    return click.option(
+        "--looks",
+        default="primitive",
+        show_default=True,
+        metavar="NAME",
+        help="What devices look like in films and stills: `primitive` shapes, or meshes of `menagerie`, fetched once.",
+    )(function)
+
+
+def add_ontology_option(command: click.Command) -> click.Command:
+    """Add `--ontology` to a command, once."""
+    if not any(parameter.name == "ontology" for parameter in command.params):
+        command.params.append(
+            click.Option(
+                ["--ontology"],
+                multiple=True,
+                type=click.Path(path_type=Path, file_okay=False, exists=True),
+                expose_value=False,
+                callback=_set_folders,
+                help=f"A folder of ontologies to use beside the shipped ones; so are those in {catalogue.VARIABLE}.",
+            )
+        )
+    return command
+
+
+def _set_folders(context: click.Context, _option: click.Parameter, value: tuple[Path, ...]) -> tuple[Path, ...]:
+    """Name the folders in the environment for as long as the command runs, before those named there."""
+    before = os.environ.get(catalogue.VARIABLE)
+    if value:
+        os.environ[catalogue.VARIABLE] = os.pathsep.join([*map(str, value), *([before] if before else [])])
+        context.call_on_close(lambda: _restore(before))
+    return value
+
+
+def _restore(before: str | None) -> None:
+    if before is None:
+        os.environ.pop(catalogue.VARIABLE, None)
+    else:
+        os.environ[catalogue.VARIABLE] = before

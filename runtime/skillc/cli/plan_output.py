@@ -1,0 +1,116 @@
+"""The answer of a planner, as text and as JSON."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from typing import assert_never
+
+from skillc.services.planning import Answer
+from skillc.services.task_loading import LoadedTask
+from skillc_runtime.planning.plan import GaveUp, Solved, Step, Unsolvable, describe_quality
+from skillc_runtime.planning.schedule import Scheduled
+
+NAMED = 3
+"""So many of the things that were left out are named in text."""
+
+
+def format_plan(answer: Answer, loaded: LoadedTask) -> str:
+    """Return the steps, one a line, or why there are none; steps of a schedule with their times."""
+    match answer:
+        case Solved(plan=plan, planner=planner):
+            lines = [f"{number}  {_call(step, loaded)}" for number, step in enumerate(plan.steps, 1)]
+            total = f"{len(plan.steps)} steps, {plan.duration_s:g} s expected, {_quality(answer)} ({planner})"
+            return "\n".join([*lines, total, *_assumed(answer), *_left_out(answer, loaded)])
+        case Scheduled():
+            return _schedule_text(answer, loaded)
+        case Unsolvable() | GaveUp():
+            return answer.message
+        case _:
+            assert_never(answer)
+
+
+def _schedule_text(answer: Scheduled, loaded: LoadedTask) -> str:
+    timed = answer.schedule.steps
+    lines = [f"{each.start_s:7.1f} s  {each.duration_s:6.1f} s  {_call(each.step, loaded)}" for each in timed]
+    over = f"{len(timed)} steps, over after {answer.schedule.makespan_s:g} s with {answer.plan.duration_s:g} s of work"
+    lines.append(f"{over}, {_quality(answer)} ({answer.planner})")
+    lines += [f"times: {answer.times}", *_assumed(answer), *_left_out(answer, loaded)]
+    return "\n".join(lines if answer.note is None else [*lines, f"note: {answer.note}"])
+
+
+def _quality(answer: Solved | Scheduled) -> str:
+    return describe_quality(answer.optimal, answer.left_out, answer.at_least_s)
+
+
+def _assumed(answer: Solved | Scheduled) -> Iterator[str]:
+    """Yield which durations are not known before the plan is executed."""
+    yield from (f"assumed: {each}" for each in answer.assumptions)
+
+
+def _left_out(answer: Solved | Scheduled, loaded: LoadedTask) -> Iterator[str]:
+    """Yield what a plan was made without, unless that could never have made a difference."""
+    short = loaded.assignment.state.vocabulary.short
+    for each in answer.left_out:
+        if not each.harmless:
+            more = len(each.what) - NAMED
+            names = ", ".join(short(iri) for iri in each.what[:NAMED]) + (f" and {more} more" if more > 0 else "")
+            them = "it" if len(each.what) == 1 else "them"
+            needed = "yet no better plan needs" if answer.optimal == "proven" else "a better plan may need"
+            yield f"planned without {names}: {each.why}; {needed} {them}"
+
+
+def plan_as_json(answer: Answer, loaded: LoadedTask) -> str:
+    """Return one JSON object: status, steps with source lines, optimality, planner, or the reason."""
+    return json.dumps(_document(answer, loaded), indent=2)
+
+
+def _document(answer: Answer, loaded: LoadedTask) -> dict[str, object]:
+    match answer:
+        case Solved(plan=plan):
+            steps = [_step(step, loaded) for step in plan.steps]
+            return {**_solved(answer, steps), "duration_s": plan.duration_s, "planner": answer.planner}
+        case Scheduled(schedule=schedule, plan=plan):
+            steps = [
+                {**_step(each.step, loaded), "start_s": each.start_s, "duration_s": each.duration_s}
+                for each in schedule.steps
+            ]
+            times = {"makespan_s": schedule.makespan_s, "duration_s": plan.duration_s}
+            notes = {"planner": answer.planner, "times": answer.times, "note": answer.note}
+            return {**_solved(answer, steps), **times, **notes}
+        case Unsolvable(why=why):
+            return {"status": "unsolvable", "failure": why}
+        case GaveUp(why=why):
+            return {"status": "gave-up", "failure": why, "searched": answer.searched}
+        case _:
+            assert_never(answer)
+
+
+def _solved(answer: Solved | Scheduled, steps: list[dict[str, object]]) -> dict[str, object]:
+    return {
+        "status": "solved",
+        "plan": steps,
+        "plan_optimal": answer.optimal == "proven",
+        "optimal": answer.optimal,
+        "at_least_s": answer.at_least_s,
+        "quality": _quality(answer),
+        "assumptions": list(answer.assumptions),
+        "left_out": [
+            {"kind": each.kind, "what": each.what, "why": each.why, "harmless": each.harmless}
+            for each in answer.left_out
+        ],
+    }
+
+
+def _step(step: Step, loaded: LoadedTask) -> dict[str, object]:
+    source = str(loaded.library.skills[step.skill].source)
+    return {"skill": step.skill, "arguments": _arguments(step, loaded), "source": source}
+
+
+def _call(step: Step, loaded: LoadedTask) -> str:
+    return f"{step.skill}({', '.join(f'{name}: {value}' for name, value in _arguments(step, loaded).items())})"
+
+
+def _arguments(step: Step, loaded: LoadedTask) -> dict[str, str]:
+    short = loaded.assignment.state.vocabulary.short
+    return {name: short(iri) for name, iri in step.arguments.items()}

@@ -1,0 +1,100 @@
+"""What `skillc world` found in a scene, as text and as JSON."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from skillc.services.scenes import Individual, OpenScene, SceneDiff
+from skillc_runtime.scene.query import Answer, Cell
+from skillc_runtime.world.state.listing import Entry
+from skillc_runtime.world.state.values import plain, show
+
+
+def format_entries(entries: Iterable[Entry], scene: OpenScene, as_json: bool) -> str:
+    """Return what is written of individuals: as text a paragraph for each, as JSON a list of objects."""
+    if as_json:
+        return _json([_entry_data(entry, scene) for entry in entries])
+    return "\n\n".join(_entry_text(entry, scene) for entry in entries)
+
+
+def format_individuals(individuals: Iterable[Individual], scene: OpenScene, as_json: bool) -> str:
+    """Return all that is known of individuals: what is written, what leads to them, and what follows."""
+    if as_json:
+        return _json([_individual_data(each, scene) for each in individuals])
+    return "\n\n".join(_individual_text(each, scene) for each in individuals)
+
+
+def format_answer(answer: Answer, as_json: bool) -> str:
+    """Return the answer of a query, as a table or as a list of objects."""
+    if as_json:
+        return _json([dict(zip(answer.columns, row, strict=True)) for row in answer.rows])
+    rows = [answer.columns, *(tuple(map(_cell_text, row)) for row in answer.rows)]
+    widths = [max(len(row[i]) for row in rows) for i in range(len(answer.columns))]
+    return "\n".join("  ".join(text.ljust(w) for text, w in zip(row, widths, strict=True)).rstrip() for row in rows)
+
+
+def format_diff(diff: SceneDiff, as_json: bool) -> str:
+    """Return the facts that are in the first scene only, with `-`, and in the second only, with `+`; by individual."""
+    if as_json:
+        return _json({"removed": [each._asdict() for each in diff.removed], "added": [e._asdict() for e in diff.added]})
+    lines = [(each.subject, each.predicate, sign, each.value) for sign in (0, 1) for each in diff[sign]]
+    return "\n".join(f"{'-+'[sign]} {s} {p} {value}" for s, p, sign, value in sorted(lines)) or "no differences"
+
+
+def _entry_text(entry: Entry, scene: OpenScene) -> str:
+    """Return what is written of an individual, one statement to a line."""
+    short, label = scene.state.vocabulary.short, scene.labels.get(entry.individual)
+    called = "" if label is None else f'  "{label}"'
+    lines = [f"{short(entry.individual)}{called}  a {_names(entry.types, scene)}"]
+    lines += [f"    {short(relation)} {short(other)}" for relation, other in entry.relations]
+    lines += [f"    {short(name)} {show(value)}" for name, value in entry.properties]
+    return "\n".join(lines)
+
+
+def _entry_data(entry: Entry, scene: OpenScene) -> dict[str, object]:
+    short = scene.state.vocabulary.short
+    related: dict[str, list[str]] = {}
+    for relation, other in entry.relations:
+        related.setdefault(short(relation), []).append(short(other))
+    return {
+        "individual": short(entry.individual),
+        "label": scene.labels.get(entry.individual),
+        "types": [short(each) for each in entry.types],
+        "relations": related,
+        "properties": {short(name): plain(value) for name, value in entry.properties},
+    }
+
+
+def _individual_text(known: Individual, scene: OpenScene) -> str:
+    short = scene.state.vocabulary.short
+    lines = [_entry_text(known.entry, scene)]
+    lines += [f"  also a   {_names(known.classes, scene)}"] if known.classes else []
+    lines += [f"  from     {short(other)} {short(relation)}" for other, relation in known.leading]
+    lines += [f"  follows  {short(relation)} {short(other)}" for relation, other in known.follows]
+    return "\n".join(lines)
+
+
+def _individual_data(known: Individual, scene: OpenScene) -> dict[str, object]:
+    short = scene.state.vocabulary.short
+    return {
+        **_entry_data(known.entry, scene),
+        "also": [short(cls) for cls in known.classes],
+        "from": [[short(other), short(relation)] for other, relation in known.leading],
+        "follows": [[short(relation), short(other)] for relation, other in known.follows],
+    }
+
+
+def _names(iris: Sequence[str], scene: OpenScene) -> str:
+    return ", ".join(map(scene.state.vocabulary.short, iris))
+
+
+def _cell_text(cell: Cell) -> str:
+    if isinstance(cell, bool):
+        return show(cell)
+    return "" if cell is None else str(cell)
+
+
+def _json(value: Any) -> str:
+    return json.dumps(value, indent=2)

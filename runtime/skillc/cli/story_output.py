@@ -1,0 +1,209 @@
+"""Explanations of a recorded run as text and as JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain as together
+
+from skillc_runtime.recording.failure import Failure, Rejection
+from skillc_runtime.recording.known import assumed_facts, format_evidence, format_status, what_to_sense
+from skillc_runtime.recording.question import Answer
+from skillc_runtime.recording.reasons import ParameterReason, UntriedImplementation
+from skillc_runtime.recording.story import Attempt, Call, Fact, FailedNode, Story
+from skillc_runtime.world.labelled import format_fact, format_value
+
+HOW = {"passed": "passed by the caller", "default": "the default", "inferred": "found in the world"}
+PLANNED = "bound by the planner"
+
+
+def format_overview(story: Story, run: str) -> str:
+    """Return the steps of a run, why there was more than one plan, and why the task failed."""
+    lines = [f"{story.task}: {_ending(story)}"]
+    for attempt in story.attempts:
+        lines += _attempt(attempt)
+    lines += _rests_on(story)
+    if story.failure is not None:
+        lines += ["", f"why: {story.failure.message}", *_indented(_chain(story.chain, story.failure.message))]
+    lines += ["", f"Ask about a step, a skill or a parameter: `skillc why {run} {_example(story)}`"]
+    return "\n".join(lines)
+
+
+def format_answer(answer: Answer) -> str:
+    """Return what is known of the calls that a question is about."""
+    if answer.parameter:
+        return "\n".join(together.from_iterable(_parameter(call, answer.parameter) for call in answer.calls))
+    return "\n\n".join("\n".join(_explained(call)) for call in answer.calls)
+
+
+def _ending(story: Story) -> str:
+    if story.status:
+        return f"{format_status(story.status, story.verified)} after {story.last:.1f} s"
+    running = [call.skill for call in story.calls if call.status == "running"]
+    where = f", in {' > '.join(running)}" if running else ""
+    return f"the recording ends at {story.last:.1f} s, before the task does{where}"
+
+
+def _rests_on(story: Story) -> list[str]:
+    """Return the facts that a success rests on, and what would have to be sensed where they are only assumed."""
+    if not story.known:
+        return []
+    lines = [f"{format_fact(each.fact)}  ({format_evidence(each)})" for each in story.known]
+    return ["rests on:", *_indented(lines), *_indented(what_to_sense(each) for each in assumed_facts(story.known))]
+
+
+def _attempt(attempt: Attempt) -> Iterator[str]:
+    if attempt.replaces:
+        yield f"planned again: {attempt.replaces}"
+    if attempt.planner:
+        quality = attempt.quality or {"proven": "proved optimal"}.get(attempt.optimal, "")
+        proved = f", {quality}" if quality else ""
+        count = f"{len(attempt.steps)} step{'' if len(attempt.steps) == 1 else 's'}"
+        yield f"plan of {count} by {attempt.planner}{proved}, {attempt.cost:g} s expected"
+    for step in attempt.steps:
+        yield _line(step)
+        yield from _indented(filter(None, [_arguments(step)]), 7)
+
+
+def _arguments(call: Call) -> str:
+    """Return what is not a default, on one line."""
+    defaults = {each.parameter for each in call.determined if each.how == "default"}
+    return ", ".join(f"{name}: {format_value(value)}" for name, value in call.bindings.items() if name not in defaults)
+
+
+def _line(call: Call, depth: int = 0) -> str:
+    beside = f"  beside {', '.join(call.beside)}" if call.beside else ""
+    often = f"  started {call.starts} times" if call.starts > 1 else ""
+    name = f"{'  ' * depth}{call.number:>3}  {_name(call)}"
+    return f"{name:32}  {call.status:11}  {_times(call):15}  {call.source or ''}{beside}{often}".rstrip()
+
+
+def _name(call: Call) -> str:
+    return f"{call.skill}[{call.implementation}]" if call.implementation else call.skill
+
+
+def _times(call: Call) -> str:
+    if call.started is None:
+        return ""
+    return f"{call.started:.1f} - {call.ended:.1f} s" if call.ended is not None else f"{call.started:.1f} s -"
+
+
+def _explained(call: Call) -> Iterator[str]:
+    yield _line(call).strip()
+    yield from _never(call)
+    yield from _indented(_choice(call))
+    if call.bindings:
+        yield "  parameters:"
+        yield from _indented(together.from_iterable(_bound(call, name) for name in call.bindings), 4)
+    yield from _indented(_failed(call))
+    if call.calls:
+        yield "  calls inside:"
+        yield from (_line(inner, 1) for inner in call.calls)
+
+
+def _never(call: Call) -> Iterator[str]:
+    if call.status == "skipped":
+        yield "  skipped: what it is for held already when its turn came"
+    if call.status == "not started":
+        yield "  never started: the run ended, or was planned again, before its turn"
+
+
+def _choice(call: Call) -> Iterator[str]:
+    if call.implementation:
+        yield f"chosen: {call.implementation} ({call.implementation_source}), {_ground(call)}"
+    rejected = _others(call)
+    if rejected:
+        yield "rejected:"
+        yield from _indented(together.from_iterable(map(_refusal, rejected)))
+    if call.untried:
+        yield "not tried, since they rank after it (less specific, less preferred, or declared later):"
+        yield from (f"  {each.implementation} ({each.source}): {_would(each)}" for each in call.untried)
+
+
+def _ground(call: Call) -> str:
+    if call.fixed:
+        return "which the call names"
+    return "the first in rank that fits" if _others(call) or call.untried else "the only one"
+
+
+def _others(call: Call) -> tuple[Rejection, ...]:
+    """Return the implementations that did not do, but for the one chosen last, whose failure is the call's."""
+    return tuple(each for each in call.rejected if each.implementation != call.implementation)
+
+
+def _would(untried: UntriedImplementation) -> str:
+    return f"would not fit, {untried.reason}" if untried.reason else "would fit too"
+
+
+def _refusal(rejected: Rejection) -> Iterator[str]:
+    yield f"{rejected.implementation}: {rejected.reason} ({rejected.source})"
+    if rejected.failure is not None:
+        yield from _indented(_causes(rejected.failure.causes))
+
+
+def _bound(call: Call, name: str) -> Iterator[str]:
+    reason = next((each for each in call.determined if each.parameter == name), None)
+    how = reason.how if reason is not None else "passed"
+    yield f"{name} = {format_value(call.bindings[name])}  ({PLANNED if call.planned and how == 'passed' else HOW[how]})"
+    if reason is not None:
+        yield from _indented(_because(reason))
+
+
+def _because(reason: ParameterReason) -> Iterator[str]:
+    for condition in reason.conditions:
+        facts = "; ".join(map(format_fact, condition.facts))
+        yield f"`{condition.text}` ({condition.source}): {facts or 'no fact decides it'}"
+    if reason.others:
+        yield f"`infer any` passed over {', '.join(other.label for other in reason.others)}"
+
+
+def _failed(call: Call) -> Iterator[str]:
+    for earlier in call.earlier:
+        yield f"an earlier start ended at {earlier.ended:.1f} s: {earlier.status} {earlier.message}".rstrip()
+    if call.failure is None:
+        return
+    refused = [each for each in _others(call) if each.reason == call.failure.message]
+    why = "no implementation is left" if refused else f"{call.failure.message} ({call.failure.source})"
+    yield f"{'halted' if call.status == 'halted' else 'failed'}: {why}"
+    yield from _indented(_causes(call.failure.causes))
+    yield from _indented(_chain(call.chain[1:], call.failure.message))
+    if call.facts:
+        yield "facts at that moment:"
+        yield from _indented(map(_fact, call.facts))
+
+
+def _causes(causes: Sequence[Failure]) -> Iterator[str]:
+    for cause in causes:
+        yield f"because {cause.message} ({cause.source})"
+        yield from _indented(_causes(cause.causes))
+
+
+def _chain(links: Sequence[FailedNode], known: str = "") -> Iterator[str]:
+    """Lead to the innermost one, whose reason is said unless it is known."""
+    for depth, link in enumerate(links):
+        innermost = f": {link.message}" if link is links[-1] and link.message not in known else ""
+        yield f"{'  ' * depth}in {link.kind} {link.name} ({link.source}){innermost}"
+
+
+def _fact(fact: Fact) -> str:
+    known = f"{fact.known}, " if fact.known else ""
+    text = format_fact(fact.fact)
+    return text if fact.since is None else f"{text}  ({known}since {fact.since:.1f} s, by {fact.by})"
+
+
+def _parameter(call: Call, name: str) -> Iterator[str]:
+    yield _line(call).strip()
+    if name in call.bindings:
+        yield from _indented(_bound(call, name), 4)
+    elif name in call.unset:
+        yield f"    {name} has no value:"
+        yield from _indented(together.from_iterable(map(_refusal, call.rejected)), 6)
+
+
+def _indented(lines: Iterable[str], spaces: int = 2) -> Iterator[str]:
+    return (f"{' ' * spaces}{line}" for line in lines)
+
+
+def _example(story: Story) -> str:
+    """Return a question worth asking: about the last step that failed, else the first."""
+    failed = [call.number for call in story.calls if call.status == "failure" and "." not in call.number]
+    return failed[-1] if failed else "1"

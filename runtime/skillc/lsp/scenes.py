@@ -1,0 +1,77 @@
+"""The scenes of a library's tasks as an editor sees them, cached until a scene or the library's terms change."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import msgspec
+
+from skillc.services.library_checks import check_with_scenes
+from skillc_compiler.ide.analysis import Analysis
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.program.typed import Program
+from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_ontology import catalogue
+
+if TYPE_CHECKING:
+    from skillc.services.task_scenes import TaskScenes
+    from skillc_runtime.scene.load import Scene
+
+
+@dataclass
+class SceneCache:
+    """Caches scene files that were read. The world model is imported only when a task has a scene."""
+
+    _read: dict[tuple[Path, int | str, bytes], Outcome[Scene | None]] = field(default_factory=dict)
+
+    def read(self, program: Program, base: Vocabulary, folder: Path, buffers: Mapping[Path, str]) -> TaskScenes | None:
+        """Return the scenes of a program's tasks, None where no task has one; `buffers` replace what is on disk."""
+        if not any(task.scene for task in program.tasks):
+            return None
+        from skillc.services.task_scenes import SceneTexts, read_scene, read_task_scenes
+
+        terms = _own_terms(program.vocabulary, base)
+
+        def read(path: Path, vocabulary: Vocabulary) -> Outcome[Scene | None]:
+            text = buffers.get(path)
+            key = (path, (path.stat().st_mtime_ns if path.is_file() else 0) if text is None else text, terms)
+            if key not in self._read:
+                self._read = {other: found for other, found in self._read.items() if other[0] != path}
+                self._read[key] = read_scene(path, vocabulary, text)
+            return self._read[key]
+
+        return read_task_scenes(program, SceneTexts(folder.joinpath, str), read=read)
+
+
+def find_problems(scenes: TaskScenes | None, analysis: Analysis) -> tuple[Diagnostic, ...]:
+    """Return what is wrong with scenes that do not ship, what keeps tasks from being done, what values name nothing."""
+    sources = analysis.library.sources.values()
+    found = check_with_scenes(analysis.compiled, analysis.program, scenes, str, sources)
+    return tuple(each for each in found if not _is_shipped(each.span.path))
+
+
+def texts(found: Iterable[Diagnostic], buffers: Mapping[Path, str]) -> dict[str, str]:
+    """Return the texts of the scenes that problems speak of, by the paths they have there; see `SceneCache.read`."""
+    paths = {span.path for each in found for span in (each.span, *(label.span for label in each.labels))}
+    wanted = sorted(path for path in paths if path.endswith(".ttl") and Path(path).is_file())
+    return {path: _text(Path(path), buffers) for path in wanted}
+
+
+def _text(file: Path, buffers: Mapping[Path, str]) -> str:
+    return buffers[file] if file in buffers else file.read_text("utf-8-sig", errors="replace")
+
+
+def _is_shipped(path: str) -> bool:
+    return Path(path).resolve().is_relative_to(catalogue.ROOT)
+
+
+def _own_terms(vocabulary: Vocabulary, base: Vocabulary) -> bytes:
+    """Return what the library adds to the vocabulary, prefixes too, whatever the lines it stands in."""
+    pairs = ((vocabulary.classes, base.classes), (vocabulary.relations, base.relations))
+    tables: tuple[tuple[Mapping[str, msgspec.Struct], Mapping[str, msgspec.Struct]], ...] = pairs
+    own = [term for mine, theirs in tables for iri, term in mine.items() if theirs.get(iri) != term]
+    own += [term for iri, term in vocabulary.properties.items() if base.properties.get(iri) != term]
+    return msgspec.json.encode([vocabulary.prefixes, *(msgspec.structs.replace(term, source=None) for term in own)])

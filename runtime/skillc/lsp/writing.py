@@ -1,0 +1,177 @@
+"""Requests that write: completion, renaming, fixes, formatting."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+
+from lsprotocol import types
+from pygls.exceptions import JsonRpcInvalidParams
+
+from skillc.lsp import problems
+from skillc.lsp.files import Root, is_turtle, place
+from skillc.lsp.libraries import View, parse
+from skillc.lsp.positions import Lines
+from skillc.lsp.scenes import texts
+from skillc.lsp.session import Session
+from skillc_compiler.ide.completion import complete
+from skillc_compiler.ide.imports import import_of
+from skillc_compiler.ide.offers import Offer
+from skillc_compiler.ide.rename import Refused, renamable
+from skillc_compiler.ide.rename import rename as renamed
+from skillc_dsl.diagnostics import Diagnostic, Fix
+from skillc_dsl.edits import drop_overlapping
+from skillc_dsl.source import Source, Span
+from skillc_ontology import catalogue
+
+FIX_ALL = "source.fixAll.skillc"
+_KINDS = {
+    "keyword": types.CompletionItemKind.Keyword,
+    "class": types.CompletionItemKind.Class,
+    "type": types.CompletionItemKind.Struct,
+    "relation": types.CompletionItemKind.Method,
+    "property": types.CompletionItemKind.Property,
+    "function": types.CompletionItemKind.Function,
+    "skill": types.CompletionItemKind.Interface,
+    "implementation": types.CompletionItemKind.Reference,
+    "parameter": types.CompletionItemKind.Field,
+    "variable": types.CompletionItemKind.Variable,
+    "label": types.CompletionItemKind.Event,
+    "individual": types.CompletionItemKind.Constant,
+    "value": types.CompletionItemKind.EnumMember,
+    "unit": types.CompletionItemKind.Unit,
+    "vocabulary": types.CompletionItemKind.Module,
+    "file": types.CompletionItemKind.File,
+    "diagnostic": types.CompletionItemKind.Text,
+}
+
+
+def completion(session: Session, params: types.CompletionParams) -> types.CompletionList:
+    """Offer what fits at the cursor."""
+    at = session.at(params)
+    warnings = sorted({problem.name for problem in at.view.analysis.problems if problem.severity == "warning"})
+    scenes = [*sorted(_scenes_beside(at.view)), *catalogue.scenes()]
+    found = complete(at.view.analysis, at.view.path, at.line, at.column, scenes, warnings)
+    place = at.lines.range(found.replaced)
+    items = [_item(offer, order, place) for order, offer in enumerate(found.offers)]
+    for item, offer in zip(items, found.offers, strict=True):
+        if offer.imports:
+            line = import_of(at.view.analysis, at.view.path, offer.imports)
+            item.additional_text_edits = [types.TextEdit(at.lines.range(line.span), line.text)]
+    return types.CompletionList(False, items)
+
+
+def prepare_rename(session: Session, params: types.PrepareRenameParams) -> types.PrepareRenamePlaceholder:
+    """Return the name that would be changed; an error says why nothing can be."""
+    at = session.at(params)
+    match renamable(at.view.analysis, at.view.path, at.line, at.column):
+        case Refused(reason=reason):
+            raise JsonRpcInvalidParams(reason)
+        case span:
+            return types.PrepareRenamePlaceholder(at.lines.range(span), at.view.analysis.text_of(span))
+
+
+def rename(session: Session, params: types.RenameParams) -> types.WorkspaceEdit:
+    """Return the edits that rename; an error says why there are none."""
+    at = session.at(params)
+    match renamed(at.view.analysis, at.view.path, at.line, at.column, params.new_name, parse):
+        case Refused(reason=reason):
+            raise JsonRpcInvalidParams(reason)
+        case renaming:
+            return _workspace_edit(session, at.view.root, at.lines, renaming.edits)
+
+
+def code_actions(session: Session, params: types.CodeActionParams) -> list[types.CodeAction]:
+    """Offer the fixes of the problems in a range, and all safe ones of the file at once."""
+    if is_turtle(session.file(params.text_document.uri)):
+        return _in_turtle(session, params)
+    view = session.libraries.view(params.text_document.uri)
+    here = [problem for problem in view.analysis.problems if problem.span.path == view.path]
+    return _actions(session, params, view.root, session.lines(view), here)
+
+
+def _in_turtle(session: Session, params: types.CodeActionParams) -> list[types.CodeAction]:
+    """Offer the fixes of a scene or a vocabulary, as the first library sees it that has something to say of it."""
+    libraries, file = session.libraries, session.file(params.text_document.uri)
+    for root, analysis in libraries.known():
+        around = libraries.problems_around(root)
+        here = [problem for problem in around if place(problem.span.path, root) == file]
+        if here:
+            lines = Lines({**analysis.texts, **texts(around, libraries.buffers)}, session.encoding)
+            return _actions(session, params, root, lines, here)
+    return []
+
+
+def _actions(
+    session: Session, params: types.CodeActionParams, root: Root, lines: Lines, here: Sequence[Diagnostic]
+) -> list[types.CodeAction]:
+    actions = []
+    if _wanted(params, types.CodeActionKind.QuickFix.value):
+        touched = [problem for problem in here if _meet(lines.range(problem.span), params.range)]
+        actions += [_quick_fix(session, root, lines, problem) for problem in touched if problem.fix]
+    safe = drop_overlapping(problem.fix for problem in here if problem.fix and problem.fix.safe)
+    if safe and _wanted(params, FIX_ALL):
+        edit = _workspace_edit(session, root, lines, safe)
+        actions.append(types.CodeAction("Fix everything that is safe to fix", FIX_ALL, edit=edit))
+    return actions
+
+
+def formatting(session: Session, params: types.DocumentFormattingParams) -> list[types.TextEdit]:
+    """Return the edit that lays the file out; none for a file with errors or one that is laid out already."""
+    from skillc_dsl.formatting.formatter import format_source
+
+    view = session.libraries.view(params.text_document.uri)
+    text = view.analysis.texts.get(view.path, "")
+    outcome = format_source(Source(view.path, text))
+    if not outcome.ok or outcome.value == text:
+        return []
+    rows = text.split("\n")
+    whole = Span(view.path, 1, 1, len(rows), len(rows[-1]) + 1)
+    return [types.TextEdit(session.lines(view).range(whole), outcome.value)]
+
+
+def _item(offer: Offer, order: int, place: types.Range) -> types.CompletionItem:
+    text = types.MarkupContent(types.MarkupKind.Markdown, offer.documentation) if offer.documentation else None
+    return types.CompletionItem(
+        label=offer.text,
+        kind=_KINDS[offer.kind],
+        detail=offer.detail or None,
+        documentation=text,
+        sort_text=f"{order:04}",
+        filter_text=offer.inserted,
+        text_edit=types.TextEdit(place, offer.inserted),
+    )
+
+
+def _scenes_beside(view: View) -> Iterable[str]:
+    folder = (view.root.folder / view.path).parent
+    return (file.relative_to(folder).as_posix() for pattern in ("*.ttl", "*/*.ttl") for file in folder.glob(pattern))
+
+
+def _quick_fix(session: Session, root: Root, lines: Lines, problem: Diagnostic) -> types.CodeAction:
+    assert problem.fix is not None
+    return types.CodeAction(
+        title=problem.fix.message,
+        kind=types.CodeActionKind.QuickFix,
+        diagnostics=[problems.convert_problem(session.libraries, root, lines, problem)],
+        is_preferred=problem.fix.safe,
+        edit=_workspace_edit(session, root, lines, (problem.fix,)),
+    )
+
+
+def _wanted(params: types.CodeActionParams, kind: str) -> bool:
+    only = params.context.only
+    return only is None or any(kind == each or kind.startswith(f"{each}.") for each in only)
+
+
+def _meet(one: types.Range, other: types.Range) -> bool:
+    return one.start <= other.end and other.start <= one.end
+
+
+def _workspace_edit(session: Session, root: Root, lines: Lines, fixes: Iterable[Fix]) -> types.WorkspaceEdit:
+    changes: dict[str, list[types.TextEdit]] = defaultdict(list)
+    for fix in fixes:
+        uri = session.libraries.uri(root, fix.span.path)
+        changes[uri].append(types.TextEdit(lines.range(fix.span), fix.text))
+    edits: Mapping[str, list[types.TextEdit]] = dict(changes)
+    return types.WorkspaceEdit(changes=edits)

@@ -1,0 +1,1 @@
+"""What can be asked of skillc, without a terminal: check, compile, plan, run and more, as functions and values."""

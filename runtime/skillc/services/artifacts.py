@@ -1,0 +1,56 @@
+"""What is made of a library: its artifacts, and a reference to browse."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from skillc.services import libraries
+from skillc.services.errors import DiagnosticsError, ServiceError
+from skillc.services.library_files import LibraryFiles, find_library, source_texts
+from skillc.services.reporting import Reporter
+from skillc_compiler.emit.artifacts import artifacts
+from skillc_compiler.emit.headers import is_ours
+from skillc_compiler.emit.write import EmitError, write
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_compiler.program.typed import ReadFile
+from skillc_compiler.resolve.files import read
+
+
+def write_artifacts(path: Path, output: Path, reporter: Reporter) -> tuple[Path, ...]:
+    """Compile the library at `path` into a folder and return the files written.
+
+    RequestError, DiagnosticsError or ServiceError where that cannot be done; with errors nothing is written.
+    """
+    return _write(artifacts(compile_and_report(find_library(path), reporter)), output)
+
+
+def write_reference(path: Path, output: Path, reporter: Reporter) -> Path:
+    """Write the reference of a library into a folder and return its first page; otherwise as `write_artifacts`."""
+    from skillc_compiler.emit.docs.site import MARK, site
+
+    files = find_library(path)
+    library = compile_and_report(files, reporter)
+    _write(site(library, read_files(files)), output, lambda text: MARK in text.partition("\n")[0])
+    return output / "index.html"
+
+
+def compile_and_report(files: LibraryFiles, reporter: Reporter) -> SkillLibrary:
+    """Compile a library and report its warnings. DiagnosticsError if it has errors."""
+    outcome = libraries.compile_library(files)
+    if not outcome.ok:
+        raise DiagnosticsError(outcome.diagnostics, source_texts(files))
+    reporter.show(outcome.diagnostics, source_texts(files))
+    return outcome.value
+
+
+def read_files(files: LibraryFiles) -> tuple[ReadFile, ...]:
+    """Return the parsed files of a library and what they import."""
+    return read(files.sources, files.importable, files.name).value
+
+
+def _write(texts: Mapping[str, str], output: Path, is_own: Callable[[str], bool] = is_ours) -> tuple[Path, ...]:
+    try:
+        return write(texts, output, is_own)
+    except EmitError as error:
+        raise ServiceError(str(error)) from error

@@ -1,0 +1,85 @@
+"""Checking skills and scenes: what is wrong with them, from the cache where nothing has changed.
+
+Nothing heavy is imported unless something has to be checked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+from skillc.services.check_cache import CheckCacheEntry
+from skillc.services.errors import RequestError
+from skillc.services.library_files import LibraryFiles, find_library, library_of_file, source_texts
+from skillc.services.reporting import find_texts, sort_diagnostics
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Source
+
+STDIN = Path("-")
+
+
+class StdinFile(NamedTuple):
+    """The text that came from the standard input, and the file that it stands for; None for a file nowhere."""
+
+    path: Path | None
+    content: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class CheckRequest:
+    """What is to be checked, with a scene or without; `-` among the paths is `stdin`.
+
+    With `cache`, files that were checked before are not checked again.
+    """
+
+    paths: tuple[Path, ...]
+    scene: Path | None = None
+    stdin: StdinFile | None = None
+    cache: bool = True
+
+
+class CheckResult(NamedTuple):
+    """What is wrong, each problem once and in order of place, and the texts that the problems point into, by path."""
+
+    diagnostics: tuple[Diagnostic, ...]
+    texts: dict[str, Source]
+
+
+def read_libraries(request: CheckRequest) -> list[LibraryFiles]:
+    """Read the libraries at the paths. RequestError for a path without a library."""
+    return [_from_stdin(request.stdin) if path == STDIN else find_library(path) for path in request.paths]
+
+
+def check_sources(request: CheckRequest, libraries: Iterable[LibraryFiles]) -> CheckResult:
+    """Return what is wrong with libraries that were read for a request, or changed since."""
+    found: list[Diagnostic] = []
+    texts: dict[str, Source] = {}
+    for library in libraries:
+        own = check_one(request, library)
+        found += own
+        texts |= source_texts(library) if own else {}
+    ordered = sort_diagnostics(found)
+    return CheckResult(ordered, find_texts(ordered, texts))
+
+
+def check_one(request: CheckRequest, library: LibraryFiles) -> tuple[Diagnostic, ...]:
+    """Return what is wrong with a library, from the cache if nothing has changed."""
+    entry = CheckCacheEntry.of(library, request.scene) if request.cache else None
+    known = entry.load() if entry else None
+    if known is not None:
+        return known
+    from skillc.services import library_checks
+
+    found = library_checks.check_library(library, request.scene)
+    if entry:
+        entry.store(found)
+    return found
+
+
+def _from_stdin(stdin: StdinFile | None) -> LibraryFiles:
+    assert stdin is not None
+    if stdin.path is not None and stdin.path.suffix != ".skill":
+        raise RequestError(f"{stdin.path} is not a .skill file")
+    return library_of_file(*stdin)

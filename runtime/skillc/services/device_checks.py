@@ -1,0 +1,83 @@
+"""Checks of arms in scenes: unknown controllers, and data sheets that do not fit the controller or the model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from difflib import get_close_matches
+
+import pyoxigraph as ox
+
+from skillc.services.scene_diagnostics import with_shown_path
+from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean
+from skillc_runtime.control.gains import UnknownController, read_gains
+from skillc_runtime.scene.load import Scene
+from skillc_runtime.scene.statements import iri_of
+from skillc_runtime.world.state.data_sheet import Sheet, SheetError
+from skillc_runtime.world.state.terms import ARM_DEVICE, COMPLIANT_CONTROLLER, HAS_SHEET, POSTURE_NAME
+from skillc_runtime.world.state.world_state import WorldState
+
+HOME = "home"
+"""The posture that every arm has."""
+
+
+def check_controllers(scene: Scene, path: str) -> Iterator[Diagnostic]:
+    """Yield the places in the scene file at `path` where an arm names a controller that does not exist."""
+    named = [each for each in scene.said if each.predicate == COMPLIANT_CONTROLLER and each.lines.path == path]
+    if not named:
+        return
+    # The controllers bring the simulator with them, which takes long to import.
+    from skillc_runtime.control.gains import CONTROLLERS
+
+    known = tuple(CONTROLLERS)
+    for each in named:
+        name = each.object.value if isinstance(each.object, ox.Literal) else str(each.object)
+        if name not in known:
+            span, near = with_shown_path(each.object_place), get_close_matches(name, known, n=1)
+            message = f'there is no controller "{name}"; there are: {", ".join(known)}'
+            fix = Fix(span, f'"{near[0]}"', f'write "{near[0]}"', safe=False) if near else None
+            yield Diagnostic("unknown-controller", span, message, did_you_mean(name, known), fix=fix)
+
+
+def check_sheets(scene: Scene, path: str) -> Iterator[Diagnostic]:
+    """Yield the places in the scene file at `path` where an arm names a sheet that lacks what it needs."""
+    for each in scene.said:
+        arm = iri_of(each.subject)
+        if each.predicate == HAS_SHEET and each.lines.path == path and scene.state.is_a(arm, ARM_DEVICE):
+            sheet = Sheet(scene.state, iri_of(each.object))
+            missing = _missing_from(scene.state, arm, sheet)
+            if missing is not None:
+                message = f"{scene.state.vocabulary.short(arm)} cannot be run with this sheet: {missing}"
+                yield _misspelt_home(scene, path, sheet, message) or Diagnostic(
+                    "unfit-sheet", with_shown_path(each.object_place), message, "name the sheet of this arm"
+                )
+
+
+def _misspelt_home(scene: Scene, path: str, sheet: Sheet, message: str) -> Diagnostic | None:
+    """Return what is reported at the name of a posture in this file that is close to the one that is missing."""
+    near = get_close_matches(HOME, sheet.posture_names, n=1) if HOME not in sheet.posture_names else []
+    for each in scene.said:
+        named = each.predicate == POSTURE_NAME and iri_of(each.subject) in sheet.postures and each.lines.path == path
+        if named and scene.state.value(iri_of(each.subject), POSTURE_NAME) in near:
+            span = with_shown_path(each.object_place)
+            fix = Fix(span, f'"{HOME}"', f'write "{HOME}"', safe=False)
+            return Diagnostic("unfit-sheet", span, message, f"did you mean `{HOME}`?", fix=fix)
+    return None
+
+
+def _missing_from(state: WorldState, arm: str, sheet: Sheet) -> str | None:
+    """Return what a sheet lacks for an arm; what keeps its controller from being known is told elsewhere."""
+    # The simulator takes long to import.
+    import mujoco
+
+    controller = state.value(arm, COMPLIANT_CONTROLLER)
+    try:
+        if controller is not None:
+            read_gains(str(controller), sheet.number)
+        joints, home = len(mujoco.MjSpec.from_file(str(sheet.model)).joints), sheet.posture(HOME).size
+    except UnknownController:
+        return None
+    except SheetError as error:
+        return str(error)
+    except ValueError as error:
+        return f"its model cannot be read: {error}"
+    return None if joints == home else f"its model has {joints} joints, and its posture home {home} numbers"

@@ -1,0 +1,77 @@
+"""What of the things that skillc can use is installed here."""
+
+from __future__ import annotations
+
+import platform
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, requires, version
+
+from skillc_runtime.planning.aries import solver as aries
+from skillc_runtime.planning.fast_downward import solver as fast_downward
+from skillc_runtime.simulation.rendering import RenderingError, check_rendering
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One thing that was looked for; `meaning` says what works, or what to do."""
+
+    name: str
+    found: bool
+    version: str
+    meaning: str
+    required: bool = False
+
+
+def diagnose_environment() -> list[Finding]:
+    """Look for everything that skillc can use."""
+    return [
+        Finding("python", True, platform.python_version(), platform.platform(), required=True),
+        Finding("skillc", True, version("skillc"), "", required=True),
+        *(_package(name) for name in _required()),
+        *_planners(),
+        _rendering(),
+        _video(),
+    ]
+
+
+def _required() -> list[str]:
+    """Return the names of the packages that skillc always needs."""
+    needed = [line for line in requires("skillc") or () if "extra ==" not in line]
+    return sorted(re.split(r"[^\w.-]", line, maxsplit=1)[0] for line in needed)
+
+
+def _package(name: str) -> Finding:
+    try:
+        return Finding(name, True, version(name), "", required=True)
+    except PackageNotFoundError:
+        return Finding(name, False, "", f"install it: pip install {name}", required=True)
+
+
+def _planners() -> Iterator[Finding]:
+    if fast_downward.find_fast_downward():
+        can = "plans: the least work, proved"
+        yield Finding("Fast Downward", True, version("up-fast-downward"), can)
+    else:
+        yield Finding("Fast Downward", False, "", "plans for larger scenes; pip install 'skillc[planner]'")
+    yield Finding("built-in A*", True, version("skillc"), "plans for small scenes: the least work, proved")
+    if aries.find_aries():
+        yield Finding("aries", True, version("up-aries"), "schedules that are over early (--minimise makespan)")
+    else:
+        missing = "better schedules than those of the plan with the least work; pip install 'skillc[temporal]'"
+        yield Finding("aries", False, "", missing)
+
+
+def _rendering() -> Finding:
+    try:
+        return Finding("GL library", True, check_rendering(), "runs are filmed")
+    except RenderingError as error:
+        return Finding("GL library", False, "", str(error))
+
+
+def _video() -> Finding:
+    try:
+        return Finding("av", True, version("av"), "films are written as MP4")
+    except PackageNotFoundError:
+        return Finding("av", False, "", "films are left out; pip install 'skillc[video]'")

@@ -1,0 +1,107 @@
+"""Files and folders that a user names: what they are, rewriting a file whole or not at all, folders to write to."""
+
+from __future__ import annotations
+
+import errno
+import os
+import stat
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from skillc.services.errors import ServiceError
+from skillc_dsl.encoding import decode
+
+Kind = Literal["file", "folder", "missing", "unusable"]
+
+
+@dataclass(frozen=True, slots=True)
+class PathStatus:
+    """What a path leads to. `is_what` completes a sentence that begins with the path: `is a folder`."""
+
+    kind: Kind
+    is_what: str
+
+
+_BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+_BROKEN_LINK = PathStatus("unusable", "is a link that leads nowhere")
+
+
+def inspect_path(path: Path) -> PathStatus:
+    """Return what a path leads to; pipes, devices, broken links and impossible names are `unusable`."""
+    try:
+        mode = path.stat().st_mode
+    except (FileNotFoundError, NotADirectoryError):
+        return _BROKEN_LINK if path.is_symlink() else PathStatus("missing", "is missing")
+    except (OSError, ValueError) as error:
+        if isinstance(error, OSError) and error.errno == errno.ELOOP:
+            return _BROKEN_LINK
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        return PathStatus("unusable", f"cannot be opened: {reason}")
+    if stat.S_ISREG(mode):
+        return PathStatus("file", "is a file")
+    return (
+        PathStatus("folder", "is a folder") if stat.S_ISDIR(mode) else PathStatus("unusable", "is not a regular file")
+    )
+
+
+def rewrite_file(path: Path, old: str, new: str) -> None:
+    """Replace the decoded text `old` of a file by `new`; line ends, byte order mark and permissions stay.
+
+    ServiceError if the file has changed meanwhile or cannot be written; it is as it was then.
+    """
+    target = path.resolve()
+    try:
+        content = target.read_bytes()
+        if decode("", content).text != old:
+            raise ServiceError(f"{path} was changed by someone else meanwhile; it is left as it is")
+        _replace(target, _encode(new, content))
+    except OSError as error:
+        raise ServiceError(f"{path} cannot be written: {error.strerror}; it is left as it was") from error
+
+
+def _encode(text: str, before: bytes) -> bytes:
+    """Return the bytes of a text with the line ends and the mark that the file had."""
+    dos = before.count(b"\r\n") > before.count(b"\n") // 2
+    mac = b"\n" not in before and b"\r" in before
+    content = text.replace("\n", "\r\n" if dos else "\r" if mac else "\n").encode()
+    return _BYTE_ORDER_MARK + content if before.startswith(_BYTE_ORDER_MARK) else content
+
+
+def _replace(target: Path, content: bytes) -> None:
+    descriptor, name = tempfile.mkstemp(prefix=".skillc-", dir=target.parent)
+    try:
+        with os.fdopen(descriptor, "wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        Path(name).chmod(target.stat().st_mode & 0o7777)
+        Path(name).replace(target)
+    except OSError:
+        Path(name).unlink(missing_ok=True)
+        raise
+
+
+@contextmanager
+def writing_to(folder: Path) -> Iterator[None]:
+    """Turn an OSError inside into a ServiceError that says that the folder cannot be written to."""
+    try:
+        yield
+    except OSError as error:
+        raise ServiceError(f"cannot write to {folder}: {error.strerror or error}") from error
+
+
+def check_writable(folder: Path | None) -> None:
+    """Raise ServiceError where a folder, if one is wanted, cannot be made or written to; nothing is left behind."""
+    if folder is None:
+        return
+    with writing_to(folder):
+        missing = [each for each in (folder, *folder.parents) if not each.exists()]
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+        for each in missing:
+            each.rmdir()

@@ -1,0 +1,68 @@
+"""Formatting skill files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from skillc.services.errors import RequestError
+from skillc.services.files import inspect_path, rewrite_file
+from skillc.services.fixing import unified_diff
+from skillc.services.library_files import find_library
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.encoding import decode
+from skillc_dsl.formatting.formatter import format_source
+from skillc_dsl.source import Source
+
+
+@dataclass(frozen=True, slots=True)
+class FormattedFile:
+    """A source, its formatted text, and why it has none; `path` is where it is written, None for a text without file.
+
+    With `problems` the text is as it was.
+    """
+
+    source: Source
+    path: Path | None
+    text: str
+    problems: tuple[Diagnostic, ...]
+
+    @property
+    def changes(self) -> bool:
+        """Whether formatting changes the text."""
+        return self.text != self.source.text
+
+    def diff(self) -> str:
+        """Return the change as a unified diff."""
+        name = self.source.path
+        return unified_diff(self.source.text, self.text, name, f"{name} (formatted)", context=3)
+
+    def write(self) -> None:
+        """Write the text to its file. ServiceError where that cannot be done."""
+        assert self.path is not None
+        rewrite_file(self.path, self.source.text, self.text)
+
+
+def format_files(paths: Iterable[Path]) -> Iterator[FormattedFile]:
+    """Yield each skill file at the paths once, formatted. RequestError for a path without skill files."""
+    seen: set[Path] = set()
+    for path in paths:
+        if inspect_path(path).kind == "missing":
+            raise RequestError(f"there is no file or folder {path}")
+        library = find_library(path)
+        for source in library.sources:
+            place = library.places[source.path]
+            if place.resolve() not in seen:
+                seen.add(place.resolve())
+                yield _format(Source(library.display_path(source.path), source.text), place)
+
+
+def format_text(name: Path, content: bytes) -> FormattedFile:
+    """Format a text that is called `name` in messages."""
+    return _format(decode(str(name), content), None)
+
+
+def _format(source: Source, path: Path | None) -> FormattedFile:
+    outcome = format_source(source)
+    return FormattedFile(source, path, outcome.value, outcome.diagnostics)

@@ -1,0 +1,111 @@
+"""Compiling a skill library, with the shipped ontology and the user's as its vocabulary."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from functools import cache, lru_cache
+from pathlib import Path
+from typing import TypeAlias
+
+from skillc.services.errors import DiagnosticsError, RequestError
+from skillc.services.library_files import (
+    SHIPPED,
+    LibraryFiles,
+    find_library,
+    read_vocabularies,
+    source_texts,
+    user_vocabularies,
+)
+from skillc_compiler import pipeline
+from skillc_compiler.library.skills import SkillLibrary, Task
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.program.typed import Program
+from skillc_compiler.resolve.files import read
+from skillc_compiler.resolve.individuals import Individuals
+from skillc_compiler.resolve.program import resolve
+from skillc_compiler.vocabulary.load import load
+from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
+from skillc_dsl.garbage import gc_disabled
+from skillc_dsl.parsing.parser import parse
+from skillc_dsl.source import Source, Span
+from skillc_ontology import catalogue
+
+IndividualsByTask: TypeAlias = Callable[[Program], Mapping[str, Individuals]]
+"""Returns the individuals in the scenes of a program's tasks, by task."""
+_MOST_FILES = 2000
+_MOST_VOCABULARIES = 4
+
+
+def compile_library(library: LibraryFiles, find_individuals: IndividualsByTask | None = None) -> Outcome[SkillLibrary]:
+    """Compile, with the shipped ontology and the library's own as vocabulary; diagnostics show paths as from here.
+
+    `find_individuals` gives those that the tasks of a program may name; those of other tasks are not checked.
+    """
+    with gc_disabled():
+        known = vocabulary_with(library.vocabularies)
+        files = read(library.sources, library.importable, library.name, _parse)
+        program = resolve(files.value, known.value, library.name, pipeline.NO_SCENES)
+        individuals = find_individuals(program.value) if find_individuals else {}
+        if individuals:
+            program = resolve(files.value, known.value, library.name, individuals)
+        checked = Outcome(program.value, pipeline.problems(files, program))
+        outcome = pipeline.finish(checked, library.sources)
+    return Outcome(outcome.value, tuple(_relocate(d, library) for d in (*known.diagnostics, *outcome.diagnostics)))
+
+
+def compile_valid(files: LibraryFiles) -> SkillLibrary:
+    """Compile a library that has no errors; DiagnosticsError if it has."""
+    outcome = compile_library(files)
+    if not outcome.ok:
+        raise DiagnosticsError(outcome.diagnostics, source_texts(files))
+    return outcome.value
+
+
+def vocabulary() -> Vocabulary:
+    """Load the shipped ontology, and those in the folders that were named."""
+    return vocabulary_with(read_vocabularies(sorted(user_vocabularies().items()))).value
+
+
+@lru_cache(_MOST_VOCABULARIES)
+def vocabulary_with(own: tuple[Source, ...]) -> Outcome[Vocabulary]:
+    """Load the shipped ontology with others beside it, and say what is wrong with these."""
+    outcome = load(_shipped(), own)
+    if outcome.diagnostics and not own:
+        raise RuntimeError(f"the shipped ontology is broken: {outcome.diagnostics[0].message}")
+    return outcome
+
+
+@cache
+def _shipped() -> tuple[Source, ...]:
+    return tuple(Source(path, text) for path, text in catalogue.vocabulary_files())
+
+
+def split_reference(reference: str) -> tuple[LibraryFiles, str]:
+    """Split `LIBRARY:NAME` into the library and the name of a task; a bare name is one of the wiping library."""
+    path, colon, name = reference.rpartition(":")
+    return find_library(Path(path) if colon else SHIPPED / "wiping"), name
+
+
+def find_task(library: SkillLibrary, name: str) -> Task:
+    """Return a task; RequestError lists those that exist."""
+    if name not in library.tasks:
+        hint = did_you_mean(name, library.tasks) or "it has none"
+        elsewhere = "a task of another library is written LIBRARY:NAME"
+        raise RequestError(f"there is no task `{name}` in {library.name}: {hint}; {elsewhere}")
+    return library.tasks[name]
+
+
+_parse = lru_cache(_MOST_FILES)(parse)
+
+
+def _relocate(diagnostic: Diagnostic, library: LibraryFiles) -> Diagnostic:
+    def moved(span: Span) -> Span:
+        return replace(span, path=library.display_path(span.path))
+
+    return replace(
+        diagnostic,
+        span=moved(diagnostic.span),
+        labels=tuple(replace(label, span=moved(label.span)) for label in diagnostic.labels),
+        fix=replace(diagnostic.fix, span=moved(diagnostic.fix.span)) if diagnostic.fix else None,
+    )

@@ -1,0 +1,73 @@
+"""All that a check does to a library, and to a scene with it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from skillc.services import libraries
+from skillc.services.library_files import LibraryFiles
+from skillc.services.reporting import sort_diagnostics
+from skillc.services.value_checks import check_values
+from skillc_compiler.diagnostics.suppressions import without_suppressed
+from skillc_compiler.library.skills import SkillLibrary
+from skillc_compiler.program.typed import Program
+from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.source import Source
+
+if TYPE_CHECKING:
+    from skillc.services.task_scenes import TaskScenes
+
+
+def check_library(library: LibraryFiles, scene: Path | None) -> tuple[Diagnostic, ...]:
+    """Return what is wrong with a library, the scenes of its tasks, and `scene`; paths are shown as from here."""
+    found = _Found(library, () if scene is None else (scene,))
+    outcome = libraries.compile_library(library, found.individuals)
+    assert found.program is not None, "a library that was compiled was understood"
+    sources = [Source(library.display_path(each.path), each.text) for each in library.sources]
+    around = check_with_scenes(outcome, found.program, found.scenes, library.display_path, sources)
+    return sort_diagnostics((*outcome.diagnostics, *around))
+
+
+def check_with_scenes(
+    compiled: Outcome[SkillLibrary],
+    program: Program,
+    scenes: TaskScenes | None,
+    display_path: Callable[[str], str],
+    sources: Iterable[Source],
+) -> tuple[Diagnostic, ...]:
+    """Return what is wrong with scenes, what keeps tasks from being done there, and which values name nothing.
+
+    `display_path` returns how diagnostics show a path of the library. What the `sources`, which have those paths,
+    suppress is left out.
+    """
+    found: tuple[Diagnostic, ...] = ()
+    if scenes is not None:
+        from skillc.services.task_checks import check_tasks_in_scenes
+
+        found = (*scenes.problems, *check_tasks_in_scenes(compiled, program, scenes, display_path))
+    values = check_values(compiled, program, scenes, found, display_path)
+    return without_suppressed((*found, *values), sources)
+
+
+class _Found:
+    """The program, and the scenes of its tasks and others where there are any, once the compiler asked for them.
+
+    The world model, which reading scenes takes, is heavy to import.
+    """
+
+    def __init__(self, library: LibraryFiles, others: Sequence[Path]) -> None:
+        self._library, self._others = library, others
+        self.program: Program | None = None
+        self.scenes: TaskScenes | None = None
+
+    def individuals(self, program: Program) -> Mapping[str, Mapping[str, Sequence[str]]]:
+        """Read the scenes and return the individuals that each task may name, with their classes."""
+        self.program = program
+        if not self._others and not any(task.scene for task in program.tasks):
+            return {}
+        from skillc.services import task_scenes
+
+        self.scenes = task_scenes.read_task_scenes(program, task_scenes.SceneTexts.of(self._library), self._others)
+        return self.scenes.individuals

@@ -1,0 +1,55 @@
+"""Pictures of skills, tasks and plans, as boxes to be drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import assert_never
+
+from skillc.services.artifacts import read_files
+from skillc.services.errors import RequestError
+from skillc.services.libraries import compile_valid
+from skillc.services.library_files import find_library
+from skillc.services.reporting import Reporter
+from skillc.services.task_loading import TaskRequest, load_task
+from skillc_compiler.emit.picture.boxes import Box
+from skillc_compiler.emit.picture.find import drawable, picture_of
+from skillc_dsl.diagnostics import did_you_mean
+from skillc_runtime.execution.assignment import AchieveGoal
+from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable, describe_quality
+from skillc_runtime.planning.solve import solve
+
+
+def draw_declaration(path: Path, name: str) -> Box:
+    """Return the picture of a skill or a task of the library at `path`. RequestError where there is neither."""
+    library = find_library(path)
+    compile_valid(library)
+    files = read_files(library)
+    box = picture_of(name, files)
+    if box is None:
+        hint = did_you_mean(name, drawable(files)) or "it has none"
+        raise RequestError(f"there is no skill or task `{name}` in {library.name}: {hint}")
+    return box
+
+
+def draw_plan(path: Path, task: str, reporter: Reporter) -> Box | Unsolvable | GaveUp:
+    """Plan for a task of the library at `path` and return the steps in a box. RequestError where it has no goal."""
+    with load_task(TaskRequest(f"{path}:{task}"), reporter) as loaded:
+        aim, state = loaded.assignment.objective, loaded.assignment.state
+        if not isinstance(aim, AchieveGoal):
+            raise RequestError(f"the task `{task}` says itself what to do; draw it without --plan")
+        answer = solve(loaded.library, state, aim.goal)
+    match answer:
+        case Solved(plan=plan):
+            good = describe_quality(answer.optimal, answer.left_out, answer.at_least_s)
+            steps = (_step(step.skill, step.arguments, state.vocabulary.short) for step in plan.steps)
+            return Box("flow", "→", "plan", (f"{plan.duration_s:g} s expected, {good}",), tuple(steps))
+        case Unsolvable() | GaveUp():
+            return answer
+        case _:
+            assert_never(answer)
+
+
+def _step(skill: str, arguments: Mapping[str, str], short: Callable[[str], str]) -> Box:
+    bound = ", ".join(f"{name}: {short(iri)}" for name, iri in arguments.items())
+    return Box("call", "▶", skill, (bound,) if bound else (), (), skill)

@@ -1,0 +1,54 @@
+"""Reading what `skillc run --out` recorded."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from skillc.services.errors import RequestError, ServiceError
+from skillc.services.files import inspect_path
+from skillc.services.reporting import Reporter
+from skillc_runtime.recording.history import read_story
+from skillc_runtime.recording.question import Answer, QuestionError, find_answer
+from skillc_runtime.recording.reader import TraceError, TraceReader
+from skillc_runtime.recording.story import Story
+
+NAME = "events.jsonl"
+
+
+def read_run(run: Path, reporter: Reporter) -> Story:
+    """Read what happened in a run, given by its folder or its file of events. ServiceError where it cannot be read."""
+    path = run / NAME if inspect_path(run).kind == "folder" else run
+    found = inspect_path(path)
+    if found.kind == "missing":
+        raise ServiceError(_missing(run))
+    if found.kind != "file":
+        raise ServiceError(f"{path} {found.is_what}")
+    reader = TraceReader(path)
+    try:
+        story = read_story(reader)
+    except TraceError as error:
+        raise ServiceError(str(error)) from error
+    except OSError as error:
+        raise ServiceError(f"{path} cannot be read: {error.strerror or error}") from error
+    if story is None:
+        raise ServiceError(f"{path} has nothing of a task: the run ended before it began")
+    if reader.cut_short:
+        reporter.say(f"note: the last line of {path} is incomplete; the recording ends at {story.last:.1f} s")
+    return story
+
+
+def answer_question(story: Story, question: str) -> Answer:
+    """Return what a recording says to a question. RequestError for one about something that is not in it."""
+    try:
+        return find_answer(story, question)
+    except QuestionError as error:
+        raise RequestError(str(error)) from error
+
+
+def _missing(run: Path) -> str:
+    if inspect_path(run).kind != "folder":
+        return f"there is no {run}; `skillc run TASK --out DIR` records a run in DIR, unless it is refused"
+    others = sorted(str(each.parent) for each in run.glob(f"*/{NAME}"))
+    if others:
+        return f"{run} has no {NAME}; there are recordings in {', '.join(others)}"
+    return f"{run} has no {NAME}: `skillc run TASK --out DIR` writes it, unless the task is refused before it starts"

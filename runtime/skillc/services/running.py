@@ -1,0 +1,218 @@
+"""Running a task in simulation: preparation, execution, recording, film and report."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol
+
+from skillc.services.errors import RequestError, ServiceError
+from skillc.services.files import writing_to
+from skillc.services.reporting import Reporter
+from skillc.services.task_loading import LoadedTask
+from skillc_runtime.evaluation.report.choices import Choices
+from skillc_runtime.evaluation.report.drawing import Drawing, make_drawing
+from skillc_runtime.evaluation.report.moments import find_moments
+from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.evaluation.report.summary import summarise
+from skillc_runtime.evaluation.report.wiping import find_wipings
+from skillc_runtime.evaluation.report.write import write_figure, write_report
+from skillc_runtime.execution.assignment import PreparedTask, prepare_task
+from skillc_runtime.execution.task_run import execute_task
+from skillc_runtime.planning.planners import Planners
+from skillc_runtime.recording.events import Event
+from skillc_runtime.recording.writer import TraceWriter
+from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.simulation.film import Film, Filmed, Moment
+from skillc_runtime.simulation.pictures import FilmError
+from skillc_runtime.simulation.rendering import RenderingError
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.state.data_sheet import SheetError
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.transactions import StoreError
+
+PRIMITIVE_LOOKS = "primitive"
+POLL_PERIOD_S = 0.2
+"""How often a store is polled, by the clock: a server takes a millisecond or more to answer."""
+
+
+@dataclass(frozen=True, slots=True)
+class RunOptions:
+    """How to run: the folder of recording and report (None: neither), the seed, the planners, the meshes in films.
+
+    RequestError for meshes that no film would show.
+    """
+
+    out: Path | None = None
+    seed: int = 0
+    planners: Planners | None = None
+    looks: str = PRIMITIVE_LOOKS
+
+    def __post_init__(self) -> None:
+        if self.looks != PRIMITIVE_LOOKS and self.out is None:
+            raise RequestError(f"--looks {self.looks} is about films and stills; say with --out where they shall go")
+
+
+@dataclass(frozen=True, slots=True)
+class RunResult:
+    """What became of a task, and what is drawn of its wipings; nothing where no report was asked for.
+
+    `written` is False where a report was asked for and could not be written.
+    """
+
+    result: TaskResult
+    drawings: tuple[Drawing, ...] = ()
+    written: bool = True
+
+
+class RunMonitor(Protocol):
+    """Whoever watches a run: called with each event, and asked after each tick."""
+
+    def __call__(self, event: Event) -> None:
+        """Note an event."""
+        ...
+
+    def say(self, message: str) -> None:
+        """Note what happens before the first tick and after the last."""
+        ...
+
+    def pace(self, now: float) -> None:
+        """Wait if simulated time, in seconds, is to pass no faster than the clock."""
+        ...
+
+    def interruption(self) -> AbstractContextManager[Callable[[], bool]]:
+        """Return a context in which the run can be interrupted, and whether it shall be."""
+        ...
+
+
+class StorePoller:
+    """Lets a world model follow what other processes write to its store.
+
+    A store that cannot be read is reported once, and polled again.
+    """
+
+    def __init__(self, world: WorldModel, reporter: Reporter) -> None:
+        self._world, self._reporter = world, reporter
+        self._next, self._reported = 0.0, ""
+
+    def poll(self) -> None:
+        """Follow the store, if it is time."""
+        now = time.monotonic()
+        if now < self._next:
+            return
+        self._next = now + POLL_PERIOD_S
+        try:
+            self._world.follow()
+            self._reported = ""
+        except StoreError as error:
+            if str(error) != self._reported:
+                self._reported = str(error)
+                self._reporter.say(f"warning: {error}")
+
+
+def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporter: Reporter) -> RunResult:
+    """Plan, run and report a task; one that cannot start has the status `refused`.
+
+    ServiceError where the folder of the report cannot be made, or there are no meshes of that name.
+    """
+    monitor.say("preparing")
+    prepared = prepare_task(task.assignment, task.library, planners=options.planners)
+    if not isinstance(prepared, PreparedTask):
+        return _refused(task, options, prepared.reason)
+    monitor.say("building the simulation")
+    try:
+        cell = SimulatedCell(task.world, options.seed)
+    except (SheetError, FrameError, StoreError) as error:
+        return _refused(task, options, f"the scene cannot be simulated: {error}")
+    monitor.say("preparing the film")
+    model = None if options.looks == PRIMITIVE_LOOKS else _model_with_meshes(cell, options.looks)
+    film = None if options.out is None else Film(cell, model)
+    return _run(prepared, task, cell, film, options, monitor, reporter)
+
+
+def write_comparison(folder: Path, drawings: Sequence[Drawing]) -> Path | None:
+    """Write the figure that compares what several runs wiped and return its file; None where nothing was wiped."""
+    with writing_to(folder):
+        return folder / "wiping.png" if write_figure(folder, drawings) is not None else None
+
+
+def _refused(task: LoadedTask, options: RunOptions, why: str) -> RunResult:
+    return RunResult(TaskResult(task=task.assignment.name, status="refused", seed=options.seed, failure=why))
+
+
+def _run(
+    prepared: PreparedTask,
+    task: LoadedTask,
+    cell: SimulatedCell,
+    film: Film | None,
+    options: RunOptions,
+    monitor: RunMonitor,
+    reporter: Reporter,
+) -> RunResult:
+    choices = Choices()
+    poller = StorePoller(cell.world, reporter)
+
+    def after_tick() -> None:
+        poller.poll()
+        monitor.pace(cell.now)
+        if film is not None:
+            film.sample()
+
+    with monitor.interruption() as interrupted:
+        with _trace(options.out, reporter) as trace:
+            listeners = (choices, monitor) if trace is None else (choices, monitor, trace)
+            execution = execute_task(prepared, task.library, cell, listeners, after_tick, interrupted)
+        trees = [attempt.tree for attempt in execution.attempts]
+        wipings = find_wipings(trees, choices, cell)
+        result = summarise(execution, choices, task.library, wipings)
+        if options.out is None or film is None:
+            return RunResult(result)
+        monitor.say("writing the report")
+        drawings = tuple(make_drawing(wiping, cell) for wiping in wipings)
+        try:
+            with writing_to(options.out):
+                filmed = _write_film(film, options.out, find_moments(wipings, trees, choices, cell), reporter)
+                write_report(options.out, result, execution, drawings, filmed)
+        except ServiceError as error:
+            reporter.say(f"error: {error}")
+            return RunResult(result, drawings, written=False)
+    return RunResult(result, drawings)
+
+
+def _model_with_meshes(cell: SimulatedCell, looks: str) -> Any:
+    """Return the model of a cell with the meshes of that name, for films. ServiceError if there are none."""
+    from skillc_runtime.simulation.build import described
+    from skillc_runtime.simulation.looks import LooksError, read_looks
+    from skillc_runtime.simulation.looks_meshes import dressed
+
+    try:
+        wanted = read_looks(cell.world.snapshot(), cell.facts, looks)
+        return dressed(described(cell.facts, cell.variation), wanted)
+    except LooksError as error:
+        raise ServiceError(str(error)) from error
+
+
+def _write_film(film: Film, folder: Path, wanted: Sequence[Moment], reporter: Reporter) -> Filmed | None:
+    """Write the film and the stills that are wanted; report where there can be none."""
+    try:
+        return film.write(folder, wanted)
+    except (FilmError, RenderingError) as error:
+        reporter.say(f"no film: {error}")
+        return None
+
+
+@contextmanager
+def _trace(folder: Path | None, reporter: Reporter) -> Iterator[TraceWriter | None]:
+    if folder is None:
+        yield None
+        return
+    with writing_to(folder):
+        folder.mkdir(parents=True, exist_ok=True)
+        trace = TraceWriter(folder / "events.jsonl")
+    with trace:
+        yield trace
+    if trace.problem is not None:
+        reporter.say(f"warning: {trace.problem}")

@@ -1,0 +1,109 @@
+"""Editing a scene's file: all edits are made or none, and only if the scene has no errors afterwards."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import pyoxigraph as ox
+
+from skillc.services.errors import ServiceError
+from skillc.services.files import rewrite_file
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.turtle.editing import Editor, NotWritten
+from skillc_compiler.turtle.parser import parse
+from skillc_compiler.turtle.statements import Node
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.encoding import decode
+from skillc_ontology import catalogue
+from skillc_runtime.scene.documents import BASE, WELL_KNOWN, Document
+from skillc_runtime.scene.load import scene_of, sheet_documents
+from skillc_runtime.scene.statements import iri_of
+from skillc_runtime.world.state.world_state import WorldState
+
+FORMS = "`SUBJECT PREDICATE VALUE`, `not SUBJECT PREDICATE VALUE` or `not INDIVIDUAL`"
+
+
+class Edit(NamedTuple):
+    """A statement, or an individual alone, that is to be added, or else removed."""
+
+    added: bool
+    subject: str
+    predicate: str | None = None
+    object: Node | None = None
+
+
+def edit_file(scene: Path, state: WorldState, edits: Sequence[str]) -> str:
+    """Edit a scene's file and return what was done. ServiceError, and the file as it was, where that cannot be done."""
+    if catalogue.ROOT in scene.resolve().parents:
+        raise ServiceError(f"the shipped scene {scene.name} is not changed; copy it and edit the copy")
+    before = decode(str(scene), scene.read_bytes()).text
+    editor = Editor(before, BASE, lambda iri: state.vocabulary.aliases.get(iri, iri))
+    prefixes = {**state.vocabulary.prefixes, **parse(str(scene), before, BASE).prefixes}
+    for text in edits:
+        _apply(editor, text, _parse(text, prefixes, state.vocabulary), state)
+    if editor.text == before:
+        return f"{scene} says so already"
+    after = scene_of([Document(str(scene), editor.text), *sheet_documents()], state.vocabulary)
+    if not after.ok:
+        raise ServiceError(_errors_after(scene, after.problems))
+    rewrite_file(scene, before, editor.text)
+    return f"{scene}: {len(edits)} edit{'s' * (len(edits) > 1)} made"
+
+
+def _apply(editor: Editor, text: str, edit: Edit, state: WorldState) -> None:
+    """Make an edit in the text; what has one value only is set."""
+    subject, predicate, object_ = edit.subject, edit.predicate, edit.object
+    try:
+        if predicate is None or object_ is None:
+            editor.forget(subject)
+        elif not edit.added:
+            editor.remove(subject, predicate, object_)
+        elif _has_one_value(predicate, state.vocabulary):
+            editor.set(subject, predicate, object_)
+        else:
+            editor.add(subject, predicate, object_)
+    except NotWritten:
+        raise ServiceError(_not_written(text, edit, state)) from None
+
+
+def _has_one_value(predicate: str, vocabulary: Vocabulary) -> bool:
+    term = vocabulary.relations.get(predicate) or vocabulary.properties.get(predicate)
+    return term is not None and term.functional
+
+
+def _not_written(text: str, edit: Edit, state: WorldState) -> str:
+    said = text.strip().removeprefix("not ")
+    object_ = iri_of(edit.object) if edit.object is not None else ""
+    if edit.predicate in state.vocabulary.relations and state.holds(edit.subject, edit.predicate, object_):
+        return f"the scene's file does not say `{said}`: it follows from something else, which is to be taken away"
+    return f"the scene's file does not say `{said}`"
+
+
+def _parse(text: str, prefixes: dict[str, str], vocabulary: Vocabulary) -> Edit:
+    """Read an edit; ServiceError where it makes no sense."""
+    said = text.strip().removesuffix(".").strip()
+    wanted = not said.startswith("not ")
+    said = said if wanted else said.removeprefix("not ").strip()
+    alone = not wanted and len(said.split()) == 1
+    known = {**dict(WELL_KNOWN), **prefixes}
+    head = "".join(f"@prefix {name}: <{iri}> .\n" for name, iri in sorted(known.items()))
+    parsed = parse("edit", f"{head}{said}{' a <x:y>' if alone else ''} .\n", BASE)
+    if parsed.problems:
+        problem = parsed.problems[0]
+        raise ServiceError(f"`{text}`: {problem.message}" + (f"; {problem.help}" if problem.help else ""))
+    if len(parsed.statements) != 1 or not isinstance(parsed.statements[0].subject, ox.NamedNode):
+        raise ServiceError(f"`{text}` is not one statement; write {FORMS}")
+    (statement,) = parsed.statements
+    if alone:
+        return Edit(False, iri_of(statement.subject))
+    named = vocabulary.aliases.get(statement.predicate, statement.predicate)
+    return Edit(wanted, iri_of(statement.subject), named, statement.object)
+
+
+def _errors_after(scene: Path, problems: Sequence[Diagnostic]) -> str:
+    """Return why the scene would have errors."""
+    errors = (each for each in problems if each.severity == "error")
+    lines = (f"  {each.message}" + (f" ({each.help})" if each.help else "") for each in errors)
+    return "\n".join((f"{scene} is left as it is, for after the edit it would have errors", *lines))

@@ -1,0 +1,192 @@
+"""Looking into a scene, or into the world in a store: lists, searches, queries, comparisons, pictures."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+import pyoxigraph as ox
+
+from skillc.services import scene_edit, scene_picture
+from skillc.services.errors import RequestError, ServiceError
+from skillc.services.libraries import compile_valid
+from skillc.services.library_files import SHIPPED, find_library, find_scene
+from skillc.services.reporting import Reporter
+from skillc.services.stores import StoreChoice, load_world, open_world
+from skillc_compiler.emit.picture import svg
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_runtime.scene.contents import read_contents
+from skillc_runtime.scene.documents import Document
+from skillc_runtime.scene.load import sheet_documents, world_of
+from skillc_runtime.scene.query import Answer, QueryError, run_query
+from skillc_runtime.store.triples import all_facts
+from skillc_runtime.world.state.elements import search
+from skillc_runtime.world.state.listing import Entry, list_entries
+from skillc_runtime.world.state.names import NoSuchName, individual_of
+from skillc_runtime.world.state.world_state import WorldState
+
+
+@dataclass(frozen=True, slots=True)
+class OpenScene:
+    """A scene as it is written, its world, the labels of individuals, and those that are meant if none is named.
+
+    `path` is None where the world comes from a store; `vocabulary` is that of the library.
+    """
+
+    path: Path | None
+    vocabulary: Vocabulary
+    document: Document
+    state: WorldState
+    labels: dict[str, str]
+    individuals: frozenset[str]
+
+
+@dataclass(frozen=True, slots=True)
+class Individual:
+    """All that is known of an individual: what is written of it, further classes, what leads to it, what follows."""
+
+    entry: Entry
+    classes: tuple[str, ...]
+    leading: tuple[tuple[str, str], ...]
+    follows: tuple[tuple[str, str], ...]
+
+
+class FactText(NamedTuple):
+    """A fact in short names."""
+
+    subject: str
+    predicate: str
+    value: str
+
+
+class SceneDiff(NamedTuple):
+    """The facts of one scene that another does not have, and those that only the other has; sorted."""
+
+    removed: list[FactText]
+    added: list[FactText]
+
+
+@contextmanager
+def open_scene(
+    scene: Path | None, library: Path | None, store: StoreChoice, everything: bool, reporter: Reporter
+) -> Iterator[OpenScene]:
+    """Open a scene file, a shipped scene or the world in a store; errors as of `open_world`.
+
+    The terms are those of `library`, else of the skills beside the scene, else of the shipped library. Individuals of
+    the shipped data sheets are meant only if `everything` is.
+    """
+    if scene is None and store.place is None:
+        raise RequestError("say which SCENE, or --store for the world in a store")
+    path = None if scene is None else find_scene(scene)
+    compiled = compile_valid(find_library(library or _library_beside(path) or SHIPPED / "wiping"))
+    with open_world(store, path, compiled.vocabulary, reporter) as world:
+        state = world.snapshot()
+        document = Document.read(path) if path and not store.place else _stored_document(store.name, state)
+        own = read_contents([document]).subjects & state.individuals
+        labels = {**read_contents(sheet_documents()).labels, **read_contents([document]).labels}
+        meant = state.individuals if everything else own
+        yield OpenScene(path, compiled.vocabulary, document, state, labels, meant)
+
+
+def find_individuals(scene: OpenScene, words: str | None) -> tuple[Entry, ...]:
+    """Return what is written of the individuals, or of those in whose names, labels, classes or texts words occur."""
+    if words is None:
+        return list_entries(scene.state, scene.individuals)
+    wanted = words.casefold().split()
+    labelled = {iri for iri, label in scene.labels.items() if all(word in label.casefold() for word in wanted)}
+    found = ({each.iri for each in search(scene.state, words)} | labelled) & scene.individuals
+    if not found:
+        raise ServiceError(f"nothing in the scene is called, or of a class called, or says `{words}`")
+    return list_entries(scene.state, found)
+
+
+def describe_individuals(scene: OpenScene, names: Sequence[str]) -> list[Individual]:
+    """Return all there is to know of individuals. ServiceError for a name of none."""
+    try:
+        chosen = [individual_of(name, scene.state) for name in names]
+    except NoSuchName as error:
+        raise ServiceError(str(error)) from error
+    return [_describe(entry, scene.state) for entry in list_entries(scene.state, chosen)]
+
+
+def query_scene(scene: OpenScene, sparql: str) -> Answer:
+    """Answer a query over the scene and the shipped ontology. ServiceError for what is not SPARQL."""
+    try:
+        return run_query([scene.document, *sheet_documents()], sparql, scene.state.vocabulary)
+    except QueryError as error:
+        raise ServiceError(str(error)) from error
+
+
+def compare_scenes(scene: OpenScene, other: Path, reporter: Reporter) -> SceneDiff:
+    """Return what the other scene takes away and adds."""
+    state = load_world(find_scene(other), scene.vocabulary, reporter)
+    ours, theirs = frozenset(all_facts(scene.state)), frozenset(all_facts(state))
+    return SceneDiff(_texts(ours - theirs, scene.state.vocabulary), _texts(theirs - ours, state.vocabulary))
+
+
+def draw_scene(scene: OpenScene, file: Path) -> None:
+    """Draw the scene into an SVG file. ServiceError where it cannot be written."""
+    title = scene.path.name if scene.path else scene.document.path
+    box = scene_picture.picture(scene.state, scene.individuals, scene.labels, title)
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(svg.document(box), encoding="utf-8")
+    except OSError as error:
+        raise ServiceError(f"cannot write {file}: {error.strerror}") from error
+
+
+def edit_scene(scene: OpenScene, edits: Sequence[str]) -> str:
+    """Make all edits in the scene's file, or none, and return what was done. ServiceError where one cannot be made."""
+    assert scene.path is not None
+    return scene_edit.edit_file(scene.path, scene.state, edits)
+
+
+def _library_beside(scene: Path | None) -> Path | None:
+    """Return the folder of a scene where it is a library too."""
+    return scene.parent if scene is not None and any(scene.parent.glob("*.skill")) else None
+
+
+def _stored_document(place: str, state: WorldState) -> Document:
+    """Return as a document what the world in a store says beside the shipped ontology."""
+    shipped = frozenset(all_facts(world_of(sheet_documents(), state.vocabulary)))
+    return Document(place, "".join(sorted(f"{fact} .\n" for fact in all_facts(state) if fact not in shipped)))
+
+
+def _describe(entry: Entry, state: WorldState) -> Individual:
+    one, written = entry.individual, set(entry.relations)
+    types = state.types(one)
+    implied = ((relation, other) for relation in state.facts for other in state.objects(one, relation))
+    leading = ((other, relation) for relation, links in state.asserted.items() for other in links.backward.get(one))
+    return Individual(
+        entry,
+        tuple(sorted(state.axioms.superclasses(types) - types)),
+        tuple(sorted(leading)),
+        tuple(sorted(pair for pair in implied if pair not in written)),
+    )
+
+
+def _texts(facts: Iterable[ox.Triple], vocabulary: Vocabulary) -> list[FactText]:
+    short = vocabulary.short
+    return sorted(
+        FactText(
+            _text(fact.subject, vocabulary),
+            "a" if fact.predicate.value == RDF_TYPE else short(fact.predicate.value),
+            _text(fact.object, vocabulary),
+        )
+        for fact in facts
+    )
+
+
+def _text(node: object, vocabulary: Vocabulary) -> str:
+    match node:
+        case ox.NamedNode(value=iri):
+            return vocabulary.short(iri)
+        case ox.Literal(value=text, datatype=datatype):
+            return json.dumps(text, ensure_ascii=False) if datatype.value.endswith("#string") else text
+        case _:
+            return str(node)

@@ -1,0 +1,144 @@
+"""The world model of a scene, or of a store: filled with the scene at first, afterwards as it was left."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from hashlib import sha256
+from pathlib import Path
+
+from skillc.services.errors import DiagnosticsError, RequestError, ServiceError
+from skillc.services.reporting import Reporter, count_of
+from skillc.services.scene_diagnostics import scene_text, with_shown_paths
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_runtime.scene.documents import SceneError
+from skillc_runtime.scene.load import load_scene
+from skillc_runtime.store.address import without_credentials
+from skillc_runtime.store.contents import world_of
+from skillc_runtime.store.opening import OpenStore, open_store
+from skillc_runtime.store.store import StoredWorld
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.transactions import ChangeEvent, StoreError
+from skillc_runtime.world.state.world_state import WorldState
+
+_BEGINNING = re.compile(r"scene (.*) ([0-9a-f]{12})")
+
+
+@dataclass(frozen=True, slots=True)
+class StoreChoice:
+    """The store of a world, a folder or the address of a SPARQL server, and whether it is emptied; None for no store.
+
+    The address may have a password, so it is not shown; `name` is the place without it.
+    """
+
+    place: str | None = field(default=None, repr=False)
+    reset: bool = False
+
+    def __post_init__(self) -> None:
+        if self.reset and self.place is None:
+            raise RequestError("--reset empties a store; say which with --store")
+
+    @property
+    def name(self) -> str:
+        """What the place is called in messages."""
+        return without_credentials(self.place or "")
+
+
+NO_STORE = StoreChoice()
+
+
+def load_world(scene: Path, vocabulary: Vocabulary, reporter: Reporter) -> WorldState:
+    """Load a scene and report its warnings. DiagnosticsError if it has errors, ServiceError if it cannot be read."""
+    try:
+        return load_scene(scene, vocabulary, lambda found: reporter.show(with_shown_paths(found), scene_text(scene)))
+    except SceneError as error:
+        raise DiagnosticsError(with_shown_paths(error.problems), scene_text(scene)) from error
+    except OSError as error:
+        raise ServiceError(f"the scene {scene} cannot be read: {error.strerror}") from error
+
+
+@contextmanager
+def open_world(
+    choice: StoreChoice, scene: Path | None, vocabulary: Vocabulary, reporter: Reporter
+) -> Iterator[WorldModel]:
+    """Open the world in a store, which is filled with the scene if it is empty, or that of the scene without a store.
+
+    DiagnosticsError or ServiceError where the scene or the store cannot be used.
+    """
+    if choice.place is None:
+        assert scene is not None
+        yield WorldModel(load_world(scene, vocabulary, reporter))
+        return
+    store = _open(choice, choice.place, scene)
+    try:
+        yield _read_or_fill(store, choice, scene, vocabulary, reporter)
+    finally:
+        store.close()
+
+
+def _open(choice: StoreChoice, place: str, scene: Path | None) -> OpenStore:
+    if scene is None and "://" not in place and not Path(place).exists():
+        raise ServiceError(f"there is no store {place}; name the scene to begin with")
+    try:
+        return open_store(place, choice.reset)
+    except StoreError as error:
+        raise ServiceError(str(error)) from error
+    except OSError as error:
+        raise _unusable(choice, error) from error
+
+
+def _read_or_fill(
+    store: OpenStore, choice: StoreChoice, scene: Path | None, vocabulary: Vocabulary, reporter: Reporter
+) -> WorldModel:
+    try:
+        return _world(store, scene, vocabulary, reporter)
+    except StoreError as error:
+        raise ServiceError(str(error)) from error
+    except OSError as error:
+        raise _unusable(choice, error) from error
+
+
+def _unusable(choice: StoreChoice, error: OSError) -> ServiceError:
+    return ServiceError(f"the store {choice.name} cannot be opened: {error.strerror}")
+
+
+def _world(store: OpenStore, scene: Path | None, vocabulary: Vocabulary, reporter: Reporter) -> WorldModel:
+    stored = store.read()
+    if not stored.triples:
+        if scene is None:
+            raise ServiceError(f"{store} is empty; name the scene to begin with")
+        state = load_world(scene, vocabulary, reporter)
+        event = ChangeEvent((), _beginning(scene), WorldState.empty(vocabulary), state)
+        if store.append(event, stored.sequence):
+            reporter.say(f"{store}: filled with {scene.name}")
+            return WorldModel(state, store, stored.sequence + 1)
+        stored = store.read()
+    _compare(stored, scene, store, reporter)
+    state = world_of(stored.triples, vocabulary, str(store))
+    count = count_of(stored.sequence, "transaction")
+    reporter.say(f"{store}: the world after {count}, which began as {_name(stored)}")
+    return WorldModel(state, store, stored.sequence)
+
+
+def _compare(stored: StoredWorld, scene: Path | None, store: OpenStore, reporter: Reporter) -> None:
+    """Refuse a store that began with another scene than the one named; warn of one that has changed since."""
+    if scene is None or stored.beginning == _beginning(scene):
+        return
+    if _name(stored) != scene.name:
+        raise ServiceError(
+            f"{store} holds a world that began as {_name(stored)}, not as {scene.name}; "
+            "name another store, or fill this one again with --reset"
+        )
+    reporter.say(f"warning: {scene} is not what {store} began with; --reset would fill it again")
+
+
+def _beginning(scene: Path) -> str:
+    """Return how a world that begins with a scene is marked: by the name and a digest of its file."""
+    return f"scene {scene.name} {sha256(scene.read_bytes()).hexdigest()[:12]}"
+
+
+def _name(stored: StoredWorld) -> str:
+    found = _BEGINNING.fullmatch(stored.beginning)
+    return found[1] if found else "something else"

@@ -1,0 +1,174 @@
+"""Problems of tasks in their scenes that are found before they run: goals out of reach, calls that cannot start.
+
+Paths are shown as from here, with labels at the individuals that a message names.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import TypeAlias
+
+from skillc.services import scene_diagnostics, value_checks
+from skillc.services.device_checks import check_controllers, check_sheets
+from skillc.services.task_scenes import TaskScenes
+from skillc_compiler.library.skills import SkillLibrary, Task
+from skillc_compiler.library.vocabulary import Position
+from skillc_compiler.program.typed import Program
+from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_dsl.diagnostics import Diagnostic, Label, Outcome, Severity, did_you_mean
+from skillc_dsl.source import Span
+from skillc_runtime.execution.selection.initial_calls import initial_call_refusals
+from skillc_runtime.execution.selection.preflight import Origin, Refusal, preflight
+from skillc_runtime.execution.selection.unsupported import UnsupportedIndividual, unsupported_individuals
+from skillc_runtime.planning.reachability import UnreachableGoal, explain_unreachable
+from skillc_runtime.scene.load import Scene
+from skillc_runtime.scene.statements import iri_of
+
+LABELLED = 6
+"""How many individuals are shown beside a message at most."""
+DisplayPath: TypeAlias = Callable[[str], str]
+"""Returns how diagnostics show the path of a source."""
+LONGEST_TASK = 10
+"""How many lines below its name a task's goal stands at most."""
+
+
+def check_tasks_in_scenes(
+    compiled: Outcome[SkillLibrary], program: Program, scenes: TaskScenes, display_path: DisplayPath
+) -> list[Diagnostic]:
+    """Return what keeps tasks from being done in their scenes, individuals that no implementation fits, unusable arms.
+
+    `program` is what was compiled. `display_path` returns how diagnostics show a path of the library. Libraries and
+    scenes with errors are left out, and so is what compiling has reported. What keeps several tasks from being done
+    is reported at the first.
+    """
+    if not compiled.ok:
+        return []
+    library = compiled.value
+    errors: list[Diagnostic] = []
+    places = value_checks.value_places(program)
+    for name, path in scenes.files.items():
+        if path in scenes.valid and name in library.tasks:
+            found = _of_task(library.tasks[name], library, display_path, scenes.valid[path], places)
+            errors += (each for each in found if not _is_reported(each, compiled.diagnostics))
+    errors = list({(each.span, each.name, each.message): each for each in reversed(errors)}.values())[::-1]
+    labelled = {(label.span.path, label.span.line) for each in errors for label in each.labels}
+    valid = [(scene, str(path)) for path, scene in scenes.valid.items()]
+    others = [each for scene, path in valid for each in check_controllers(scene, path)]
+    others += (each for scene, path in valid for each in check_sheets(scene, path))
+    others += (each for scene, path in valid for each in _of_individuals(library, scene, path))
+    return [*errors, *(each for each in others if (each.span.path, each.span.line) not in labelled)]
+
+
+def _is_reported(problem: Diagnostic, compiled: Sequence[Diagnostic]) -> bool:
+    """Whether compiling has reported, some lines below the task's first, that no skill does what a goal asks."""
+    goals = [each.span for each in compiled if each.name == "unachievable-goal"]
+    first = problem.span
+    return problem.name == "unreachable-goal" and any(
+        goal.path == first.path and 0 <= goal.line - first.line <= LONGEST_TASK for goal in goals
+    )
+
+
+def _of_task(
+    task: Task, library: SkillLibrary, display_path: DisplayPath, scene: Scene, places: Mapping[Origin, Span]
+) -> Iterator[Diagnostic]:
+    """Yield what keeps a task from being done in its scene; `places` is where values are written."""
+    of_task = _TaskDiagnostics(display_path, scene, task)
+    if task.goal is not None:
+        found = explain_unreachable(library, scene.state, task.goal)
+        if found is not None:
+            yield of_task.unreachable(found)
+    if task.body is not None:
+        refusals = preflight(task.body, library, scene.state)
+        for refusal in refusals:
+            yield from of_task.misnamed(refusal, places) if refusal.unknown_names else (of_task.refusal(refusal),)
+        if not refusals:
+            yield from (of_task.cannot_start(each) for each in initial_call_refusals(task.body, library, scene.state))
+
+
+def _of_individuals(library: SkillLibrary, scene: Scene, path: str) -> Iterator[Diagnostic]:
+    """Yield the individuals of the scene file at `path` that no implementation of some skill fits."""
+    own = {iri_of(each.subject): each for each in reversed(scene.said) if each.predicate == RDF_TYPE}
+    here = {iri: each for iri, each in own.items() if each.lines.path == path}
+    for each in unsupported_individuals(library, scene.state, frozenset(here)):
+        statement = here[each.individual]
+        span = scene_diagnostics.with_shown_path(statement.object_place)
+        yield Diagnostic("no-implementation-fits", span, _unfit(each, scene), _accepted(each, scene), "warning")
+
+
+class _TaskDiagnostics:
+    """Makes diagnostics about one task."""
+
+    def __init__(self, display_path: DisplayPath, scene: Scene, task: Task) -> None:
+        self._display_path, self._scene, self._task = display_path, scene, task
+
+    def refusal(self, refusal: Refusal) -> Diagnostic:
+        """Return the diagnostic of a call that can never start in the scene."""
+        around = f", in {' > '.join(refusal.within)}" if refusal.within else ""
+        name = _problem_name(refusal, "no-implementation-fits")
+        return self.diagnostic(name, f"{refusal.message}{around}", refusal, "error")
+
+    def misnamed(self, refusal: Refusal, places: Mapping[Origin, Span]) -> Iterator[Diagnostic]:
+        """Yield those of the texts for which a call can never start, where they are written or else at the call."""
+        for origin, wrong in refusal.unknown_names.items():
+            message = wrong.message(self._scene.state.vocabulary)
+            at_call = self.diagnostic("unknown-value", message, replace(refusal, rejected=()), "error")
+            written = places.get(origin)
+            if written is None:
+                yield replace(at_call, help=did_you_mean(wrong.text, wrong.known))
+                continue
+            span = replace(written, path=self._display_path(written.path))
+            labels = (*([Label(at_call.span, "in this task")] if refusal.within else ()), *at_call.labels)
+            yield value_checks.unknown_value(wrong, message, span, "error", labels)
+
+    def cannot_start(self, refusal: Refusal) -> Diagnostic:
+        """Return the diagnostic of a call that cannot start as the scene is."""
+        message = f"`{self._task.name}` begins with a call that cannot start in this scene: {refusal.message}"
+        return self.diagnostic(_problem_name(refusal, "cannot-start"), message, refusal, "warning")
+
+    def unreachable(self, found: UnreachableGoal) -> Diagnostic:
+        """Return the diagnostic of a goal."""
+        what = "cannot be reached" if found.proved else "no plan can be made for"
+        message = f"`{self._task.name}` has a goal that {what} in its scene: {found.why}"
+        place = self._span(self._task.source)
+        return Diagnostic("unreachable-goal", place, message, labels=tuple(self._named(message)))
+
+    def diagnostic(self, name: str, message: str, refusal: Refusal, severity: Severity) -> Diagnostic:
+        """Return a diagnostic at the call, or at the task where the call is not in it."""
+        labels = [Label(self._span(refusal.source), "this call")] if refusal.within else []
+        labels += (Label(self._span(each.source), f"asked here by {each.implementation}") for each in refusal.rejected)
+        labels += self._named(message)
+        place = self._task.source if refusal.within else refusal.source
+        return Diagnostic(name, self._span(place), message, "", severity, tuple(dict.fromkeys(labels)))
+
+    def _named(self, message: str) -> list[Label]:
+        """Return where the individuals that a message names are declared."""
+        short = self._scene.state.vocabulary.short
+        words = set(re.findall(r"[\w.-]*:[\w-]+", message))
+        typed = {iri_of(each.subject): each for each in reversed(self._scene.said) if each.predicate == RDF_TYPE}
+        found = sorted(each.subject_place for iri, each in typed.items() if short(iri) in words)
+        return [Label(scene_diagnostics.with_shown_path(place), "this one") for place in found[:LABELLED]]
+
+    def _span(self, place: Position) -> Span:
+        path = self._display_path(place.path)
+        return Span(path, place.line, place.column, place.line, place.column + 1)
+
+
+def _problem_name(refusal: Refusal, otherwise: str) -> str:
+    """Return the name of what is wrong: with inferred parameters, with preconditions, or another thing."""
+    stages = {each.stage for each in refusal.rejected}
+    if stages != {"inference"}:
+        return "cannot-start" if stages == {"pre"} else otherwise
+    return "several-answers" if any(" may be " in each.reason for each in refusal.rejected) else "no-answer"
+
+
+def _unfit(each: UnsupportedIndividual, scene: Scene) -> str:
+    short = scene.state.vocabulary.short
+    classes = " and a ".join(sorted(map(short, scene.state.types(each.individual))))
+    return f"no implementation of {', '.join(sorted(each.skills))} fits {short(each.individual)}, a {classes}"
+
+
+def _accepted(each: UnsupportedIndividual, scene: Scene) -> str:
+    classes = sorted({scene.state.vocabulary.short(cls) for accepted in each.skills.values() for cls in accepted})
+    return f"there are implementations for {', '.join(classes)}; or add `impl .. of {min(each.skills)}`"

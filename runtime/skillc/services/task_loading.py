@@ -1,0 +1,116 @@
+"""From the name of a task, or the text of a goal or a call, to a compiled library, a world and an assignment."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from skillc.services import task_scenes
+from skillc.services.errors import DiagnosticsError, RequestError
+from skillc.services.libraries import compile_valid, find_task, split_reference
+from skillc.services.library_files import SHIPPED, find_library, find_scene
+from skillc.services.reporting import Reporter
+from skillc.services.stores import NO_STORE, StoreChoice, open_world
+from skillc_compiler.goals.parsing import parse_call, parse_goal
+from skillc_compiler.library.skills import SkillLibrary, Task
+from skillc_dsl.diagnostics import Outcome
+from skillc_dsl.source import Source
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody
+from skillc_runtime.world.state.model import WorldModel
+
+
+@dataclass(frozen=True, slots=True)
+class TaskRequest:
+    """What is to be done: the task `LIBRARY:NAME`, or a goal or a call of a skill in a scene or in what a store holds.
+
+    The library is the shipped one unless a path is given. RequestError for what does not go together.
+    """
+
+    task: str | None = None
+    scene: Path | None = None
+    goal: str | None = None
+    call: str | None = None
+    library: Path | None = None
+    store: StoreChoice = NO_STORE
+
+    def check(self, calls: bool = True) -> None:
+        """Raise RequestError where more is said than goes together, or less than is needed; `calls` are a choice."""
+        if self.task is not None and (self.scene or self.goal or self.call or self.library):
+            raise RequestError("a TASK has its own scene, goal and library; leave the options out")
+        nothing = (self.goal is None) == (self.call is None)
+        if self.task is None and ((self.scene or self.store.place) is None or nothing):
+            choice = "--goal TEXT or --skill CALL" if calls else "--goal TEXT"
+            raise RequestError(f"say either a TASK or --scene FILE (or --store) with {choice}")
+
+
+@dataclass(frozen=True, slots=True)
+class LoadedTask:
+    """A compiled library, what is to be done with it, and the world in which."""
+
+    library: SkillLibrary
+    assignment: Assignment
+    world: WorldModel
+
+
+@contextmanager
+def load_task(request: TaskRequest, reporter: Reporter) -> Iterator[LoadedTask]:
+    """Find, compile and load what is asked for; a store that holds its world is closed at the end."""
+    loading = _load_goal(request, reporter) if request.task is None else _load_named(request.task, request, reporter)
+    with loading as loaded:
+        yield loaded
+
+
+def find_task_in_scene(reference: str) -> tuple[SkillLibrary, Task, Path]:
+    """Find and compile the task `LIBRARY:NAME`, or the shipped task of that name; return it with its scene's file."""
+    files, name = split_reference(reference)
+    library = compile_valid(files)
+    task = find_task(library, name)
+    if task.scene is None:
+        raise RequestError(f"the task `{name}` has no scene; run it with --scene FILE and --goal or --skill")
+    path = task_scenes.find_task_scene(task, files)
+    if path is None:
+        why = task_scenes.why_missing(task.scene, files.places[task.source.path].parent)
+        raise RequestError(f'the scene "{task.scene}" of `{name}` {why}')
+    if task.goal is None and task.body is None:
+        raise RequestError(f"the task `{name}` has neither a goal nor a body")
+    return library, task, path
+
+
+@contextmanager
+def _load_named(reference: str, request: TaskRequest, reporter: Reporter) -> Iterator[LoadedTask]:
+    library, task, scene = find_task_in_scene(reference)
+    with open_world(request.store, scene, library.vocabulary, reporter) as world:
+        if task.goal is not None:
+            aim: AchieveGoal | ExecuteBody = AchieveGoal(task.goal)
+        else:
+            assert task.body is not None
+            aim = ExecuteBody(task.body)
+        yield LoadedTask(library, Assignment(task.name, world.snapshot(), aim), world)
+
+
+@contextmanager
+def _load_goal(request: TaskRequest, reporter: Reporter) -> Iterator[LoadedTask]:
+    library = compile_valid(find_library(request.library or SHIPPED / "wiping"))
+    scene = find_scene(request.scene) if request.scene else None
+    with open_world(request.store, scene, library.vocabulary, reporter) as world:
+        state = world.snapshot()
+        individuals = task_scenes.classes_by_individual(state, library.vocabulary)
+        prefixes = state.vocabulary.prefixes
+        if request.goal is not None:
+            goal = parse_goal(request.goal, library.vocabulary, individuals, prefixes)
+            aim = AchieveGoal(_valid(goal, request.goal))
+            yield LoadedTask(library, Assignment(request.goal, state, aim), world)
+            return
+        assert request.call is not None
+        call = _valid(parse_call(request.call, library, individuals, prefixes), request.call)
+        yield LoadedTask(library, Assignment(call.skill, state, ExecuteBody(call)), world)
+
+
+def _valid(outcome: Outcome[Any], text: str) -> Any:
+    """Return what a text means; DiagnosticsError if it has errors."""
+    if outcome.value is None:
+        raise DiagnosticsError(outcome.diagnostics, {"goal": Source("goal", text), "call": Source("call", text)})
+    return outcome.value

@@ -1,0 +1,128 @@
+"""The scenes of a library's tasks: their files, the individuals in them, and what is wrong with them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TypeAlias
+
+from skillc.services import scene_diagnostics
+from skillc.services.files import inspect_path
+from skillc.services.library_files import LibraryFiles
+from skillc_compiler.library.skills import Task
+from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_compiler.program.typed import Program
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
+from skillc_ontology import catalogue
+from skillc_runtime.scene.documents import Document, SceneError
+from skillc_runtime.scene.load import Scene, scene_in
+from skillc_runtime.world.state.world_state import WorldState
+
+Individuals: TypeAlias = dict[str, list[str]]
+"""The IRIs of a scene with their classes."""
+ReadScene: TypeAlias = Callable[[Path, Vocabulary], Outcome[Scene | None]]
+"""Reads a scene file with the terms of a vocabulary; None, with what is wrong, where it cannot be read."""
+
+
+@dataclass(frozen=True, slots=True)
+class SceneTexts:
+    """Where the files of a library are: its places on disk, and how diagnostics show them, both by path."""
+
+    place: Callable[[str], Path]
+    shown: Callable[[str], str]
+
+    @staticmethod
+    def of(files: LibraryFiles) -> SceneTexts:
+        """Return where the files of a library on disk are."""
+        return SceneTexts(files.places.__getitem__, files.display_path)
+
+
+@dataclass(frozen=True, slots=True)
+class TaskScenes:
+    """The scenes of tasks, and others: `files` by task, `valid` those without errors by file, and what is wrong.
+
+    `individuals` are those of each task's scene.
+    """
+
+    files: Mapping[str, Path]
+    valid: Mapping[Path, Scene]
+    individuals: Mapping[str, Individuals]
+    problems: tuple[Diagnostic, ...]
+
+
+def read_scene(path: Path, vocabulary: Vocabulary, text: str | None = None) -> Outcome[Scene | None]:
+    """Read a scene file, or a text that stands for it."""
+    try:
+        document = Document.read(path) if text is None else Document(str(path), text)
+        scene = scene_in(document, vocabulary)
+    except SceneError as error:
+        return Outcome(None, tuple(scene_diagnostics.with_shown_paths(error.problems)))
+    return Outcome(scene, tuple(scene_diagnostics.with_shown_paths(scene.problems)))
+
+
+def read_task_scenes(
+    program: Program, texts: SceneTexts, others: Collection[Path] = (), read: ReadScene = read_scene
+) -> TaskScenes:
+    """Read the scenes of a program's own tasks, and others; `read` may cache what it read before."""
+    written = list(_written(program))
+    found = {task: find_scene(text.value, texts.place(text.span.path).parent) for task, text in written}
+    files = {task: path for task, path in found.items() if path is not None}
+    scenes = {path: read(path, program.vocabulary) for path in sorted({*files.values(), *others})}
+    valid = {path: scene.value for path, scene in scenes.items() if scene.ok and scene.value}
+    known = {path: classes_by_individual(scene.state, program.vocabulary) for path, scene in valid.items()}
+    missing = (_missing(text, texts) for task, text in written if task not in files)
+    wrong = (problem for scene in scenes.values() for problem in scene.diagnostics)
+    individuals = {task: known[path] for task, path in files.items() if path in known}
+    return TaskScenes(files, valid, individuals, tuple(dict.fromkeys((*missing, *wrong))))
+
+
+def find_task_scene(task: Task, files: LibraryFiles) -> Path | None:
+    """Return the file of a compiled task's scene; None where there is no such file."""
+    assert task.scene is not None
+    return find_scene(task.scene, files.places[task.source.path].parent)
+
+
+def find_scene(scene: str, beside: Path) -> Path | None:
+    """Return the file of a scene, beside the task's file or shipped; None where there is no such file."""
+    if inspect_path(beside / scene).kind == "file":
+        return beside / scene
+    try:
+        return catalogue.scene(scene)
+    except FileNotFoundError:
+        return None
+
+
+def classes_by_individual(state: WorldState, vocabulary: Vocabulary) -> Individuals:
+    """Return the individuals of a world with their classes, as a library knows them: the scene may have its own."""
+    known = vocabulary.classes.keys()
+    above = state.vocabulary.ancestors
+    return {
+        iri: sorted({each for cls in state.types(iri) for each in ({cls} if cls in known else above[cls] & known)})
+        for iri in state.individuals
+    }
+
+
+def _written(program: Program) -> Iterator[tuple[str, s.Text]]:
+    """Yield each task with its scene as written, those of other libraries left out."""
+    for unit in program.files:
+        for declaration in unit.file.declarations:
+            if isinstance(declaration, s.TaskDeclaration) and declaration.scene and unit.library == program.name:
+                yield declaration.name.text, declaration.scene
+
+
+def why_missing(scene: str, beside: Path) -> str:
+    """Return why there is no such file as that of a scene, after its name."""
+    found = inspect_path(beside / scene)
+    return "is neither beside this file nor shipped" if found.kind == "missing" else found.is_what
+
+
+def _missing(scene: s.Text, texts: SceneTexts) -> Diagnostic:
+    """Return the problem of a scene that is not there, or that is there and no file."""
+    beside = texts.place(scene.span.path).parent
+    message = f'the scene "{scene.value}" {why_missing(scene.value, beside)}'
+    span = replace(scene.span, path=texts.shown(scene.span.path))
+    if inspect_path(beside / scene.value).kind != "missing":
+        return Diagnostic("unreadable-scene", span, message)
+    return Diagnostic("unknown-scene", span, message, did_you_mean(scene.value, catalogue.scenes()))

@@ -1,0 +1,144 @@
+"""Text values of a library that name nothing, such as a misspelt posture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from skillc_compiler.library.conditions import Literal
+from skillc_compiler.library.skills import Compound, SkillLibrary
+from skillc_compiler.library.vocabulary import Position
+from skillc_compiler.program import walk
+from skillc_compiler.program.typed import Implementation, Program, TypedExpression, position
+from skillc_dsl.diagnostics import Diagnostic, Fix, Label, Outcome, Severity, did_you_mean
+from skillc_dsl.source import Span
+
+if TYPE_CHECKING:
+    from skillc.services.task_scenes import TaskScenes
+    from skillc_runtime.execution.selection.text_names import UnknownName
+
+
+@dataclass(frozen=True, slots=True)
+class _GivenText:
+    """A text that is given to the parameter of a skill, or a local name of an implementation that has a text."""
+
+    text: str
+    span: Span
+    to: str
+    skill: str
+    implementation: Implementation | None = None
+
+
+def value_places(program: Program) -> dict[tuple[Position, str], Span]:
+    """Return where the arguments, defaults and local values of a library's own files are written, by their origin.
+
+    An origin is the place of the call and the name of the argument, or the place of the implementation and the name of
+    its parameter or local value.
+    """
+    found: dict[tuple[Position, str], Span] = {}
+    for call in walk.calls(program):
+        found |= {(position(call.written.span), each.name.text): each.value.span for each in call.arguments}
+    for one in program.implementations:
+        at = position(one.span)
+        found |= {(at, each.name): each.default.span for each in one.parameters if each.default}
+        found |= {(at, each.name.text): each.value.span for each in one.lets}
+    own = _own(program)
+    return {origin: span for origin, span in found.items() if span.path in own}
+
+
+def check_values(
+    compiled: Outcome[SkillLibrary],
+    program: Program,
+    scenes: TaskScenes | None,
+    reported: Collection[Diagnostic],
+    display_path: Callable[[str], str],
+) -> Iterator[Diagnostic]:
+    """Yield the texts of a library's own files that name nothing in any of its scenes, nor in the shipped data sheets.
+
+    Another scene may have what they name, so they are warnings. Those that are `reported` as errors are left out,
+    and nothing is reported of a library with errors, or where a scene has errors.
+    """
+    broken = not compiled.ok or (scenes and any(each.severity == "error" for each in scenes.problems))
+    given = [] if broken else list(_given(program))
+    if not given:
+        return
+    states = [scene.state for scene in scenes.valid.values()] if scenes else []
+    errors = {each.span for each in reported if each.name == "unknown-value"}
+    # The world model is heavy to import.
+    from skillc.services.task_scenes import read_scene
+    from skillc_compiler.library.read_write import changing_terms
+    from skillc_runtime.execution.selection.text_names import UnknownName, is_fixed_path, list_names
+
+    changing = changing_terms(compiled.value)
+    for each in given:
+        paths = _paths(compiled.value, each)
+        if not paths or not all(is_fixed_path(path, program.vocabulary, changing) for path in paths):
+            continue
+        properties = {path[-1] for path in paths}
+        if not states:
+            sheets = read_scene(Path("sheets.ttl"), program.vocabulary, "").value
+            states = [sheets.state] if sheets else []
+        known = {name for state in states for iri in properties for name in list_names(iri, state.individuals, state)}
+        span = replace(each.span, path=display_path(each.span.path))
+        if known and each.text not in known and span not in errors:
+            wrong = UnknownName(each.text, min(properties), None, tuple(sorted(known)))
+            yield unknown_value(wrong, wrong.message(program.vocabulary), span, "warning")
+
+
+def unknown_value(
+    wrong: UnknownName, message: str, span: Span, severity: Severity, labels: tuple[Label, ...] = ()
+) -> Diagnostic:
+    """Return what is reported at a text that names nothing."""
+    near = get_close_matches(wrong.text, wrong.known, n=2, cutoff=0.75)
+    fix = Fix(span, f'"{near[0]}"', f'write "{near[0]}"', safe=False) if len(near) == 1 else None
+    return Diagnostic("unknown-value", span, message, did_you_mean(wrong.text, wrong.known), severity, labels, fix)
+
+
+def _given(program: Program) -> Iterator[_GivenText]:
+    """Yield the texts that a library's own files give to parameters, as arguments, defaults and local values."""
+    own = _own(program)
+    every = (*_arguments(program), *_defaults(program), *_local(program))
+    for value, to, skill, implementation in every:
+        match value.meaning:
+            case Literal(value=str(text)) if value.span.path in own:
+                yield _GivenText(text, value.span, to, skill, implementation)
+            case _:
+                pass
+
+
+def _arguments(program: Program) -> Iterator[tuple[TypedExpression, str, str, None]]:
+    for call in walk.calls(program):
+        if call.skill:
+            yield from ((each.value, each.name.text, call.skill.name, None) for each in call.arguments)
+
+
+def _defaults(program: Program) -> Iterator[tuple[TypedExpression, str, str, None]]:
+    for skill in program.skills.values():
+        yield from ((each.default, each.name, skill.name, None) for each in skill.parameters if each.default)
+    for one in program.implementations:
+        for new in one.refinements:
+            if new.of and new.default:
+                yield new.default, new.of.name, one.skill.name, None
+
+
+def _local(program: Program) -> Iterator[tuple[TypedExpression, str, str, Implementation]]:
+    for one in program.implementations:
+        yield from ((each.value, each.name.text, one.skill.name, one) for each in one.lets)
+
+
+def _paths(library: SkillLibrary, given: _GivenText) -> frozenset[tuple[str, ...]]:
+    from skillc_runtime.execution.selection.text_names import find_name_paths, find_name_paths_in_body
+
+    if given.implementation is None:
+        return find_name_paths(library, given.skill, given.to)
+    lowered = library.implementations.get(given.implementation.key)
+    if lowered is None or not isinstance(lowered.body, Compound):
+        return frozenset()
+    return find_name_paths_in_body(library, lowered.body.node, given.to)
+
+
+def _own(program: Program) -> frozenset[str]:
+    return frozenset(unit.file.path for unit in program.files if unit.library == program.name)

@@ -1,0 +1,106 @@
+"""Checking again whenever a file of the libraries or a scene changes."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from datetime import datetime
+from importlib.util import find_spec
+from pathlib import Path
+from typing import NoReturn, TypeAlias
+
+from skillc.services.check_cache import scenes_of
+from skillc.services.checking import CheckRequest, CheckResult, check_sources, read_libraries
+from skillc.services.errors import RequestError
+from skillc.services.library_files import SHIPPED, LibraryFiles
+from skillc.services.reporting import Reporter
+
+_ENDINGS = (".skill", ".ttl", ".py")
+_PAUSE_MS = 300
+"""How often it is looked whether a folder is gone, or back."""
+Folders: TypeAlias = frozenset[tuple[Path, int]]
+"""Folders with their inode, which is another one when a folder is made again."""
+Show: TypeAlias = Callable[[CheckResult], None]
+
+
+def watch_sources(request: CheckRequest, show: Show, reporter: Reporter) -> NoReturn:
+    """Check and show what is found, wait for a change, and so on for ever; changes during a check are noticed after it.
+
+    RequestError without the package that watches files, or where there is nothing to check at first.
+    """
+    if find_spec("watchfiles") is None:
+        raise RequestError("--watch needs the package watchfiles: pip install 'skillc[editor]'")
+    wanted = _roots(request, read_libraries(request))
+    while True:
+        folders = _present(wanted)
+        changes = _changes(folders)
+        next(changes)
+        while folders == _folders(wanted):
+            wanted = _check(request, show, reporter) or wanted
+            if folders == _folders(wanted):
+                reporter.say("waiting for a change; Ctrl-C ends")
+                _await(changes, folders, wanted)
+        if not _folders(wanted):
+            reporter.say("nothing is there any more; waiting until it is back")
+
+
+def _changes(folders: Folders) -> Iterator[object]:
+    """Yield the changes below folders, or nothing after each pause."""
+    from watchfiles import watch
+
+    return watch(
+        *(path for path, _ in folders),
+        watch_filter=lambda _, path: path.endswith(_ENDINGS),
+        rust_timeout=_PAUSE_MS,
+        yield_on_timeout=True,
+    )
+
+
+def _await(changes: Iterator[object], folders: Folders, wanted: Sequence[Path]) -> None:
+    """Wait for a change, or until a wanted folder is another one, gone or back."""
+    for change in changes:
+        if change or folders != _folders(wanted):
+            return
+
+
+def _present(wanted: Sequence[Path]) -> Folders:
+    """Return the folders that there are, as soon as there is one."""
+    while not (folders := _folders(wanted)):
+        time.sleep(_PAUSE_MS / 1000)
+    return folders
+
+
+def _folders(paths: Sequence[Path]) -> Folders:
+    found = ((path, _number(path)) for path in paths)
+    return frozenset((path, number) for path, number in found if number is not None)
+
+
+def _number(path: Path) -> int | None:
+    try:
+        return path.stat().st_ino if path.is_dir() else None
+    except OSError:
+        return None
+
+
+def _check(request: CheckRequest, show: Show, reporter: Reporter) -> tuple[Path, ...]:
+    """Show what is found now and report how long it took; return the folders of all files, none if unreadable."""
+    reporter.say(f"[{datetime.now():%H:%M:%S}] checking")
+    start = time.perf_counter()
+    try:
+        libraries = read_libraries(request)
+        result = check_sources(request, libraries)
+    except RequestError as error:
+        reporter.say(f"error: {error}")
+        return ()
+    show(result)
+    reporter.say(f"in {time.perf_counter() - start:.2f} s")
+    return _roots(request, libraries)
+
+
+def _roots(request: CheckRequest, libraries: Sequence[LibraryFiles]) -> tuple[Path, ...]:
+    """Return the folders of libraries and of their scenes, the shipped ones left out."""
+    files = (scene for library in libraries for scene in scenes_of(library))
+    scenes = {scene.parent for scene in files if not scene.is_relative_to(SHIPPED)}
+    if request.scene:
+        scenes.add(request.scene.parent)
+    return tuple(dict.fromkeys((*(library.root for library in libraries), *sorted(scenes))))

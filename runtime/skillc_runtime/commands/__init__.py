@@ -1,1 +1,0 @@
-"""The command line: one file a command, found by its name; the only place where compiler and runtime meet."""
