@@ -33,12 +33,12 @@ def test_each_construct_has_the_effect_that_the_table_says(construct: str) -> No
     turtle, effect = ROWS[construct]
     before, after = (beside(Source("t.ttl", HEAD + TERMS + text)) for text in ("", f"{turtle}\n"))
     assert before.diagnostics == () and after.ok
-    assert bool(after.diagnostics) == ("told" in effect)
+    assert bool(after.diagnostics) == ("reported" in effect)
     terms = [
         (each.value.classes, each.value.relations, each.value.properties, each.value.aliases)
         for each in (before, after)
     ]
-    assert (terms[0] != terms[1]) == (effect != "told")
+    assert (terms[0] != terms[1]) == (effect != "reported")
 
 
 def test_the_commands_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,4 +1,4 @@
-// Starts `skillc lsp` for `.skill` files and hands everything the editor asks on to it.
+// Starts `skillc lsp` for `.skill` files and forwards the requests of the editor to it.
 import * as path from "node:path";
 import { commands, type ExtensionContext, window, workspace } from "vscode";
 import { LanguageClient, type LanguageClientOptions, type ServerOptions } from "vscode-languageclient/node";
@@ -23,8 +23,8 @@ async function start(): Promise<void> {
     client = undefined;
     const reason = error instanceof Error ? error.message : String(error);
     const choice = await window.showErrorMessage(
-      `The skill language server does not start (${reason}). Install it with: pip install 'skillc[editor]', ` +
-        "or say in the setting skillc.command where it is.",
+      `The skill language server did not start (${reason}). Install it with: pip install 'skillc[editor]', ` +
+        "or set its command in the setting skillc.command.",
       "Open settings",
     );
     if (choice) await commands.executeCommand("workbench.action.openSettings", "skillc.command");
