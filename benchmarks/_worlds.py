@@ -17,9 +17,9 @@ from typing import TypeVar
 import pyoxigraph as ox
 
 from skillc.services import libraries
-from skillc_compiler.library.conditions import Condition, HasProperty, Holds, IsA, Variable
-from skillc_compiler.library.skills import Parameter, Requirement
-from skillc_compiler.library.vocabulary import ClassType, Position
+from skillc_model.conditions import Condition, HasProperty, Holds, IsA, Variable
+from skillc_model.skills import Parameter, Requirement
+from skillc_rdf.vocabulary.types import ClassType, Position
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import load_scene, load_sheets, scene_of, sheet_documents
 from skillc_runtime.scene.saving import save

@@ -8,14 +8,14 @@ from time import perf_counter
 
 import mujoco
 
-from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
-from skillc_runtime.avoidance.body import body
-from skillc_runtime.avoidance.contacts import Contacts
-from skillc_runtime.avoidance.outfit import outfit
-from skillc_runtime.avoidance.scenery import Block, Place, scenery
-from skillc_runtime.avoidance.ways import Known, NoWay, way
+from skillc_rdf.vocabulary.load import load
+from skillc_runtime.collision.arm_assembly import outfit
+from skillc_runtime.collision.body import body
+from skillc_runtime.collision.contacts import Contacts
+from skillc_runtime.collision.path_planning import Known, NoWay, plan_joint_path
+from skillc_runtime.collision.scenery import Block, Place, scenery
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.frames import pose
@@ -59,10 +59,10 @@ def measure(scene: str) -> str:
     aside, away = home.copy(), home.copy()
     aside[0], away[0] = 1.4, -0.9
     before = contacts.looks
-    way(contacts, home, [away], known)
+    plan_joint_path(contacts, home, [away], known)
     straight, before = contacts.looks - before, contacts.looks
     try:
-        pieces = len(way(contacts, home, [aside], known))
+        pieces = len(plan_joint_path(contacts, home, [aside], known))
         around = f"{contacts.looks - before} looks for a way of {pieces} pieces around a pillar"
     except NoWay as why:
         around = str(why)

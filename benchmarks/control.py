@@ -15,16 +15,16 @@ import numpy as np
 
 from skillc.services import libraries
 from skillc.services.library_files import SHIPPED, find_library
-from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
+from skillc_rdf.vocabulary.load import load
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.motion.path import path
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.state.model import WorldModel
 
 SCENES = ("iiwa_table", "ur5e_whiteboard")

@@ -18,7 +18,7 @@ import msgspec
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 from planning.samples import CLEAN, CLEANED, DRIVE, LAB, PICK, library, post, skill
-from skillc_compiler.library.conditions import And, Holds, Individual, Not
+from skillc_model.conditions import And, Holds, Individual, Not
 from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.plan import Solved
 from skillc_runtime.planning.planners import list_planners

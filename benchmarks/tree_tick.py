@@ -13,7 +13,7 @@ from types import SimpleNamespace
 
 import py_trees
 
-from skillc_compiler.library import tree
+from skillc_model import tree
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Primitive, Status
 from skillc_runtime.recording.outcome import Outcome

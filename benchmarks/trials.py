@@ -13,7 +13,7 @@ from time import perf_counter
 
 from skillc.services import libraries
 from skillc.services.library_files import SHIPPED, find_library
-from skillc_compiler.library import codec
+from skillc_model import codec
 from skillc_ontology import catalogue
 from skillc_runtime.evaluation.trials.experiment import Experiment, TrialRunner
 from skillc_runtime.evaluation.trials.workers import run_all

@@ -15,8 +15,8 @@ from docs.manual import MANUAL, manual
 from skillc_compiler.emit.artifacts import artifacts
 from skillc_compiler.emit.write import write
 from skillc_compiler.pipeline import compile
-from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
+from skillc_rdf.vocabulary.load import load
 
 CASES = Path(__file__).parent / "cases" / "build"
 

@@ -10,8 +10,6 @@ from skillc_compiler.diagnostics.consequences import without_consequences
 from skillc_compiler.diagnostics.followers import without_followers
 from skillc_compiler.diagnostics.suppressions import apply_suppressions
 from skillc_compiler.diagnostics.unplannable import unplannable
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.lower.library import lower
 from skillc_compiler.program.typed import Program, ReadFile
 from skillc_compiler.resolve.files import Parse, read
@@ -21,6 +19,8 @@ from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
+from skillc_model.skills import SkillLibrary
+from skillc_rdf.vocabulary.types import Vocabulary
 
 NO_SCENES: Mapping[str, Individuals] = MappingProxyType({})
 

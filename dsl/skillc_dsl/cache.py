@@ -11,10 +11,13 @@ from pathlib import Path
 
 _DIGEST_BYTES = 32
 
+VARIABLE = "SKILLC_CACHE"
+"""The environment variable with the cache folder of skillc; its default is `skillc` in the user's."""
+
 
 def cache_folder() -> Path | None:
     """Return SKILLC_CACHE, else skillc's folder in the user's cache; None for a user without a home."""
-    if named := os.environ.get("SKILLC_CACHE"):
+    if named := os.environ.get(VARIABLE):
         return Path(named).absolute()
     try:
         base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")

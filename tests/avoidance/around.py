@@ -10,14 +10,14 @@ import numpy as np
 
 from simulation import cells
 from simulation.cells import ARM, LAB
-from skillc_runtime.avoidance.body import body
-from skillc_runtime.avoidance.contacts import Contacts
-from skillc_runtime.avoidance.outfit import outfit
-from skillc_runtime.avoidance.scenery import scenery
-from skillc_runtime.avoidance.ways import Known
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.mujoco.names import box_geom
+from skillc_runtime.collision.arm_assembly import outfit
+from skillc_runtime.collision.body import body
+from skillc_runtime.collision.contacts import Contacts
+from skillc_runtime.collision.path_planning import Known
+from skillc_runtime.collision.scenery import scenery
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.names import box_geom
 from skillc_runtime.world.space.frames import placed, pose
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.data_sheet import sheet_of

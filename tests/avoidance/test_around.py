@@ -10,10 +10,10 @@ import pytest
 from avoidance.around import aside, cell, pillar, posture, true_gap
 from avoidance.test_ways import UPRIGHT
 from simulation.cells import ARM, SCENES
-from skillc_runtime.avoidance import ways
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.collision import path_planning as ways
 from skillc_runtime.primitives.move import MoveJoints, TakePosture
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.state.changes import Change
 
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from avoidance.around import ASIDE_RAD, OWN, aside, contacts, home, pillar
 from simulation.cells import SCENES
-from skillc_runtime.avoidance.contacts import SLACK_M, Contacts
+from skillc_runtime.collision.contacts import SLACK_M, Contacts
 from skillc_runtime.motion.pose import Array
 
 CLEARANCE_M = 0.02

@@ -6,8 +6,8 @@ import numpy as np
 
 from avoidance.around import box, world
 from simulation.cells import ARM, ERASER, GRIPPER, LAB, PLACE
-from skillc_runtime.avoidance.outfit import Outfit, outfit
-from skillc_runtime.avoidance.scenery import scenery
+from skillc_runtime.collision.arm_assembly import ArmAssembly, outfit
+from skillc_runtime.collision.scenery import scenery
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.space.frames import placed, pose
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, RemoveRelation, SetProperty
@@ -32,7 +32,7 @@ def taken() -> list[Change]:
     ]
 
 
-def dressed(changes: list[Change]) -> Outfit:
+def dressed(changes: list[Change]) -> ArmAssembly:
     return outfit(world(SCENE, changes), ARM[SCENE], {GRIPPER[SCENE]: 0.05})
 
 

@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 from avoidance.around import aside, box, contacts, home, pillar, posture
 from avoidance.test_contacts import least_distance
 from simulation.cells import SCENES
-from skillc_runtime.avoidance import ways
-from skillc_runtime.avoidance.contacts import SLACK_M, Contacts
-from skillc_runtime.avoidance.ways import NoWay, touch_on, way
+from skillc_runtime.collision import path_planning as ways
+from skillc_runtime.collision.contacts import SLACK_M, Contacts
+from skillc_runtime.collision.path_planning import NoWay, plan_joint_path, touch_on
 from skillc_runtime.motion.joint_path import joint_path
 from skillc_runtime.motion.pose import Array
 
@@ -70,7 +70,7 @@ def test_whatever_way_is_found_is_free(scene: str, where: tuple[float, float, fl
     start, goal = home(scene), aside(scene, turn)
     assume(least_distance(of, start) > 0.03)
     try:
-        found = way(of, start, [goal], known)
+        found = plan_joint_path(of, start, [goal], known)
     except NoWay as why:
         assert "lab:" in str(why)
         return
@@ -82,10 +82,10 @@ def test_whatever_way_is_found_is_free(scene: str, where: tuple[float, float, fl
 def test_a_way_around_is_found_the_same_each_time(scene: str) -> None:
     pytest.importorskip("ompl", reason="the extra `motion` is not installed")
     (of, known), start, goal = contacts(scene, pillar(scene)), home(scene), aside(scene)
-    found = way(of, start, [goal], known)
+    found = plan_joint_path(of, start, [goal], known)
     assert len(found) > 1
     is_free(of, start, found)
-    again = way(contacts(scene, pillar(scene))[0], start, [goal], known)
+    again = plan_joint_path(contacts(scene, pillar(scene))[0], start, [goal], known)
     assert len(again) == len(found)
     assert all((one == other).all() for one, other in zip(found, again, strict=True))
 
@@ -98,14 +98,14 @@ def test_without_search_it_is_said_what_is_in_the_way(scene: str, monkeypatch: p
     with pytest.raises(
         NoWay, match=r"straight way lab:\S+.* would touch lab:Pillar; .* extra `motion` searches longer"
     ):
-        way(of, home(scene), [aside(scene)], known)
+        plan_joint_path(of, home(scene), [aside(scene)], known)
 
 
 @pytest.mark.usefixtures("without_ompl")
 def test_without_search_it_goes_over_a_posture_that_is_known() -> None:
     changes = [*pillar("iiwa_table"), *posture("iiwa_table", "upright", UPRIGHT)]
     of, known = contacts("iiwa_table", changes)
-    found = way(of, home("iiwa_table"), [aside("iiwa_table")], known)
+    found = plan_joint_path(of, home("iiwa_table"), [aside("iiwa_table")], known)
     assert [q.tolist() for q in found] == [UPRIGHT, aside("iiwa_table").tolist()]
     is_free(of, home("iiwa_table"), found)
 
@@ -114,14 +114,14 @@ def test_without_search_it_goes_over_a_posture_that_is_known() -> None:
 @pytest.mark.parametrize("scene", SCENES)
 def test_without_the_extra_drawn_postures_lead_around_what_is_simple(scene: str) -> None:
     (of, known), start = contacts(scene, pillar(scene)), home(scene)
-    found = way(of, start, [aside(scene)], known)
+    found = plan_joint_path(of, start, [aside(scene)], known)
     assert len(found) == 2
     is_free(of, start, found)
 
 
 def test_where_nothing_is_in_the_way_it_goes_straight() -> None:
     of, known = contacts("iiwa_table", [])
-    assert [q.tolist() for q in way(of, home("iiwa_table"), [aside("iiwa_table")], known)] == [
+    assert [q.tolist() for q in plan_joint_path(of, home("iiwa_table"), [aside("iiwa_table")], known)] == [
         aside("iiwa_table").tolist()
     ]
 
@@ -130,8 +130,8 @@ def test_a_goal_that_touches_is_told_and_another_one_taken() -> None:
     of, known = contacts("iiwa_table", pillar("iiwa_table"))
     into, beside = aside("iiwa_table", 0.65), aside("iiwa_table", -0.3)
     with pytest.raises(NoWay, match=r"where it shall go lab:.* would touch lab:Pillar"):
-        way(of, home("iiwa_table"), [into], known)
-    assert way(of, home("iiwa_table"), [into, beside], known) == (beside,)
+        plan_joint_path(of, home("iiwa_table"), [into], known)
+    assert plan_joint_path(of, home("iiwa_table"), [into, beside], known) == (beside,)
 
 
 def test_a_search_ends_after_so_many_looks(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -140,5 +140,5 @@ def test_a_search_ends_after_so_many_looks(monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setattr(ways, "DRAWN", 0)
     of, known = contacts("ur5e_whiteboard", pillar("ur5e_whiteboard"))
     with pytest.raises(NoWay, match=r"no way around was found in \d+ looks"):
-        way(of, home("ur5e_whiteboard"), [aside("ur5e_whiteboard")], known)
+        plan_joint_path(of, home("ur5e_whiteboard"), [aside("ur5e_whiteboard")], known)
     assert of.looks < 2000

@@ -12,11 +12,11 @@ from typing import Protocol
 import numpy as np
 
 from simulation.cells import ARM, world
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.mujoco.names import part
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.devices.arm import Arm
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.names import part
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import COMPLIANT_CONTROLLER

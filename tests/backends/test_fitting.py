@@ -8,9 +8,9 @@ from dataclasses import replace
 import pytest
 
 from simulation.cells import ARM, LAB, world
-from skillc_runtime.simulation.arm import SimulatedArm
-from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.drivers import driver
+from skillc_runtime.backends.mujoco.arm import SimulatedArm
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.mujoco.driver_factory import driver
 from skillc_runtime.world.state.changes import Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldModel

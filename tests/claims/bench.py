@@ -12,7 +12,7 @@ from msgspec import structs
 from skillc.services import libraries
 from skillc.services.library_files import find_library
 from skillc_compiler.goals.parsing import parse_call, parse_goal
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task

@@ -4,10 +4,10 @@ from functools import cache
 from importlib.resources import files
 from pathlib import Path
 
-from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
+from skillc_rdf.vocabulary.load import load
+from skillc_rdf.vocabulary.types import Vocabulary
 
 SKILLS = Path(str(files("skillc_skills")))
 

@@ -10,14 +10,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shipped import library, shelf, vocabulary
 
-from skillc_compiler.library import codec
-from skillc_compiler.library.conditions import And, Arithmetic, Assign, Given, Literal, Not, Or, Retract
-from skillc_compiler.library.rewriting import constant_number
-from skillc_compiler.library.skills import Compound, SkillLibrary
-from skillc_compiler.library.tree import Sequence, Wait
 from skillc_compiler.pipeline import compile
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
+from skillc_model import codec
+from skillc_model.conditions import And, Arithmetic, Assign, Given, Literal, Not, Or, Retract
+from skillc_model.rewriting import constant_number
+from skillc_model.skills import Compound, SkillLibrary
+from skillc_model.tree import Sequence, Wait
 
 HEADER = "use skiros, rparts, skillc\n"
 
@@ -53,7 +53,7 @@ def test_the_same_library_whatever_the_order_of_the_files() -> None:
 
 def test_the_same_bytes_in_every_process() -> None:
     script = "import sys; sys.path.insert(0, sys.argv[1]); import shipped as s; from skillc_compiler import pipeline; "
-    script += "from skillc_compiler.library import codec; "
+    script += "from skillc_model import codec; "
     script += "o = pipeline.compile(s.library('wiping'), s.vocabulary(), s.shelf(), 'wiping'); "
     script += "sys.stdout.buffer.write(codec.dumps(o.value)); print(o.diagnostics)"
     here = str(Path(__file__).parent)

@@ -9,13 +9,13 @@ import pytest
 from shipped import shelf, vocabulary
 
 from skillc_compiler.checks import checks
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.pipeline import compile
-from skillc_compiler.vocabulary.load import load
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.edits import apply_fixes
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
+from skillc_rdf.vocabulary.load import load
+from skillc_rdf.vocabulary.types import Vocabulary
 
 CASES = sorted((Path(__file__).parent.parent / "cases" / "errors").glob("*.skill"))
 EXPECTED = re.compile(r'#! ([a-z-]+) "([^"]*)"')

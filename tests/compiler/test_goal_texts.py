@@ -5,11 +5,11 @@ import pytest
 from shipped import library, shelf, vocabulary
 
 from skillc_compiler.goals.parsing import parse_call, parse_goal
-from skillc_compiler.library.conditions import And, Condition, Exists, Forall, Individual, Literal
-from skillc_compiler.library.format_condition import format_condition
-from skillc_compiler.library.vocabulary import Position
 from skillc_compiler.pipeline import compile
 from skillc_dsl.diagnostics import Outcome
+from skillc_model.conditions import And, Condition, Exists, Forall, Individual, Literal
+from skillc_model.format_condition import format_condition
+from skillc_rdf.vocabulary.types import Position
 
 LAB = "http://example.org/lab#"
 

@@ -13,15 +13,15 @@ from shipped import shelf, vocabulary
 from skillc.services import library_checks
 from skillc.services.library_files import find_library
 from skillc_compiler.goals.parsing import parse_goal
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.manual import Page, page_names, pages, parse_page
 from skillc_compiler.pipeline import compile
-from skillc_compiler.vocabulary.load import load
 from skillc_dsl.encoding import decode
 from skillc_dsl.formatting.formatter import check_layout
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
+from skillc_rdf.vocabulary.load import load
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import SceneError
 from skillc_runtime.scene.load import read_scene
 

@@ -3,7 +3,12 @@
 import pyoxigraph as ox
 import pytest
 
-from skillc_compiler.library.vocabulary import (
+from skillc_dsl.source import Source
+from skillc_ontology.catalogue import vocabulary_files
+from skillc_rdf.turtle.parser import parse
+from skillc_rdf.vocabulary.load import load
+from skillc_rdf.vocabulary.positions import positions
+from skillc_rdf.vocabulary.types import (
     Bounds,
     DirectionType,
     NumberType,
@@ -13,11 +18,6 @@ from skillc_compiler.library.vocabulary import (
     VectorType,
     Vocabulary,
 )
-from skillc_compiler.turtle.parser import parse
-from skillc_compiler.vocabulary.load import load
-from skillc_compiler.vocabulary.positions import positions
-from skillc_dsl.source import Source
-from skillc_ontology.catalogue import vocabulary_files
 
 HEAD = """@prefix t: <http://example.org/t#> .
 @prefix owl: <http://www.w3.org/2002/07/owl#> .

@@ -9,6 +9,10 @@ from dataclasses import replace
 import numpy as np
 from rig import GAINS, LAWS, ROBOTS, Bench, moved_by
 
+from skillc_runtime.backends.mujoco.coverage import add_dose
+from skillc_runtime.backends.mujoco.hand import ArmSensing, Hand, load_mass, measure
+from skillc_runtime.backends.mujoco.motors import drive
+from skillc_runtime.backends.mujoco.wrist import low_pass
 from skillc_runtime.control.command_validator import take_over
 from skillc_runtime.control.controllers import make_controllers
 from skillc_runtime.control.limits import EXPECTED, SpeedLimit
@@ -23,10 +27,6 @@ from skillc_runtime.motion.pose import Pose, exp
 from skillc_runtime.motion.reference import Compliance, Reference
 from skillc_runtime.motion.reference_generator import ReferenceGenerator
 from skillc_runtime.motion.segments import MotionLimits, segment
-from skillc_runtime.simulation.coverage import add_dose
-from skillc_runtime.simulation.hand import ArmSensing, Hand, load_mass, measure
-from skillc_runtime.simulation.motors import drive
-from skillc_runtime.simulation.wrist import low_pass
 
 
 def laws(robot: str, count: int) -> list[list[float]]:

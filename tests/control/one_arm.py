@@ -4,9 +4,9 @@ from functools import cache
 
 from rig import HOMES, Bench
 
-from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
+from skillc_rdf.vocabulary.load import load
 from skillc_runtime.primitives.primitive import SkillFailure, Status
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, SetProperty
 from skillc_runtime.world.state.model import WorldModel

@@ -7,7 +7,7 @@ from threading import Thread
 import numpy as np
 import pytest
 
-from skillc_runtime.motion.numerics.arrays import OutVector
+from skillc_runtime.motion.arrays import OutVector
 from skillc_runtime.motion.numerics.compiled import COMPILES, compiled
 
 pytestmark = pytest.mark.skipif(not COMPILES, reason="needs numba")

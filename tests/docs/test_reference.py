@@ -9,11 +9,11 @@ import pytest
 
 from docs.manual import MANUAL, manual
 from docs.pages import ROOT, blocks
-from skillc_compiler.library.words import SI_UNITS
 from skillc_compiler.manual import pages
 from skillc_dsl.parsing.grammar import fixed_texts
 from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.source import Source
+from skillc_model.words import SI_UNITS
 
 REFERENCE = ROOT / "docs/language.md"
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]

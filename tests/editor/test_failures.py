@@ -12,9 +12,9 @@ from lsprotocol import types
 from skillc.lsp import libraries
 from skillc.lsp.session import Session
 from skillc_compiler.ide.analysis import Analysis, Library, analyse
-from skillc_compiler.library.skills import SkillLibrary
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.parsing.parser import parse
+from skillc_model.skills import SkillLibrary
 
 GOOD = 'skill Rest { noplan }\nimpl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }\n'
 ILL = GOOD + "# it fails\nskill Walk { in arm ArmDevice }\n"

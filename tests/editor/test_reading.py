@@ -23,7 +23,11 @@ HOVERS = [
     ("Force = 10", 2, ("the type **Force**, in `N`",)),
     ("along: panel.normal", 1, ("in along: Direction", "parameter of `Compliance`")),
     ("panel.normal)", 8, ("property normal(", "): Direction")),
-    ("lifted(panel", 2, ("function lifted(pose: Pose, by: Length) -> Pose", "skillc_runtime.motion.places:raised")),
+    (
+        "lifted(panel",
+        2,
+        ("function lifted(pose: Pose, by: Length) -> Pose", "skillc_runtime.world.space.functions:raised"),
+    ),
     ("above)", 2, ("let above = lifted(panel.pose, 5 cm)", "a Pose")),
     ("done\n", 2, ("post  done:  panel.isClean == true",)),
     ("Fault", 2, ("a value of `deviceState`",)),

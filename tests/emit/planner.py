@@ -7,8 +7,8 @@ import sys
 from importlib.util import find_spec
 from pathlib import Path
 
-from skillc_compiler.library.pddl.problem import Problem
-from skillc_compiler.library.pddl.text import domain_text, problem_text
+from skillc_model.pddl.problem import Problem
+from skillc_model.pddl.text import domain_text, problem_text
 
 
 def search_binary() -> Path | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from skillc_compiler.library.conditions import (
+from skillc_model.conditions import (
     Anything,
     Assert,
     Assign,
@@ -16,9 +16,9 @@ from skillc_compiler.library.conditions import (
     Retract,
     Variable,
 )
-from skillc_compiler.library.pddl.names import pddl_names
-from skillc_compiler.library.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
-from skillc_compiler.library.vocabulary import (
+from skillc_model.pddl.names import pddl_names
+from skillc_model.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
+from skillc_rdf.vocabulary.types import (
     ClassTerm,
     ClassType,
     NumberType,

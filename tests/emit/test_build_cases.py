@@ -11,7 +11,7 @@ import pytest
 
 from accept import built, cases, expected
 from skillc_compiler.emit.headers import MARK
-from skillc_compiler.library.codec import loads
+from skillc_model.codec import loads
 
 
 @pytest.mark.parametrize("case", cases(), ids=lambda case: case.name)

@@ -7,8 +7,8 @@ import json
 import pytest
 
 from emit.samples import wiping
-from skillc_compiler.library.codec import LibraryError, dumps, loads
-from skillc_compiler.library.skills import FORMAT
+from skillc_model.codec import LibraryError, dumps, loads
+from skillc_model.skills import FORMAT
 
 
 def test_a_library_is_read_back() -> None:

@@ -8,8 +8,8 @@ import pytest
 from emit.samples import HERE, holds, wiping
 from skillc_compiler.emit import docs
 from skillc_compiler.emit.quantities import quantity_texts
-from skillc_compiler.library.skills import Task
-from skillc_compiler.library.vocabulary import NumberType
+from skillc_model.skills import Task
+from skillc_rdf.vocabulary.types import NumberType
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ from accept import built, cases
 from emit.samples import BASE, WIPE, holds, implementation, library, need, wiping
 from skillc_compiler.emit import owl
 from skillc_compiler.emit.owl.turtle import Iri, turtle
-from skillc_compiler.library.skills import Requirement, SkillLibrary
+from skillc_model.skills import Requirement, SkillLibrary
 
 SAMPLE = Namespace("https://w3id.org/skillc/library/sample#")
 SKILLC = Namespace("https://w3id.org/skillc/core#")

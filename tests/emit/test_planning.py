@@ -11,7 +11,7 @@ import pytest
 from emit import samples
 from emit.planner import search_binary, solve
 from emit.samples import DRIVE, PICK, WIPE, assign, holds, iri, library, need, number, parameter, post, read
-from skillc_compiler.library.conditions import (
+from skillc_model.conditions import (
     And,
     Compare,
     Condition,
@@ -28,8 +28,8 @@ from skillc_compiler.library.conditions import (
     PropertyOf,
     Variable,
 )
-from skillc_compiler.library.pddl.domain import Action, ClassFact, GuardFact, PlanningDomain, Predicate, RelationFact
-from skillc_compiler.library.pddl.formulas import (
+from skillc_model.pddl.domain import Action, ClassFact, GuardFact, PlanningDomain, Predicate, RelationFact
+from skillc_model.pddl.formulas import (
     FALSE,
     TRUE,
     Atom,
@@ -43,11 +43,11 @@ from skillc_compiler.library.pddl.formulas import (
     conjuncts,
     disjunction,
 )
-from skillc_compiler.library.pddl.goals import ground_goal
-from skillc_compiler.library.pddl.planning import planning_domain
-from skillc_compiler.library.pddl.prepare import prepared
-from skillc_compiler.library.pddl.problem import Problem
-from skillc_compiler.library.skills import Post, Skill
+from skillc_model.pddl.goals import ground_goal
+from skillc_model.pddl.planning import planning_domain
+from skillc_model.pddl.prepare import prepared
+from skillc_model.pddl.problem import Problem
+from skillc_model.skills import Post, Skill
 
 needs_planner = pytest.mark.skipif(search_binary() is None, reason="the planner is an extra")
 

@@ -8,12 +8,12 @@ from pathlib import Path
 
 from peers.comparing import differences_of
 from skillc_compiler.emit.artifacts import artifacts
-from skillc_compiler.library.pddl.planning import planning_domain
-from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.pipeline import compile
-from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
+from skillc_model.pddl.planning import planning_domain
+from skillc_model.skills import SkillLibrary
 from skillc_ontology.catalogue import vocabulary_files
+from skillc_rdf.vocabulary.load import load
 
 
 @cache

@@ -16,12 +16,12 @@ from emit.reasoner import classified, needs_java
 from emit.test_shipped import wiping
 from skillc_compiler.emit import owl
 from skillc_compiler.emit.owl.words import library_base
-from skillc_compiler.library.skills import Implementation, SkillLibrary
-from skillc_compiler.library.vocabulary import ClassType
 from skillc_compiler.pipeline import compile
-from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
+from skillc_model.skills import Implementation, SkillLibrary
 from skillc_ontology.catalogue import vocabulary_files
+from skillc_rdf.vocabulary.load import load
+from skillc_rdf.vocabulary.types import ClassType
 
 CLASSES = 14
 SKILLS = 12

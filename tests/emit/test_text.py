@@ -26,13 +26,13 @@ from emit.samples import (
 )
 from skillc_compiler.emit import pddl
 from skillc_compiler.emit.pddl import DomainRefused, read_back
-from skillc_compiler.library.conditions import Arithmetic, Compare, Literal, Variable
-from skillc_compiler.library.pddl.domain import ComputedCost
-from skillc_compiler.library.pddl.names import KEYWORDS, object_names
-from skillc_compiler.library.pddl.planning import planning_domain
-from skillc_compiler.library.pddl.text import domain_text, temporal_text
-from skillc_compiler.library.skills import Compound, Skill, SkillLibrary
-from skillc_compiler.library.tree import Call, Sequence
+from skillc_model.conditions import Arithmetic, Compare, Literal, Variable
+from skillc_model.pddl.domain import ComputedCost
+from skillc_model.pddl.names import KEYWORDS, object_names
+from skillc_model.pddl.planning import planning_domain
+from skillc_model.pddl.text import domain_text, temporal_text
+from skillc_model.skills import Compound, Skill, SkillLibrary
+from skillc_model.tree import Call, Sequence
 
 
 @given(st.sets(st.text(min_size=1, max_size=6), max_size=8))

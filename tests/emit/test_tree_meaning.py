@@ -13,10 +13,10 @@ from emit.bt_parts import Stage as Leaves
 from emit.bt_player import Player
 from skillc_compiler.emit import bt
 from skillc_compiler.emit.bt.calls import may_break_hold
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.reading import walk
-from skillc_compiler.library.skills import Compound, SkillLibrary, Task
+from skillc_model import tree
+from skillc_model.conditions import Condition
+from skillc_model.reading import walk
+from skillc_model.skills import Compound, SkillLibrary, Task
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.state.changes import SetProperty

@@ -19,10 +19,10 @@ from skillc_compiler.emit import bt
 from skillc_compiler.emit.bt.names import Names, entry, given, port
 from skillc_compiler.emit.bt.ports import plain_value
 from skillc_compiler.emit.bt.rules import TreeRefused, verified
-from skillc_compiler.library.codec import loads
-from skillc_compiler.library.conditions import Literal, Variable
-from skillc_compiler.library.skills import Compound, Primitive, Skill, SkillLibrary
-from skillc_compiler.library.tree import Call
+from skillc_model.codec import loads
+from skillc_model.conditions import Literal, Variable
+from skillc_model.skills import Compound, Primitive, Skill, SkillLibrary
+from skillc_model.tree import Call
 
 ARTIFACTS = [(case.name, path, text) for case in cases() for path, text in expected(case).items()]
 ARTIFACTS_OF = {case.name: expected(case) for case in cases()}

@@ -13,11 +13,11 @@ from unified_planning.io import PDDLReader
 from unified_planning.plans import ActionInstance, SequentialPlan, TimeTriggeredPlan
 from unified_planning.shortcuts import get_environment
 
-from skillc_compiler.library.conditions import And
-from skillc_compiler.library.pddl.domain import Action, RelationFact
-from skillc_compiler.library.pddl.problem import Problem
-from skillc_compiler.library.pddl.text import domain_text, problem_text, temporal_problem_text, temporal_text
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.conditions import And
+from skillc_model.pddl.domain import Action, RelationFact
+from skillc_model.pddl.problem import Problem
+from skillc_model.pddl.text import domain_text, problem_text, temporal_problem_text, temporal_text
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.planning.problem.initial_state import InitialState
 from skillc_runtime.planning.problem.pose import Posed

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.pipeline import compile
-from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
+from skillc_model.skills import SkillLibrary
+from skillc_rdf.vocabulary.load import load
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import world_of
 from skillc_runtime.world.state.world_state import WorldState

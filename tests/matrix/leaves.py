@@ -9,11 +9,11 @@ import msgspec
 
 from emit.bt_parts import Blackboard, Outcome
 from emit.bt_parts import Stage as Leaves
-from skillc_compiler.library.conditions import Arithmetic, Condition, Expression, IsA, Literal, Variable
-from skillc_compiler.library.reading import walk
-from skillc_compiler.library.skills import Compound, Implementation, Primitive, SkillLibrary
-from skillc_compiler.library.tree import Call, Check, ForEach, If, Timeout, Wait, WaitUntil, While
-from skillc_compiler.library.vocabulary import ClassType
+from skillc_model.conditions import Arithmetic, Condition, Expression, IsA, Literal, Variable
+from skillc_model.reading import walk
+from skillc_model.skills import Compound, Implementation, Primitive, SkillLibrary
+from skillc_model.tree import Call, Check, ForEach, If, Timeout, Wait, WaitUntil, While
+from skillc_rdf.vocabulary.types import ClassType
 from skillc_runtime.execution.selection.binding import BoundImplementation, bind_implementation
 from skillc_runtime.execution.selection.python_targets import import_primitive
 from skillc_runtime.primitives.primitive import Primitive as Running

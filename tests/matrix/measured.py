@@ -15,11 +15,11 @@ from matrix.stage import SCRIPTS
 from peers.comparing import differences_of
 from skillc_compiler.emit import bt, owl
 from skillc_compiler.emit.owl.words import library_base
-from skillc_compiler.library.codec import dumps, loads
-from skillc_compiler.library.conditions import And
-from skillc_compiler.library.pddl.planning import planning_domain
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.library.tree import Node
+from skillc_model.codec import dumps, loads
+from skillc_model.conditions import And
+from skillc_model.pddl.planning import planning_domain
+from skillc_model.skills import SkillLibrary
+from skillc_model.tree import Node
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.primitives.primitive import Status

@@ -6,10 +6,10 @@ from functools import cache
 
 import pytest
 
-from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
+from skillc_rdf.vocabulary.load import load
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document, SceneError
 from skillc_runtime.scene.load import world_of
 from skillc_runtime.world.state.terms import SKILLC, SKIROS

@@ -6,19 +6,10 @@ from collections.abc import Iterator, Set
 from typing import assert_never
 
 from oracle.forced import steps, worked
-from skillc_compiler.library.conditions import And
-from skillc_compiler.library.pddl.domain import PropertyFact, RelationFact
-from skillc_compiler.library.pddl.formulas import (
-    Atom,
-    Conjunction,
-    Disjunction,
-    Equal,
-    Existential,
-    Formula,
-    Negation,
-    Universal,
-)
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.conditions import And
+from skillc_model.pddl.domain import PropertyFact, RelationFact
+from skillc_model.pddl.formulas import Atom, Conjunction, Disjunction, Equal, Existential, Formula, Negation, Universal
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.plan_text import read_step
 from skillc_runtime.planning.problem.pose import Posed, pose_problem

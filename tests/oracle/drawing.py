@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from oracle.forced import Fact, relations_of, steps, worked
 from oracle.text import asked, compiled, condition_text, text_of
 from planning.samples import post, skill
-from skillc_compiler.library.conditions import (
+from skillc_model.conditions import (
     And,
     Anything,
     Compare,
@@ -26,15 +26,8 @@ from skillc_compiler.library.conditions import (
     Same,
     Variable,
 )
-from skillc_compiler.library.skills import Skill, SkillLibrary
-from skillc_compiler.library.vocabulary import (
-    ClassTerm,
-    PlainType,
-    PropertyTerm,
-    RelationTerm,
-    Signature,
-    Vocabulary,
-)
+from skillc_model.skills import Skill, SkillLibrary
+from skillc_rdf.vocabulary.types import ClassTerm, PlainType, PropertyTerm, RelationTerm, Signature, Vocabulary
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, SetProperty
 from skillc_runtime.world.state.world_state import WorldState
 from world.lab import NS, iri, parameter, requirement

@@ -8,9 +8,9 @@ from heapq import heappop, heappush
 from itertools import count, product
 from typing import TypeAlias
 
-from skillc_compiler.library.conditions import And, Condition
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.library.vocabulary import ClassType
+from skillc_model.conditions import And, Condition
+from skillc_model.skills import SkillLibrary
+from skillc_rdf.vocabulary.types import ClassType
 from skillc_runtime.execution.selection.binding import BoundImplementation, bind_implementation
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.planning.validation import PlanError, validate

@@ -13,11 +13,11 @@ from oracle.agreement import disagreements
 from oracle.forced import TooManyStates, cheapest, steps, worked
 from oracle.vocabularies import Author
 from oracle.well_typed import mistakes
-from skillc_compiler.library.conditions import And
-from skillc_compiler.library.pddl.formulas import FALSE
-from skillc_compiler.library.pddl.planning import planning_domain
-from skillc_compiler.library.pddl.pruning import pruned
-from skillc_compiler.library.pddl.text import domain_text, problem_text, temporal_problem_text, temporal_text
+from skillc_model.conditions import And
+from skillc_model.pddl.formulas import FALSE
+from skillc_model.pddl.planning import planning_domain
+from skillc_model.pddl.pruning import pruned
+from skillc_model.pddl.text import domain_text, problem_text, temporal_problem_text, temporal_text
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.pose import GoalError, pose_problem

@@ -13,9 +13,9 @@ from emit.unified import disagreements, takes
 from oracle.drawing import CROWD, Dice
 from oracle.forced import TooManyStates, cheapest
 from oracle.text import Contradictory
-from skillc_compiler.library.conditions import And, Condition
-from skillc_compiler.library.pddl.complement import complemented
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.conditions import And, Condition
+from skillc_model.pddl.complement import complemented
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.plan import Planner, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.planners import list_planners

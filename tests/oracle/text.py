@@ -6,7 +6,9 @@ from collections.abc import Iterator, Sequence
 from typing import assert_never
 
 from skillc_compiler.goals.parsing import parse_goal
-from skillc_compiler.library.conditions import (
+from skillc_compiler.pipeline import compile
+from skillc_dsl.source import Source
+from skillc_model.conditions import (
     And,
     Anything,
     Compare,
@@ -27,10 +29,8 @@ from skillc_compiler.library.conditions import (
     Term,
     Variable,
 )
-from skillc_compiler.library.skills import Skill, SkillLibrary
-from skillc_compiler.library.vocabulary import ClassType, Vocabulary, local_name
-from skillc_compiler.pipeline import compile
-from skillc_dsl.source import Source
+from skillc_model.skills import Skill, SkillLibrary
+from skillc_rdf.vocabulary.types import ClassType, Vocabulary, local_name
 from skillc_runtime.world.state.world_state import WorldState
 
 

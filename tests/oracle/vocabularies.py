@@ -10,7 +10,7 @@ import msgspec
 
 from oracle.forced import Fact, relations_of, steps, worked
 from planning.samples import implementation, post, skill
-from skillc_compiler.library.conditions import (
+from skillc_model.conditions import (
     And,
     Anything,
     Compare,
@@ -26,9 +26,9 @@ from skillc_compiler.library.conditions import (
     Term,
     Variable,
 )
-from skillc_compiler.library.pddl.names import pddl_names
-from skillc_compiler.library.skills import Implementation, Parameter, Skill, SkillLibrary
-from skillc_compiler.library.vocabulary import (
+from skillc_model.pddl.names import pddl_names
+from skillc_model.skills import Implementation, Parameter, Skill, SkillLibrary
+from skillc_rdf.vocabulary.types import (
     ClassTerm,
     ClassType,
     PlainType,

@@ -12,8 +12,8 @@ from skillc_compiler.emit import bt
 from skillc_compiler.emit.bt import depth as bt_depth
 from skillc_compiler.emit.bt.names import BUILT_IN
 from skillc_compiler.pipeline import compile
-from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
+from skillc_rdf.vocabulary.load import load
 
 HEAD = """\
 prefix lab: <http://example.org/lab#>

@@ -15,10 +15,10 @@ from plans import depot
 from skillc.services.errors import RequestError
 from skillc.services.planning import with_minimal_makespan
 from skillc.services.task_loading import LoadedTask
-from skillc_compiler.library.conditions import Condition, Holds, Individual
-from skillc_compiler.library.pddl.problem import Problem
-from skillc_compiler.library.tree import Sequence
-from skillc_compiler.library.vocabulary import Position
+from skillc_model.conditions import Condition, Holds, Individual
+from skillc_model.pddl.problem import Problem
+from skillc_model.tree import Sequence
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.planning.aries.solver import Aries, find_aries
 from skillc_runtime.planning.fast_downward import solver as fast_downward

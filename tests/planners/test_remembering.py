@@ -15,7 +15,7 @@ from plans import depot
 from skillc.cli.main import skillc
 from skillc.services import planning
 from skillc.services.planning import FolderPlanCache
-from skillc_compiler.library.pddl.problem import Problem
+from skillc_model.pddl.problem import Problem
 from skillc_runtime.planning.cache import CachingPlanner, CachingScheduler
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.problem.pose import pose_problem

@@ -14,8 +14,8 @@ import pytest
 from plans import depot
 from skillc.services import libraries
 from skillc.services.library_files import find_library
-from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.conditions import Condition
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.makespan.scheduling import schedule_plan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule
 from skillc_runtime.planning.plan import Plan, Solved, Step

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import msgspec
 
-from skillc_compiler.library.conditions import (
+from skillc_model.conditions import (
     Anything,
     Assert,
     Assign,
@@ -19,9 +19,9 @@ from skillc_compiler.library.conditions import (
     Retract,
     Variable,
 )
-from skillc_compiler.library.pddl.names import pddl_names
-from skillc_compiler.library.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
-from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_model.pddl.names import pddl_names
+from skillc_model.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.world_state import WorldState
 from world.lab import HERE, VOCABULARY, holds, individual, iri, parameter, requirement

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from planning.samples import DRIVE, LAB, PICK, library, post, skill
-from skillc_compiler.library.conditions import And, Anything, Holds, Individual, Not, Variable
+from skillc_model.conditions import And, Anything, Holds, Individual, Not, Variable
 from skillc_runtime.planning.fast_downward import solver as fast_downward
 from skillc_runtime.planning.fast_downward.heuristics import (
     BLIND,

@@ -10,7 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 from skillc.cli.main import skillc
-from skillc_compiler.library.pddl.costs import MOST_UNITS, common_scale, exact_seconds
+from skillc_model.pddl.costs import MOST_UNITS, common_scale, exact_seconds
 from skillc_runtime.planning import planners
 from skillc_runtime.planning.fast_downward import solver as fast_downward
 from skillc_runtime.planning.search import astar

@@ -6,9 +6,9 @@ import msgspec
 import pytest
 
 from planning.samples import CLEAN, CLEANED, DRIVE, LAB, PICK, WIPING, library
-from skillc_compiler.library.conditions import Forall, Holds, Individual, Not, PropertyOf, Variable
-from skillc_compiler.library.pddl.complement import complemented
-from skillc_compiler.library.pddl.formulas import Negation, Universal, conjuncts
+from skillc_model.conditions import Forall, Holds, Individual, Not, PropertyOf, Variable
+from skillc_model.pddl.complement import complemented
+from skillc_model.pddl.formulas import Negation, Universal, conjuncts
 from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable
 from skillc_runtime.planning.problem import initial_state as initial

@@ -4,19 +4,8 @@ import msgspec
 import pytest
 
 from planning.samples import CLEAN, CLEANED, DRIVE, LAB, PICK, WIPING, library, parameter
-from skillc_compiler.library.conditions import (
-    And,
-    Condition,
-    Exists,
-    Forall,
-    Holds,
-    Individual,
-    Not,
-    Or,
-    PropertyOf,
-    Variable,
-)
-from skillc_compiler.library.vocabulary import ClassTerm
+from skillc_model.conditions import And, Condition, Exists, Forall, Holds, Individual, Not, Or, PropertyOf, Variable
+from skillc_rdf.vocabulary.types import ClassTerm
 from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Step, Unsolvable
 from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.pose import pose_problem

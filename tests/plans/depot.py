@@ -10,8 +10,8 @@ from pathlib import Path
 from skillc.services import libraries
 from skillc.services.library_files import find_library
 from skillc_compiler.goals.parsing import parse_goal
-from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.conditions import Condition
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task

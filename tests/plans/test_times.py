@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import pytest
 
 from plans.depot import SKIROS, Depot, contain, goal, iri, library, world
-from skillc_compiler.library.pddl.problem import Problem
+from skillc_model.pddl.problem import Problem
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.planning.makespan.minimise import minimise_makespan

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from random import Random
 
-from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty

@@ -21,17 +21,17 @@ from skillc_compiler.analysis.run import Around
 from skillc_compiler.analysis.run import Run as Exploration
 from skillc_compiler.analysis.state import State
 from skillc_compiler.analysis.trail import Ends
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Condition, Holds, Individual, Variable
-from skillc_compiler.library.reading import free_variables
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.library.vocabulary import Position, Vocabulary
 from skillc_compiler.lower.library import lower
 from skillc_compiler.program.typed import Implementation, Program, TypedNode, position
 from skillc_compiler.program.walk import within
 from skillc_compiler.resolve.files import read
 from skillc_compiler.resolve.program import resolve
 from skillc_dsl.source import Source
+from skillc_model import tree
+from skillc_model.conditions import Condition, Holds, Individual, Variable
+from skillc_model.reading import free_variables
+from skillc_model.skills import SkillLibrary
+from skillc_rdf.vocabulary.types import Position, Vocabulary
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Event, ImplementationChosen, NodeEnded, NodeStarted

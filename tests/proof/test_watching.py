@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Compare, Literal, Variable
-from skillc_compiler.library.properties import Event, Is, Measures, Property
-from skillc_compiler.library.skills import Compound, Parameter, Skill, SkillLibrary
-from skillc_compiler.library.vocabulary import ClassTerm, ClassType, Vocabulary
+from skillc_model import tree
+from skillc_model.conditions import Compare, Literal, Variable
+from skillc_model.properties import Event, Is, Measures, Property
+from skillc_model.skills import Compound, Parameter, Skill, SkillLibrary
+from skillc_rdf.vocabulary.types import ClassTerm, ClassType, Vocabulary
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.world.state.changes import SetProperty

@@ -5,12 +5,12 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any
 
-from skillc_compiler.library.vocabulary import Position
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.evaluation.report.moments import find_moments
+from skillc_runtime.film.film import Moment
 from skillc_runtime.recording.events import Highlight, ImplementationChosen
 from skillc_runtime.recording.outcome import Outcome
-from skillc_runtime.simulation.film import Moment
-from skillc_runtime.world.labelled import Iri
+from skillc_runtime.world.state.labelled import Iri
 
 HERE = Position(path="press.skill", line=1, column=1)
 CELL: Any = SimpleNamespace(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from skillc_compiler.library.vocabulary import Position
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult
 from skillc_runtime.evaluation.report.table import reason_of
 from skillc_runtime.recording.failure import Rejection

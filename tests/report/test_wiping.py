@@ -10,13 +10,13 @@ from typing import Any
 
 import skillc_runtime
 import skillc_skills
-from skillc_compiler.library.vocabulary import Position
-from skillc_compiler.library.words import SI_UNITS
+from skillc_model.words import SI_UNITS
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.evaluation.report.choices import Choices
 from skillc_runtime.evaluation.report.wiping import Wiping, find_wipings
 from skillc_runtime.recording.events import ImplementationChosen, NodeEnded, NodeStarted
 from skillc_runtime.recording.outcome import Outcome
-from skillc_runtime.world.labelled import Iri, LabelledValue, Quantity
+from skillc_runtime.world.state.labelled import Iri, LabelledValue, Quantity
 from skillc_runtime.world.state.terms import SURFACE, TOOL
 
 HERE = Position("wash.skill", 1, 1)

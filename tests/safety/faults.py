@@ -11,9 +11,10 @@ from pkgutil import walk_packages
 import numpy as np
 
 from simulation.cells import world
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Compare, Individual, Literal, PropertyOf
+from skillc_model import tree
+from skillc_model.conditions import Compare, Individual, Literal, PropertyOf
 from skillc_runtime import primitives
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask
 from skillc_runtime.execution.task_run import execute_task
@@ -23,7 +24,6 @@ from skillc_runtime.primitives.compliance import ReleaseAxis
 from skillc_runtime.primitives.overlay import AddedMotion
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.recording.events import Event, NodeEnded, Note, TaskEnded
-from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
     BUTTON,

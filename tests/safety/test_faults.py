@@ -9,7 +9,7 @@ import pytest
 
 from safety.faults import CLASSES, KINDS, reasons, run, scene_for, things, wanted
 from simulation.cells import ARM, cell, world
-from skillc_runtime.simulation.cell import SimulatedCell
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import COMPLIANT_CONTROLLER

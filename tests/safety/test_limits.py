@@ -7,14 +7,14 @@ import pytest
 
 from safety.test_faults import is_safe
 from simulation.cells import ARM, GRIPPER, LAB, SCENES, cell, run, world
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.mujoco.names import part
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.safety import Box
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.move import MoveLinear
 from skillc_runtime.primitives.overlay import OverlayCircle
 from skillc_runtime.primitives.primitive import SkillFailure
-from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.names import part
 from skillc_runtime.world.space.frames import placed
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.model import WorldModel

@@ -10,8 +10,8 @@ import pytest
 
 from simulation.cells import ARM, vocabulary
 from skillc_ontology import catalogue
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.state.model import WorldModel
 
 PAGE = Path(__file__).parents[2] / "docs/safety.md"

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from random import Random
 
-from skillc_compiler.turtle.tokens import Token, tokens
+from skillc_rdf.turtle.tokens import Token, tokens
 
 KINDS = ("delete", "double", "exchange", "misspell")
 

@@ -10,11 +10,11 @@ import pytest
 
 from scene.mutations import mutants
 from scene.turtle_texts import BASE, EVERYTHING, by_oxigraph, by_rdflib, random_text, shown
-from skillc_compiler.turtle.parser import parse
-from skillc_compiler.turtle.statements import Parsed
 from skillc_dsl.diagnostics import Fix
 from skillc_dsl.source import Span
 from skillc_ontology import catalogue
+from skillc_rdf.turtle.parser import parse
+from skillc_rdf.turtle.statements import Parsed
 
 SEEDS = int(os.environ.get("TURTLE_SEEDS", "30"))
 FILES = [("everything", EVERYTHING), *catalogue.vocabulary_files()]

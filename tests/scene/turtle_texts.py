@@ -11,7 +11,7 @@ from rdflib.collection import Collection
 from rdflib.namespace import RDF, XSD
 from rdflib.term import Node
 
-from skillc_compiler.turtle.tokens import tokens
+from skillc_rdf.turtle.tokens import tokens
 
 BASE = "file:///scene"
 SPACES = (" ", "\t", "\n", "\r\n", '  # a comment . ; "\n', "\n\n")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Literal as OneOf
 
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Anything, Assert, Condition, Expression, Holds, Not, Retract, Variable
-from skillc_compiler.library.skills import (
+from skillc_model import tree
+from skillc_model.conditions import Anything, Assert, Condition, Expression, Holds, Not, Retract, Variable
+from skillc_model.skills import (
     Compound,
     Implementation,
     ImplementationBody,
@@ -16,8 +16,8 @@ from skillc_compiler.library.skills import (
     Skill,
     SkillLibrary,
 )
-from skillc_compiler.library.skills import Primitive as PrimitiveBody
-from skillc_compiler.library.vocabulary import ClassTerm, NumberType, Position, Vocabulary
+from skillc_model.skills import Primitive as PrimitiveBody
+from skillc_rdf.vocabulary.types import ClassTerm, NumberType, Position, Vocabulary
 from skillc_runtime.primitives.primitive import Primitive, Status
 from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.world_state import WorldState

@@ -6,8 +6,8 @@ import msgspec
 import pytest
 
 from selection.library import MOUNTED, THERE, at, call, force, gripper, impl, library, scene
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import (
+from skillc_model import tree
+from skillc_model.conditions import (
     Arithmetic,
     Assign,
     Expression,
@@ -19,7 +19,7 @@ from skillc_compiler.library.conditions import (
     PropertyOf,
     Variable,
 )
-from skillc_compiler.library.skills import Compound, Implementation, Let, Post, Primitive
+from skillc_model.skills import Compound, Implementation, Let, Post, Primitive
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.world.state.changes import Change, RemoveRelation
 from world.lab import assign, fact, individual, iri, parameter

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from selection.library import EMPTY, MOUNTED, THERE, force, gripper, impl, library, requirement, scene
-from skillc_compiler.library.conditions import Arithmetic, Compare, Given, Literal, Not, Or, PropertyOf, Variable
+from skillc_model.conditions import Arithmetic, Compare, Given, Literal, Not, Or, PropertyOf, Variable
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_primitive
 from skillc_runtime.execution.selection.select import (
     NoneSelected,

@@ -9,11 +9,11 @@ import pytest
 
 from skillc.services import libraries
 from skillc.services.library_files import SHIPPED, find_library
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Individual
-from skillc_compiler.library.skills import Primitive, SkillLibrary
-from skillc_compiler.library.vocabulary import Position
+from skillc_model import tree
+from skillc_model.conditions import Individual
+from skillc_model.skills import Primitive, SkillLibrary
 from skillc_ontology import catalogue
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.execution.selection.python_targets import import_matching_primitive
 from skillc_runtime.execution.selection.select import NoneSelected, SelectedImplementation, select_implementation

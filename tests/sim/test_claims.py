@@ -11,18 +11,18 @@ import pytest
 from skillc.services import libraries
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.goals.parsing import parse_call
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.mujoco.scene_spec import SceneSpec
+from skillc_runtime.backends.mujoco.variation import Variation, draw, with_obstacles
 from skillc_runtime.evaluation.trials.disturbance import reality
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.facts import SceneFacts
-from skillc_runtime.simulation.variation import Variation, draw, with_obstacles
-from skillc_runtime.world.labelled import format_fact
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.state.labelled_text import format_fact
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import (
     BASE_FRAME_ID,
@@ -42,7 +42,7 @@ from skillc_runtime.world.state.world_state import WorldState
 pytestmark = pytest.mark.sim
 
 LAB = "http://example.org/lab#"
-Reality = Callable[[SceneFacts, int], Variation]
+Reality = Callable[[SceneSpec, int], Variation]
 
 
 @cache
@@ -70,7 +70,7 @@ def wiped(task: str, real: Reality = draw) -> Execution:
     return execute_task(once, library(), SimulatedCell(WorldModel(scene(task)), 1, reality=real))
 
 
-def stiff(facts: SceneFacts, seed: int) -> Variation:
+def stiff(facts: SceneSpec, seed: int) -> Variation:
     """Return a reality in which every pad is eight times as stiff as its data sheet says."""
     drawn = draw(facts, seed)
     return replace(drawn, pad_share=dict.fromkeys(drawn.pad_share, 7.0))

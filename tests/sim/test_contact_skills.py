@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from contact_runs import LAB, at_rest, displace, run, strongest, tell, vanish
 
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.space.frames import pose
 
 pytestmark = pytest.mark.sim

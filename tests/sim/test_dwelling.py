@@ -9,9 +9,10 @@ from msgspec import structs
 
 from skillc.services import libraries
 from skillc.services.library_files import SHIPPED, find_library
-from skillc_compiler.library.conditions import Literal
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.conditions import Literal
+from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.evaluation.report.choices import Choices
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.report.summary import summarise
@@ -19,7 +20,6 @@ from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.state.model import WorldModel
 
 pytestmark = pytest.mark.sim

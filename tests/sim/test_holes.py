@@ -9,8 +9,9 @@ import pytest
 
 from skillc.services import libraries
 from skillc.services.library_files import SHIPPED, find_library
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.evaluation.report.choices import Choices
 from skillc_runtime.evaluation.report.summary import summarise
 from skillc_runtime.evaluation.report.wiping import find_wipings
@@ -18,7 +19,6 @@ from skillc_runtime.execution.assignment import AchieveGoal, Assignment, Prepare
 from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.space.frames import placed
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.model import WorldModel

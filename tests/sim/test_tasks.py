@@ -14,8 +14,9 @@ import pytest
 
 from skillc.services import libraries
 from skillc.services.library_files import SHIPPED, find_library
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.evaluation.report.choices import Choices
 from skillc_runtime.evaluation.report.summary import summarise
 from skillc_runtime.evaluation.report.wiping import find_wipings
@@ -23,7 +24,6 @@ from skillc_runtime.execution.assignment import AchieveGoal, Assignment, Prepare
 from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.state.model import WorldModel
 
 pytestmark = pytest.mark.sim

@@ -8,8 +8,9 @@ import pytest
 
 from skillc.services import libraries
 from skillc.services.library_files import SHIPPED, find_library
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.evaluation.report.choices import Choices
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.summary import summarise
@@ -18,8 +19,7 @@ from skillc_runtime.execution.assignment import AchieveGoal, Assignment, Prepare
 from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.labelled import Iri
+from skillc_runtime.world.state.labelled import Iri
 from skillc_runtime.world.state.model import WorldModel
 
 pytestmark = pytest.mark.sim

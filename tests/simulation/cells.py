@@ -8,17 +8,17 @@ from functools import cache
 import numpy as np
 import pytest
 
-from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
+from skillc_rdf.vocabulary.load import load
+from skillc_rdf.vocabulary.types import Vocabulary
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.grasp import Grasp
 from skillc_runtime.primitives.gripper import ParallelGripper, ThreeFingerGripper
 from skillc_runtime.primitives.move import MoveJoints, MoveLinear
 from skillc_runtime.primitives.primitive import Primitive, Status
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import AddRelation, Change
 from skillc_runtime.world.state.model import WorldModel

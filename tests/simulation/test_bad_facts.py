@@ -6,9 +6,9 @@ import pytest
 from cells import vocabulary, world
 
 from skillc_ontology import catalogue
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.scene.documents import Document, SceneError
 from skillc_runtime.scene.load import sheet_documents, world_of
-from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.state.data_sheet import Sheet, SheetError
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import SKILLC

@@ -4,17 +4,17 @@ import numpy as np
 import pytest
 from cells import ARM, LAB, cell, run
 
+from skillc_runtime.backends.mujoco.base import SimulatedBase
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.mujoco.scene_spec import BaseSpec
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.drive import DriveBase
-from skillc_runtime.simulation.base import SimulatedBase
-from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.facts import BaseFacts
 from skillc_runtime.world.space.frames import pose
 
 HERON = LAB + "Heron-1"
 
 
-def base_facts(there: SimulatedCell) -> BaseFacts:
+def base_facts(there: SimulatedCell) -> BaseSpec:
     return there.facts.bases[0]
 
 

@@ -9,14 +9,14 @@ import pytest
 from cells import ARM, ERASER, SCENES, SURFACE, cell, vocabulary, world
 
 from skillc_ontology import catalogue
+from skillc_runtime.backends.mujoco import noise
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.mujoco.model_builder import build_model
+from skillc_runtime.backends.mujoco.names import obstacle
+from skillc_runtime.backends.mujoco.scene_spec import read_scene_spec
+from skillc_runtime.backends.mujoco.variation import OBSTACLE_M, deserted, draw, with_obstacles
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.simulation import noise
-from skillc_runtime.simulation.build import build
-from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.facts import read_scene
-from skillc_runtime.simulation.names import obstacle
-from skillc_runtime.simulation.variation import OBSTACLE_M, deserted, draw, with_obstacles
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import Change, ClearProperty, RemoveRelation, SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError
@@ -83,14 +83,14 @@ def test_the_felt_yields_as_its_data_sheet_says() -> None:
 def test_a_missing_fact_is_named() -> None:
     state = world("iiwa_table").changed([ClearProperty(ERASER, WEIGHT)])
     with pytest.raises(SheetError, match=r"Eraser-1 has no number skiros:Weight"):
-        read_scene(state)
+        read_scene_spec(state)
 
 
 def test_a_device_without_data_sheet_is_named() -> None:
     arm = ARM["iiwa_table"]
     state = world("iiwa_table").changed([RemoveRelation(arm, HAS_SHEET, SKILLC + "iiwa14-sheet")])
     with pytest.raises(SheetError, match="Iiwa-1 has no data sheet"):
-        read_scene(state)
+        read_scene_spec(state)
 
 
 @pytest.mark.parametrize(
@@ -132,29 +132,29 @@ def test_half_a_range_of_friction_is_refused(given: str, missing: str) -> None:
     state = world("iiwa_table").changed([ClearProperty(SURFACE["iiwa_table"], missing)])
     assert state.value(SURFACE["iiwa_table"], given) is not None
     with pytest.raises(SheetError, match=f"Table-1 has no number skillc:{missing.removeprefix(SKILLC)}"):
-        read_scene(state)
+        read_scene_spec(state)
 
 
 def test_a_range_of_friction_is_read_without_the_single_value_and_the_other_way_round() -> None:
     surface, state = SURFACE["iiwa_table"], world("iiwa_table")
-    assert read_scene(state.changed([ClearProperty(surface, FRICTION)])).surfaces[0].friction == (0.3, 0.8)
+    assert read_scene_spec(state.changed([ClearProperty(surface, FRICTION)])).surfaces[0].friction == (0.3, 0.8)
     bare = state.changed([ClearProperty(surface, name) for name in RANGES])
-    assert read_scene(bare).surfaces[0].friction == (0.6, 0.6)
+    assert read_scene_spec(bare).surfaces[0].friction == (0.6, 0.6)
     with pytest.raises(SheetError, match=r"Table-1 has no number skillc:friction "):
-        read_scene(bare.changed([ClearProperty(surface, FRICTION)]))
+        read_scene_spec(bare.changed([ClearProperty(surface, FRICTION)]))
     with pytest.raises(SheetError, match=r"skillc:frictionLow above its skillc:frictionHigh"):
-        read_scene(state.changed([SetProperty(surface, FRICTION_LOW, 0.9)]))
+        read_scene_spec(state.changed([SetProperty(surface, FRICTION_LOW, 0.9)]))
 
 
 def test_facts_that_contradict_a_model_are_refused() -> None:
-    facts = read_scene(world("iiwa_table").changed([SetProperty(ERASER, SIZE[0], 0.2)]))
+    facts = read_scene_spec(world("iiwa_table").changed([SetProperty(ERASER, SIZE[0], 0.2)]))
     with pytest.raises(SheetError, match=r"the face of .*Eraser-1 is"):
-        build(facts, draw(facts, 0))
+        build_model(facts, draw(facts, 0))
 
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_reality_differs_within_the_ranges_of_the_facts(scene: str) -> None:
-    facts = read_scene(world(scene))
+    facts = read_scene_spec(world(scene))
     (surface,) = facts.surfaces
     drawn = [draw(facts, seed).of(SURFACE[scene]) for seed in range(100)]
     offsets = np.array([one.offset_m for one in drawn])
@@ -168,7 +168,7 @@ def test_reality_differs_within_the_ranges_of_the_facts(scene: str) -> None:
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_arms_start_and_pads_yield_within_the_ranges_of_the_facts(scene: str) -> None:
-    facts = read_scene(world(scene))
+    facts = read_scene_spec(world(scene))
     (arm,), (tool,) = facts.arms, facts.tools
     drawn = [draw(facts, seed) for seed in range(100)]
     off = np.abs([one.start(arm) - arm.home for one in drawn])
@@ -181,7 +181,7 @@ def test_arms_start_and_pads_yield_within_the_ranges_of_the_facts(scene: str) ->
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_what_an_arm_measures_is_as_noisy_as_the_facts_say_and_the_same_for_the_same_seed(scene: str) -> None:
-    (arm,) = read_scene(world(scene)).arms
+    (arm,) = read_scene_spec(world(scene)).arms
     sources = (noise.of_joints(arm, 3), noise.of_wrist(arm, 3)), (noise.of_joints(arm, 3), noise.of_wrist(arm, 3))
     wanted = {"iiwa_table": ([0.001] * 7, None), "ur5e_whiteboard": (None, [0.5] * 3 + [0.02] * 3 + [0.0] * 3)}[scene]
     for one, again, deviation in zip(*sources, wanted, strict=True):
@@ -193,11 +193,11 @@ def test_what_an_arm_measures_is_as_noisy_as_the_facts_say_and_the_same_for_the_
 
 
 def test_surfaces_may_be_missing_and_may_carry_something() -> None:
-    facts = read_scene(world("iiwa_table"))
+    facts = read_scene_spec(world("iiwa_table"))
     drawn, name = draw(facts, 2), facts.names[SURFACE["iiwa_table"]]
-    bodies = {model.body(each).name for model in (build(facts, deserted(drawn)),) for each in range(model.nbody)}
+    bodies = {model.body(each).name for model in (build_model(facts, deserted(drawn)),) for each in range(model.nbody)}
     assert name not in bodies
-    littered = build(facts, with_obstacles(drawn, facts))
+    littered = build_model(facts, with_obstacles(drawn, facts))
     here, top = littered.body(obstacle(name)).pos, littered.body(name)
     away = pose_of(top).inverse().at(here)
     assert away[2] == pytest.approx(OBSTACLE_M[2])

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from skillc_dsl import cache
-from skillc_runtime import cache_folder
+from skillc_dsl.cache import cache_folder
 
 HERE = Path.cwd()
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from cells import ARM, world
 
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.devices.arm import JointPosition, Torque
-from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.state.model import WorldModel
 
 SCENE = "ur5e_whiteboard"

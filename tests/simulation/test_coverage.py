@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from skillc_runtime.backends.mujoco.coverage import CoverageMap
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Pose, exp
-from skillc_runtime.simulation.coverage import CoverageMap
 
 SURFACE = Pose.of((0.0, 0.0, 0.5))
 TOOL = np.array([0.10, 0.05])

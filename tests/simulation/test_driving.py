@@ -8,14 +8,14 @@ from cells import LAB, world
 
 from skillc.services import libraries
 from skillc.services.library_files import SHIPPED, find_library
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Individual
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.library.vocabulary import Position
+from skillc_model import tree
+from skillc_model.conditions import Individual
+from skillc_model.skills import SkillLibrary
+from skillc_rdf.vocabulary.types import Position
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.selection.select import NoneSelected, select_implementation
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import AT
 

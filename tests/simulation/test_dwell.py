@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from skillc_runtime.backends.mujoco.recorder import COLUMNS
 from skillc_runtime.devices.ground_truth import Recording
+from skillc_runtime.evaluation.metrics.lane_dwell import lane_dwell
 from skillc_runtime.motion.lanes import lanes
 from skillc_runtime.motion.path import path
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.segments import MotionLimits
-from skillc_runtime.simulation.dwell import lane_dwell
-from skillc_runtime.simulation.recorder import COLUMNS
 
 STEP_S = 0.001
 SPEED, ACCELERATION = 0.1, 0.4

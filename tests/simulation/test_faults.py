@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from cells import ARM, SCENES, cell
 
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.control.controller import ControlError
-from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import ChangeEvent, WorldModel
 

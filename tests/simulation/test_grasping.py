@@ -19,12 +19,12 @@ from cells import (
     run,
 )
 
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.grasp import Release
 from skillc_runtime.primitives.gripper import ParallelGripper
 from skillc_runtime.primitives.primitive import SkillFailure, Status
-from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.space.frame_tree import WORLD_FRAME, FrameError
 from skillc_runtime.world.space.frames import placed, pose
 from skillc_runtime.world.state.changes import AddRelation, ClearProperty

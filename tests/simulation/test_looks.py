@@ -13,16 +13,16 @@ import pytest
 from cells import vocabulary
 from menagerie import COLOUR, OURS, QUARTERS, SCALE, tetrahedron, write_collection
 
+from skillc_dsl.cache import VARIABLE
 from skillc_ontology import catalogue
-from skillc_runtime.cache_folder import VARIABLE
+from skillc_runtime.backends.mujoco.model_builder import build_model, describe_model
+from skillc_runtime.backends.mujoco.scene_spec import SceneSpec, read_scene_spec
+from skillc_runtime.backends.mujoco.variation import draw
+from skillc_runtime.film.look_cache import model_file
+from skillc_runtime.film.look_meshes import dressed
+from skillc_runtime.film.looks import Collection, Looks, LooksError, read_looks
 from skillc_runtime.motion.pose import Array, Pose, exp
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.simulation.build import build, described
-from skillc_runtime.simulation.facts import SceneFacts, read_scene
-from skillc_runtime.simulation.looks import Collection, Looks, LooksError, read_looks
-from skillc_runtime.simulation.looks_cache import model_file
-from skillc_runtime.simulation.looks_meshes import dressed
-from skillc_runtime.simulation.variation import draw
 
 SCENES = {"ur5e_whiteboard": ["ur5e"], "iiwa_table": ["iiwa14"], "panda_desk": ["panda_nohand", "hand"]}
 
@@ -35,9 +35,9 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "cache"
 
 
-def seen(scene: str) -> tuple[SceneFacts, Looks]:
+def seen(scene: str) -> tuple[SceneSpec, Looks]:
     state = load_scene(catalogue.scene(scene), vocabulary())
-    facts = read_scene(state)
+    facts = read_scene_spec(state)
     return facts, read_looks(state, facts, "menagerie")
 
 
@@ -45,8 +45,8 @@ def folder_of(cache: Path, collection: Collection) -> Path:
     return cache / "looks" / collection.name / collection.commit
 
 
-def spec_of(facts: SceneFacts) -> mujoco.MjSpec:
-    return described(facts, draw(facts, 3))
+def spec_of(facts: SceneSpec) -> mujoco.MjSpec:
+    return describe_model(facts, draw(facts, 3))
 
 
 def corners(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> Array:
@@ -105,7 +105,7 @@ def _turn(ours: str) -> Pose:
 def test_looks_weigh_nothing_and_touch_nothing(scene: str, cache: Path) -> None:
     facts, looks = seen(scene)
     write_collection(folder_of(cache, looks.collection))
-    plain, drawn = build(facts, draw(facts, 3)), dressed(spec_of(facts), looks)
+    plain, drawn = build_model(facts, draw(facts, 3)), dressed(spec_of(facts), looks)
     for name in ("body_mass", "body_inertia", "body_ipos", "body_iquat", "jnt_axis", "dof_armature", "qpos0"):
         np.testing.assert_array_equal(getattr(plain, name), getattr(drawn, name))
     meshes = drawn.geom_type == mujoco.mjtGeom.mjGEOM_MESH
@@ -142,8 +142,8 @@ def test_a_missing_mesh_is_named(cache: Path) -> None:
 def test_looks_that_there_are_not_are_told_with_those_there_are() -> None:
     state = load_scene(catalogue.scene("iiwa_table"), vocabulary())
     with pytest.raises(LooksError, match="no looks menagery; there are primitive, menagerie"):
-        read_looks(state, read_scene(state), "menagery")
-    bare = replace(read_scene(state), arms=())
+        read_looks(state, read_scene_spec(state), "menagery")
+    bare = replace(read_scene_spec(state), arms=())
     with pytest.raises(LooksError, match="menagerie has no model of any device in this scene"):
         read_looks(state, bare, "menagerie")
 

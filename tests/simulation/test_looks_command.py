@@ -9,8 +9,8 @@ from click.testing import CliRunner, Result
 from menagerie import write_collection
 
 from skillc.cli.main import skillc
+from skillc_dsl.cache import VARIABLE
 from skillc_ontology import catalogue
-from skillc_runtime.cache_folder import VARIABLE
 
 PRESENT = "TakePosture(arm: lab:Panda-1)"
 

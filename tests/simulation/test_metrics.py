@@ -4,13 +4,12 @@ import numpy as np
 import pytest
 from scipy.signal import butter, sosfiltfilt
 
+from skillc_runtime.backends.mujoco.coverage import CoverageMap
+from skillc_runtime.backends.mujoco.recorder import COLUMNS
 from skillc_runtime.devices.ground_truth import Recording
+from skillc_runtime.evaluation.metrics.wiping import WipingSetup, highpass, measure_wiping
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Pose, exp, quaternion_of
-from skillc_runtime.simulation.coverage import CoverageMap
-from skillc_runtime.simulation.highpass import highpass
-from skillc_runtime.simulation.metrics import WipingSetup, measure_wiping
-from skillc_runtime.simulation.recorder import COLUMNS
 
 SURFACE = Pose.of((1.0, 2.0, 0.5), (0.5, 0.5, -0.5, -0.5))
 EXTENT, TOOL = np.array([0.40, 0.30]), np.array([0.10, 0.05])

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from cells import world
 
-from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.observer import PeakForce
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.mujoco.observer import PeakForce
 from skillc_runtime.world.state.model import WorldModel
 
 

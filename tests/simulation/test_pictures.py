@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from skillc_runtime.simulation.rendering import Renderer, RenderingError, View
+from skillc_runtime.film.rendering import Renderer, RenderingError, View
 
 BALL = '<mujoco><worldbody><{kind} type="sphere" size="0.5" rgba="1 0 0 1"/></worldbody></mujoco>'
 

@@ -7,8 +7,8 @@ from itertools import product
 import numpy as np
 import pytest
 
+from skillc_runtime.film.props import LEG_M, Prop, props
 from skillc_runtime.motion.pose import Pose, exp
-from skillc_runtime.simulation.scenery import LEG_M, Prop, props
 
 SIZE = np.array([0.4, 0.3, 0.03])
 TILT = exp(np.array([0.05, -0.04, 0.0]))

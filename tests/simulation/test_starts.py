@@ -7,41 +7,41 @@ import pytest
 from cells import vocabulary, world
 
 from skillc_ontology import catalogue
-from skillc_runtime.avoidance.body import body
-from skillc_runtime.avoidance.contacts import Contacts
-from skillc_runtime.avoidance.outfit import outfit
-from skillc_runtime.avoidance.scenery import scenery
+from skillc_runtime.backends.mujoco import start_postures as starts
+from skillc_runtime.backends.mujoco.rng import rng_for
+from skillc_runtime.backends.mujoco.scene_spec import ArmSpec, read_scene_spec
+from skillc_runtime.backends.mujoco.start_postures import draw_start
+from skillc_runtime.collision.arm_assembly import outfit
+from skillc_runtime.collision.body import body
+from skillc_runtime.collision.contacts import Contacts
+from skillc_runtime.collision.scenery import scenery
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import sheet_documents, world_of
-from skillc_runtime.simulation import starts
-from skillc_runtime.simulation.facts import ArmFacts, read_scene
-from skillc_runtime.simulation.rng import rng_for
-from skillc_runtime.simulation.starts import draw_start
 
 SEEDS = range(40)
 
 
-def looking(arm: ArmFacts) -> Contacts:
+def looking(arm: ArmSpec) -> Contacts:
     assert arm.gripper is not None
     state, openings = arm.sheet.state, {arm.gripper.individual: arm.gripper.max_opening_m / 2}
     return Contacts(body(outfit(state, arm.individual, openings), scenery(state, arm.base)), arm.home)
 
 
-def first_draw(arm: ArmFacts, seed: int) -> tuple[float, ...]:
+def first_draw(arm: ArmSpec, seed: int) -> tuple[float, ...]:
     off = rng_for(arm.individual, seed).uniform(-1.0, 1.0, arm.home.size) * arm.posture_range_rad
     return tuple(off.tolist())
 
 
-def arm_in(old: str, new: str) -> ArmFacts:
+def arm_in(old: str, new: str) -> ArmSpec:
     text = catalogue.scene("iiwa_table").read_text("utf-8")
     assert text.count(old) == 1
-    return read_scene(world_of([Document("scene.ttl", text.replace(old, new)), *sheet_documents()], vocabulary())).arms[
-        0
-    ]
+    return read_scene_spec(
+        world_of([Document("scene.ttl", text.replace(old, new)), *sheet_documents()], vocabulary())
+    ).arms[0]
 
 
 def test_a_start_that_touches_something_is_drawn_again_and_no_other() -> None:
-    (arm,) = read_scene(world("iiwa_table")).arms
+    (arm,) = read_scene_spec(world("iiwa_table")).arms
     contacts, again = looking(arm), 0
     for seed in SEEDS:
         first, start = first_draw(arm, seed), draw_start(arm, seed)
@@ -55,7 +55,7 @@ def test_a_start_that_touches_something_is_drawn_again_and_no_other() -> None:
 
 
 def test_an_arm_that_touches_something_wherever_it_is_drawn_starts_at_home(monkeypatch: pytest.MonkeyPatch) -> None:
-    (arm,) = read_scene(world("iiwa_table")).arms
+    (arm,) = read_scene_spec(world("iiwa_table")).arms
     contacts = looking(arm)
     touching = next(seed for seed in SEEDS if contacts.overlaps(arm.home + first_draw(arm, seed)))
     monkeypatch.setattr(starts, "MOST_DRAWS", 1)
@@ -78,5 +78,5 @@ def test_an_arm_without_a_range_starts_at_home() -> None:
 
 @pytest.mark.parametrize("scene", ["ur5e_whiteboard", "panda_desk"])
 def test_where_there_is_room_nothing_is_drawn_again(scene: str) -> None:
-    (arm,) = read_scene(world(scene)).arms
+    (arm,) = read_scene_spec(world(scene)).arms
     assert [draw_start(arm, seed) for seed in SEEDS[:10]] == [first_draw(arm, seed) for seed in SEEDS[:10]]

@@ -5,7 +5,9 @@ from __future__ import annotations
 import pytest
 
 from skillc.services import libraries
-from skillc_compiler.library.conditions import (
+from skillc_compiler.pipeline import compile as compiled
+from skillc_dsl.source import Source
+from skillc_model.conditions import (
     Anything,
     Condition,
     Exists,
@@ -17,13 +19,11 @@ from skillc_compiler.library.conditions import (
     PropertyOf,
     Variable,
 )
-from skillc_compiler.library.conditions import Compare as Comparison
-from skillc_compiler.library.read_write import EVERYTHING, FactPattern, facts_read, is_fixed
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.pipeline import compile as compiled
-from skillc_compiler.vocabulary.load import load
-from skillc_dsl.source import Source
+from skillc_model.conditions import Compare as Comparison
+from skillc_model.read_write import EVERYTHING, FactPattern, facts_read, is_fixed
+from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
+from skillc_rdf.vocabulary.load import load
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
@@ -33,8 +33,8 @@ from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.join import solutions
 from skillc_runtime.world.eval.support import deciding_facts
-from skillc_runtime.world.labelled import format_fact
 from skillc_runtime.world.space.frames import placed
+from skillc_runtime.world.state.labelled_text import format_fact
 from skillc_runtime.world.state.model import WorldError, WorldModel
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.terms import AT, BASE_FRAME_ID, FURNITURE, SIZE

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from skillc_compiler.library.vocabulary import ClassTerm
+from skillc_rdf.vocabulary.types import ClassTerm
 from skillc_runtime.store.contents import world_of
 from skillc_runtime.store.triples import all_facts, difference
 from skillc_runtime.store.wire import KINDS, as_text, changes_of

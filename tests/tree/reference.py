@@ -5,8 +5,8 @@ Closing a generator halts it. Nothing here is fast, reports, or survives anythin
 
 from __future__ import annotations
 
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Literal as Constant
+from skillc_model import tree
+from skillc_model.conditions import Literal as Constant
 from tree.reference_calls import call
 from tree.reference_model import Child, Life, Model, Result, Scope, close, true
 

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeAlias
 
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.skills import Compound, Implementation, Skill
+from skillc_model import tree
+from skillc_model.conditions import Condition
+from skillc_model.skills import Compound, Implementation, Skill
 from tree.reference_model import Child, Life, Model, Result, Scope, close, true, value_of
 
 Run: TypeAlias = Callable[[tree.Node, Model, Scope], Life]

@@ -6,9 +6,9 @@ from collections.abc import Callable, Generator
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from skillc_compiler.library.conditions import Compare, Condition, Individual, PropertyOf, Variable
-from skillc_compiler.library.conditions import Literal as Constant
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.conditions import Compare, Condition, Individual, PropertyOf, Variable
+from skillc_model.conditions import Literal as Constant
+from skillc_model.skills import SkillLibrary
 from tree.stage import Script
 
 

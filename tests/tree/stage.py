@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 from itertools import count
 from typing import Literal
 
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Assign, Compare, Condition, Expression, Individual, PropertyOf, Variable
-from skillc_compiler.library.conditions import Literal as Constant
-from skillc_compiler.library.skills import (
+from skillc_model import tree
+from skillc_model.conditions import Assign, Compare, Condition, Expression, Individual, PropertyOf, Variable
+from skillc_model.conditions import Literal as Constant
+from skillc_model.skills import (
     Compound,
     Implementation,
     ImplementationBody,
@@ -20,10 +20,8 @@ from skillc_compiler.library.skills import (
     Skill,
     SkillLibrary,
 )
-from skillc_compiler.library.skills import (
-    Primitive as PrimitiveBody,
-)
-from skillc_compiler.library.vocabulary import (
+from skillc_model.skills import Primitive as PrimitiveBody
+from skillc_rdf.vocabulary.types import (
     ClassTerm,
     ClassType,
     FunctionTerm,

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 
 from hypothesis import strategies as st
 
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Compare, Condition, Individual, Literal, PropertyOf
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model import tree
+from skillc_model.conditions import Compare, Condition, Individual, Literal, PropertyOf
+from skillc_model.skills import SkillLibrary
 from tree.stage import DEVICES, ON, PERIOD_S, Library, Script, call, here, par, sel, seq, with_
 from tree.stage import FLAGS as ALL_FLAGS
 

@@ -6,12 +6,12 @@ from typing import Any
 
 import pytest
 
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Assign, Compare, Condition, Invoke, IsA, Not, PropertyOf, Variable
-from skillc_compiler.library.conditions import Literal as Constant
-from skillc_compiler.library.skills import Compound, Let, Parameter, Post, Skill
-from skillc_compiler.library.skills import Primitive as PrimitiveBody
-from skillc_compiler.library.vocabulary import ClassType
+from skillc_model import tree
+from skillc_model.conditions import Assign, Compare, Condition, Invoke, IsA, Not, PropertyOf, Variable
+from skillc_model.conditions import Literal as Constant
+from skillc_model.skills import Compound, Let, Parameter, Post, Skill
+from skillc_model.skills import Primitive as PrimitiveBody
+from skillc_rdf.vocabulary.types import ClassType
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Primitive, Status
 from skillc_runtime.world.state.changes import SetProperty

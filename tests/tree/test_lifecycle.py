@@ -6,9 +6,9 @@ import itertools
 
 import pytest
 
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Literal
-from skillc_compiler.library.skills import Compound, Skill
+from skillc_model import tree
+from skillc_model.conditions import Literal
+from skillc_model.skills import Compound, Skill
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import SkillFailure, Status

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Individual
+from skillc_model import tree
+from skillc_model.conditions import Individual
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.world.state.changes import SetProperty

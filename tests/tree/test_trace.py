@@ -8,7 +8,7 @@ import msgspec
 import numpy as np
 import pytest
 
-from skillc_compiler.library.vocabulary import Position
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import SkillFailure, Status
 from skillc_runtime.recording import events
@@ -25,7 +25,8 @@ from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.recording.reader import TraceReader
 from skillc_runtime.recording.reasons import FailedCallContext
 from skillc_runtime.recording.writer import TraceWriter
-from skillc_runtime.world.labelled import (
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.labelled import (
     ClassFact,
     IdentityFact,
     IndividualAdded,
@@ -39,7 +40,6 @@ from skillc_runtime.world.labelled import (
     ValueList,
     Vector,
 )
-from skillc_runtime.world.state.changes import SetProperty
 from tree.stage import FLAGS, ON, Library, Script, Stage, act, call, sel, seq, world
 
 

@@ -13,7 +13,7 @@ from click.testing import CliRunner, Result
 from skillc.cli.main import skillc
 from skillc.services import libraries, task_loading, trial_runs
 from skillc.services.library_files import SHIPPED, find_library
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.trials.journal import FILE
 from skillc_runtime.evaluation.trials.trial import Trial
 from skillc_runtime.evaluation.trials.workers import Prepare

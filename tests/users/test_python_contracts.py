@@ -9,8 +9,8 @@ import pytest
 from click.testing import CliRunner
 
 from skillc.cli.main import skillc
-from skillc_compiler.library.skills import Parameter
-from skillc_compiler.library.vocabulary import PlainType, Position
+from skillc_model.skills import Parameter
+from skillc_rdf.vocabulary.types import PlainType, Position
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, check_function, import_matching_primitive
 
 HEAD = """\

@@ -5,11 +5,11 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
-from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.vocabulary.load import load
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
+from skillc_rdf.vocabulary.load import load
+from skillc_rdf.vocabulary.types import Vocabulary
 
 STOCK = Path(__file__).parent / "stock"
 T = "http://example.org/t#"

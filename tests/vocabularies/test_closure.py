@@ -1,9 +1,9 @@
 """What follows from relations, and what a library changes by what its skills state."""
 
-from skillc_compiler.library.conditions import Assert, Holds, Retract, Variable
-from skillc_compiler.library.read_write import changing_terms, is_fixed, terms_written_by
-from skillc_compiler.library.skills import Implementation, Post, Primitive, SkillLibrary
-from skillc_compiler.library.vocabulary import Position, RelationTerm, Vocabulary
+from skillc_model.conditions import Assert, Holds, Retract, Variable
+from skillc_model.read_write import changing_terms, is_fixed, terms_written_by
+from skillc_model.skills import Implementation, Post, Primitive, SkillLibrary
+from skillc_rdf.vocabulary.types import Position, RelationTerm, Vocabulary
 
 HERE = Position("here", 1, 1)
 X, Y = Variable("x"), Variable("y")

@@ -8,11 +8,11 @@ import random
 import pyoxigraph as ox
 import pytest
 
-from skillc_compiler.turtle.editing import Editor, NotWritten
-from skillc_compiler.turtle.parser import parse
-from skillc_compiler.turtle.statements import Node
-from skillc_compiler.turtle.terms import RDF_TYPE, XSD
 from skillc_ontology import catalogue
+from skillc_rdf.turtle.editing import Editor, NotWritten
+from skillc_rdf.turtle.parser import parse
+from skillc_rdf.turtle.statements import Node
+from skillc_rdf.turtle.terms import RDF_TYPE, XSD
 
 BASE = "file:///scene"
 E = "http://e/#"

@@ -9,11 +9,11 @@ from collections.abc import Iterator
 import pytest
 
 from emit.reasoner import classified, needs_java
-from skillc_compiler.vocabulary.contradictions import impossible
-from skillc_compiler.vocabulary.graph import Graph
-from skillc_compiler.vocabulary.load import load
-from skillc_compiler.vocabulary.reading import read
 from skillc_dsl.source import Source
+from skillc_rdf.vocabulary.contradictions import impossible
+from skillc_rdf.vocabulary.graph import Graph
+from skillc_rdf.vocabulary.load import load
+from skillc_rdf.vocabulary.reading import read
 
 VOCABULARIES = int(os.environ.get("SKILLC_VOCABULARIES", "15"))
 AT_ONCE = 100

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from skillc_compiler.library.vocabulary import THING, NumberType, PlainType, Position, Signature
 from skillc_dsl.source import Source
+from skillc_rdf.vocabulary.types import THING, NumberType, PlainType, Position, Signature
 from vocabularies.reading import HEAD, STOCK, T, beside, shipped_alone
 
 SKIROS = "http://rvmi.aau.dk/ontologies/skiros.owl#"

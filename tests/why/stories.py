@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from skillc_compiler.library import tree
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model import tree
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import FORMAT, Event, TaskEnded, TaskStarted

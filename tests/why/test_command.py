@@ -10,7 +10,7 @@ from click.testing import CliRunner, Result
 
 from selection.library import call, library, scene
 from skillc.cli.main import skillc
-from skillc_compiler.library.conditions import Individual
+from skillc_model.conditions import Individual
 from skillc_runtime.world.state.model import WorldModel
 from tree.stage import Stage
 from why.stories import events_of, written

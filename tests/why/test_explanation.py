@@ -7,7 +7,7 @@ from msgspec import structs
 
 from selection.library import call, library, scene
 from skillc.cli.story_output import format_answer, format_overview
-from skillc_compiler.library.conditions import Individual
+from skillc_model.conditions import Individual
 from skillc_runtime.recording.question import QuestionError, find_answer
 from skillc_runtime.recording.story import Story
 from skillc_runtime.world.state.changes import Change, RemoveRelation

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 import msgspec
 from hypothesis import HealthCheck, event, given, settings
 
-from skillc_compiler.library import tree
-from skillc_compiler.library.vocabulary import Position
+from skillc_model import tree
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import (
@@ -27,8 +27,8 @@ from skillc_runtime.recording.history import read_story
 from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.recording.record import AttemptRecord, NodeRecords
 from skillc_runtime.recording.story import Call, Story
-from skillc_runtime.world.labelled import Iri
 from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.labelled import Iri
 from tree.stage import FLAGS, ON, PERIOD_S, Library, Script, Stage, act, check, here, par, seq, world
 from tree.strategies import Play, plays
 from why.stories import BEGIN, events_of, known, steps_of

@@ -1,8 +1,8 @@
 """A small vocabulary and scene that the tests of the world model and of planning share."""
 
-from skillc_compiler.library.conditions import Condition, Holds, Variable
-from skillc_compiler.library.skills import Parameter, Requirement
-from skillc_compiler.library.vocabulary import (
+from skillc_model.conditions import Condition, Holds, Variable
+from skillc_model.skills import Parameter, Requirement
+from skillc_rdf.vocabulary.types import (
     THING,
     ClassTerm,
     ClassType,

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from scene.mutations import mutants
 from skillc.services import libraries
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_ontology import catalogue
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import load_in_bulk, scene_of
 from skillc_runtime.world.state.bulk import Facts, state_of

@@ -2,7 +2,7 @@
 
 import pytest
 
-from skillc_compiler.library.conditions import (
+from skillc_model.conditions import (
     And,
     Anything,
     Arithmetic,

@@ -2,7 +2,7 @@
 
 import pytest
 
-from skillc_compiler.library.conditions import (
+from skillc_model.conditions import (
     And,
     Anything,
     Compare,
@@ -18,11 +18,12 @@ from skillc_compiler.library.conditions import (
     Variable,
 )
 from skillc_runtime.world.eval.grounds import grounds
-from skillc_runtime.world.labelled import format_fact, label_fact
 from skillc_runtime.world.state import evidence
 from skillc_runtime.world.state.changes import AddIndividual, ClearProperty, RemoveIndividual, RemoveRelation
 from skillc_runtime.world.state.evidence import Evidence
 from skillc_runtime.world.state.facts import Fact, Related, Typed, Valued
+from skillc_runtime.world.state.labelled import label_fact
+from skillc_runtime.world.state.labelled_text import format_fact
 from skillc_runtime.world.state.model import WorldModel
 from store.memory import MemoryStore
 from store.worlds import model_of

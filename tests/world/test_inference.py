@@ -1,6 +1,6 @@
 """Inferred parameters: one answer, none and why, several."""
 
-from skillc_compiler.library.conditions import Anything, Holds, Not, Variable
+from skillc_model.conditions import Anything, Holds, Not, Variable
 from skillc_runtime.world.eval.inference import Ambiguous, Found, NoneFound, infer
 from world.lab import SCENE, fact, holds, individual, iri, parameter, requirement
 

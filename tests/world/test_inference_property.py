@@ -9,7 +9,7 @@ from itertools import product
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
 
-from skillc_compiler.library.conditions import (
+from skillc_model.conditions import (
     And,
     Anything,
     Compare,
@@ -26,9 +26,9 @@ from skillc_compiler.library.conditions import (
     Same,
     Variable,
 )
-from skillc_compiler.library.reading import free_variables
-from skillc_compiler.library.skills import Parameter, Requirement
-from skillc_compiler.library.vocabulary import THING
+from skillc_model.reading import free_variables
+from skillc_model.skills import Parameter, Requirement
+from skillc_rdf.vocabulary.types import THING
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.inference import Ambiguous, Found, NoneFound, infer
 from skillc_runtime.world.eval.nearest import FEW, NearMiss

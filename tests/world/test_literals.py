@@ -5,8 +5,8 @@ from __future__ import annotations
 import pyoxigraph as ox
 import pytest
 
-from skillc_compiler.library.vocabulary import PlainType, PropertyTerm, VectorType
-from skillc_compiler.turtle.terms import XSD
+from skillc_rdf.turtle.terms import XSD
+from skillc_rdf.vocabulary.types import PlainType, PropertyTerm, VectorType
 from skillc_runtime.store.literals import LiteralError, read
 
 

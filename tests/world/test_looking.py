@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_runtime.world.state.changes import AddRelation, RemoveRelation
 from skillc_runtime.world.state.contexts import Context, Contexts
 from skillc_runtime.world.state.elements import Quantity, element, find, search

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from skillc_compiler.library.conditions import Anything, Assert, Assign, Individual, Literal, Retract, Variable
+from skillc_model.conditions import Anything, Assert, Assign, Individual, Literal, Retract, Variable
 from skillc_runtime.world.eval.effects import changes_of
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation
 from skillc_runtime.world.state.model import ChangeEvent, WorldError, WorldModel

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document, SceneError
 from skillc_runtime.scene.load import load_scene, world_of
 from skillc_runtime.world.state.listing import list_entries

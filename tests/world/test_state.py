@@ -5,7 +5,7 @@ import os
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from skillc_compiler.library.vocabulary import THING, ClassTerm, Vocabulary
+from skillc_rdf.vocabulary.types import THING, ClassTerm, Vocabulary
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, RemoveIndividual, RemoveRelation
 from skillc_runtime.world.state.world_state import WorldState
 from world.lab import SCENE, fact, individual, iri, relation

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from skillc_compiler.library.closure import Directed
-from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_rdf.vocabulary.closure import Directed
+from skillc_rdf.vocabulary.types import Vocabulary
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from skillc_compiler.analysis.sorts import Sorts
 from skillc_compiler.analysis.state import State, Thing
 from skillc_compiler.analysis.truth import canonical
-from skillc_compiler.library.conditions import (
+from skillc_compiler.logic.effects import NoEffect, effects
+from skillc_compiler.program.typed import Call, Implementation, Parameter, Program, Requirement, Skill
+from skillc_model.conditions import (
     And,
     Condition,
     Effect,
@@ -22,11 +24,9 @@ from skillc_compiler.library.conditions import (
     Term,
     Variable,
 )
-from skillc_compiler.library.reading import conjuncts
-from skillc_compiler.library.rewriting import ALWAYS, NEVER, map_children, substitute
-from skillc_compiler.library.vocabulary import THING, ClassType
-from skillc_compiler.logic.effects import NoEffect, effects
-from skillc_compiler.program.typed import Call, Implementation, Parameter, Program, Requirement, Skill
+from skillc_model.reading import conjuncts
+from skillc_model.rewriting import ALWAYS, NEVER, map_children, substitute
+from skillc_rdf.vocabulary.types import THING, ClassType
 
 
 @dataclass(frozen=True)

@@ -15,9 +15,9 @@ from skillc_compiler.analysis.trail import Ends, Trail, Way, Ways, add, step
 from skillc_compiler.analysis.truth import things, truth
 from skillc_compiler.analysis.writes import Write
 from skillc_compiler.analysis.writing import applied
-from skillc_compiler.library.conditions import Variable
-from skillc_compiler.library.reading import free_variables
 from skillc_compiler.program.typed import Call, Requirement
+from skillc_model.conditions import Variable
+from skillc_model.reading import free_variables
 
 
 def called(run: Run, call: Call, ways: Ways, around: Around) -> Ends:

@@ -10,11 +10,11 @@ from skillc_compiler.analysis.binding import candidates
 from skillc_compiler.analysis.findings import Clash
 from skillc_compiler.analysis.summaries import Summaries, calls_in
 from skillc_compiler.analysis.writes import Related, Valued, Write
-from skillc_compiler.library.conditions import Individual, Literal, Variable
-from skillc_compiler.library.vocabulary import local_name
 from skillc_compiler.program.typed import Call, Program, TypedNode
 from skillc_compiler.program.walk import within
 from skillc_dsl import syntax as s
+from skillc_model.conditions import Individual, Literal, Variable
+from skillc_rdf.vocabulary.types import local_name
 
 
 def clashes(program: Program, summaries: Summaries, axioms: Axioms, body: TypedNode) -> Iterator[Clash]:

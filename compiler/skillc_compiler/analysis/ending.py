@@ -16,7 +16,10 @@ from skillc_compiler.analysis.trail import Ends, Way, Ways, length
 from skillc_compiler.analysis.truth import truth
 from skillc_compiler.analysis.writes import Related, Valued, Write, condition_of, write_of
 from skillc_compiler.analysis.writing import applied
-from skillc_compiler.library.conditions import (
+from skillc_compiler.program.typed import Body, Call, Implementation, Requirement, TypedNode
+from skillc_compiler.program.walk import within
+from skillc_dsl import syntax as s
+from skillc_model.conditions import (
     Arithmetic,
     Condition,
     Effect,
@@ -30,10 +33,7 @@ from skillc_compiler.library.conditions import (
     Same,
     Variable,
 )
-from skillc_compiler.library.reading import free_variables, walk
-from skillc_compiler.program.typed import Body, Call, Implementation, Requirement, TypedNode
-from skillc_compiler.program.walk import within
-from skillc_dsl import syntax as s
+from skillc_model.reading import free_variables, walk
 
 
 def findings(run: Run, implementation: Implementation, start: State, ends: Ends) -> Iterator[Finding]:

@@ -10,7 +10,7 @@ from skillc_compiler.analysis.sorts import Sorts
 from skillc_compiler.analysis.state import Side, State, Thing
 from skillc_compiler.analysis.truth import truth
 from skillc_compiler.analysis.writes import Assigned, Ended, Related, Valued, Write, canonical
-from skillc_compiler.library.conditions import (
+from skillc_model.conditions import (
     Anything,
     Compare,
     Condition,
@@ -26,8 +26,8 @@ from skillc_compiler.library.conditions import (
     Term,
     Variable,
 )
-from skillc_compiler.library.reading import walk
-from skillc_compiler.library.rewriting import substitute
+from skillc_model.reading import walk
+from skillc_model.rewriting import substitute
 
 
 def forgotten(sorts: Sorts, state: State, writes: Iterable[Write]) -> State:

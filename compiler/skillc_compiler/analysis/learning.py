@@ -8,8 +8,8 @@ from skillc_compiler.analysis.axioms import Axioms
 from skillc_compiler.analysis.sorts import Sorts
 from skillc_compiler.analysis.state import Side, State, Thing
 from skillc_compiler.analysis.truth import canonical, truth
-from skillc_compiler.library.conditions import And, Anything, Condition, Holds, Individual, Not, Or, Same, Variable
-from skillc_compiler.library.rewriting import substitute
+from skillc_model.conditions import And, Anything, Condition, Holds, Individual, Not, Or, Same, Variable
+from skillc_model.rewriting import substitute
 
 
 def learned(sorts: Sorts, state: State, condition: Condition, holds: bool = True) -> State | None:

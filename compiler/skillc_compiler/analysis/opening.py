@@ -8,11 +8,11 @@ from skillc_compiler.analysis.binding import class_of
 from skillc_compiler.analysis.learning import learned
 from skillc_compiler.analysis.sorts import Sorts
 from skillc_compiler.analysis.state import State, Thing
-from skillc_compiler.library.conditions import Compare, Condition, Given, Individual, Literal, Variable
-from skillc_compiler.library.rewriting import constant_number
-from skillc_compiler.library.vocabulary import THING
 from skillc_compiler.program.typed import Implementation, Parameter, Requirement, Task
 from skillc_compiler.program.types import Thing as ThingType
+from skillc_model.conditions import Compare, Condition, Given, Individual, Literal, Variable
+from skillc_model.rewriting import constant_number
+from skillc_rdf.vocabulary.types import THING
 
 
 def requirements_of(implementation: Implementation, kind: str) -> tuple[Requirement, ...]:

@@ -6,22 +6,10 @@ from collections.abc import Callable, Iterator
 
 from skillc_compiler.analysis.sorts import Sorts
 from skillc_compiler.analysis.state import State, Thing
-from skillc_compiler.library.conditions import (
-    And,
-    Anything,
-    Condition,
-    Exists,
-    Forall,
-    Holds,
-    Individual,
-    Not,
-    Or,
-    Term,
-    Variable,
-)
-from skillc_compiler.library.reading import conjuncts, walk
-from skillc_compiler.library.rewriting import substitute
-from skillc_compiler.library.vocabulary import THING
+from skillc_model.conditions import And, Anything, Condition, Exists, Forall, Holds, Individual, Not, Or, Term, Variable
+from skillc_model.reading import conjuncts, walk
+from skillc_model.rewriting import substitute
+from skillc_rdf.vocabulary.types import THING
 
 BOUND = "|"
 """The names that quantifiers bind in this form begin with it; no name in a file does."""

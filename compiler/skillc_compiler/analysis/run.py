@@ -15,8 +15,6 @@ from skillc_compiler.analysis.summaries import Summaries, hidden
 from skillc_compiler.analysis.trail import Ends, Trail, Way, Ways, length
 from skillc_compiler.analysis.truth import truth
 from skillc_compiler.analysis.writes import Write
-from skillc_compiler.library.conditions import Effect
-from skillc_compiler.library.reading import free_variables
 from skillc_compiler.program.typed import (
     Call,
     Implementation,
@@ -28,6 +26,8 @@ from skillc_compiler.program.typed import (
 )
 from skillc_compiler.program.walk import clauses_in, values_in
 from skillc_dsl.source import Span
+from skillc_model.conditions import Effect
+from skillc_model.reading import free_variables
 
 Explore: TypeAlias = Callable[["Run", TypedNode, Ways, "Around"], Ends]
 Leaks: TypeAlias = Callable[[Implementation], frozenset[Write]]

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 from skillc_compiler.analysis.axioms import Axioms
 from skillc_compiler.analysis.state import State, Thing
-from skillc_compiler.library.conditions import Individual, IsA, Same, Variable
-from skillc_compiler.library.vocabulary import THING, Vocabulary
+from skillc_model.conditions import Individual, IsA, Same, Variable
+from skillc_rdf.vocabulary.types import THING, Vocabulary
 
 SOME = "?"
 

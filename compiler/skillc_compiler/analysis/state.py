@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TypeAlias
 
-from skillc_compiler.library.conditions import Condition, Individual, Variable
-from skillc_compiler.library.reading import free_variables
+from skillc_model.conditions import Condition, Individual, Variable
+from skillc_model.reading import free_variables
 
 Thing: TypeAlias = Variable | Individual
 Side: TypeAlias = tuple[str, Thing, bool]

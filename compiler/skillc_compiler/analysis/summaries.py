@@ -11,11 +11,11 @@ from skillc_compiler.analysis.sorts import Sorts, some
 from skillc_compiler.analysis.truth import truth
 from skillc_compiler.analysis.writes import Assigned, Ended, Related, Valued, Write, either_way, write_of
 from skillc_compiler.analysis.writing import applied
-from skillc_compiler.library.conditions import Anything, Expression, Individual, Literal, Term, Variable
-from skillc_compiler.library.vocabulary import THING
 from skillc_compiler.program.typed import Call, Implementation, Program, Skill, TypedNode
 from skillc_compiler.program.types import Thing
 from skillc_dsl import syntax as s
+from skillc_model.conditions import Anything, Expression, Individual, Literal, Term, Variable
+from skillc_rdf.vocabulary.types import THING
 
 NONE: frozenset[Write] = frozenset()
 

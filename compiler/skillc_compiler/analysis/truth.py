@@ -9,7 +9,8 @@ from typing import assert_never
 from skillc_compiler.analysis.quantifying import is_bound, is_ruled_out, only, quantified
 from skillc_compiler.analysis.sorts import Sorts, same
 from skillc_compiler.analysis.state import State, Thing
-from skillc_compiler.library.conditions import (
+from skillc_compiler.logic.bounds import MIRRORED, Bound, are_disjoint, decided
+from skillc_model.conditions import (
     And,
     Anything,
     Compare,
@@ -29,9 +30,8 @@ from skillc_compiler.library.conditions import (
     Same,
     Variable,
 )
-from skillc_compiler.library.reading import walk
-from skillc_compiler.library.rewriting import substitute
-from skillc_compiler.logic.bounds import MIRRORED, Bound, are_disjoint, decided
+from skillc_model.reading import walk
+from skillc_model.rewriting import substitute
 
 
 def truth(sorts: Sorts, state: State, condition: Condition) -> bool | None:

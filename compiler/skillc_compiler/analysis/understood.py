@@ -10,8 +10,6 @@ from skillc_compiler.analysis.learning import learned
 from skillc_compiler.analysis.opening import requirements_of
 from skillc_compiler.analysis.sorts import Sorts
 from skillc_compiler.analysis.state import State
-from skillc_compiler.library.conditions import HasProperty, Holds, IsA, PropertyOf
-from skillc_compiler.library.reading import walk
 from skillc_compiler.logic.effects import NoEffect, effects
 from skillc_compiler.program.typed import (
     Call,
@@ -27,6 +25,8 @@ from skillc_compiler.program.typed import (
 from skillc_compiler.program.types import UNKNOWN, fits
 from skillc_compiler.program.walk import clauses_in, step_values, values_in, within
 from skillc_dsl import syntax as s
+from skillc_model.conditions import HasProperty, Holds, IsA, PropertyOf
+from skillc_model.reading import walk
 
 
 class Understood:

@@ -11,8 +11,8 @@ from skillc_compiler.analysis.state import State
 from skillc_compiler.analysis.summaries import calls_in, hidden
 from skillc_compiler.analysis.trail import Ends, Way, Ways, add
 from skillc_compiler.analysis.writes import Related, Write, either_way
-from skillc_compiler.library.conditions import Anything
 from skillc_compiler.program.typed import Call, TypedNode
+from skillc_model.conditions import Anything
 
 
 def scoped(run: Run, node: TypedNode, ways: Ways, around: Around) -> Ends:

@@ -9,9 +9,9 @@ from skillc_compiler.analysis.learning import learned
 from skillc_compiler.analysis.sorts import Sorts, some
 from skillc_compiler.analysis.state import State
 from skillc_compiler.analysis.writes import Related, Valued, Write
-from skillc_compiler.library.conditions import Condition, HasProperty, Holds, Individual, PropertyOf, Variable
-from skillc_compiler.library.reading import walk
-from skillc_compiler.library.vocabulary import THING
+from skillc_model.conditions import Condition, HasProperty, Holds, Individual, PropertyOf, Variable
+from skillc_model.reading import walk
+from skillc_rdf.vocabulary.types import THING
 
 
 def awaited(sorts: Sorts, state: State, condition: Condition) -> State:

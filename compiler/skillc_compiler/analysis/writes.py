@@ -7,7 +7,7 @@ from typing import TypeAlias, assert_never
 
 from skillc_compiler.analysis.sorts import Sorts
 from skillc_compiler.analysis.state import State
-from skillc_compiler.library.conditions import (
+from skillc_model.conditions import (
     Assert,
     Assign,
     Compare,
@@ -21,7 +21,7 @@ from skillc_compiler.library.conditions import (
     Term,
     Variable,
 )
-from skillc_compiler.library.rewriting import substitute
+from skillc_model.rewriting import substitute
 
 
 @dataclass(frozen=True, slots=True)

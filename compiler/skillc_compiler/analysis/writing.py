@@ -10,7 +10,7 @@ from skillc_compiler.analysis.learning import single_sides
 from skillc_compiler.analysis.sorts import Sorts
 from skillc_compiler.analysis.state import State
 from skillc_compiler.analysis.writes import Assigned, Ended, Related, Valued, Write, canonical, write_of
-from skillc_compiler.library.conditions import (
+from skillc_model.conditions import (
     Anything,
     Compare,
     Condition,

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from skillc_compiler.library.conditions import Literal
 from skillc_compiler.program.typed import Program
 from skillc_compiler.program.types import Measure
 from skillc_compiler.program.walk import values
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.units import ANGLE
+from skillc_model.conditions import Literal
 
 NAMES = ("suspicious-angle",)
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.library.conditions import Invoke
 from skillc_compiler.program.typed import Call, Program, Skill, TypedExpression
 from skillc_compiler.program.walk import calls, steps, values
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_model.conditions import Invoke
 
 NAMES = ("missing-argument", "duplicate-argument", "wrong-argument-count", "not-scoped")
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.library.conditions import IsA, Same
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program.typed import Program
 from skillc_compiler.program.types import Thing, Type, describe
 from skillc_compiler.program.walk import clauses
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_model.conditions import IsA, Same
+from skillc_rdf.vocabulary.types import Vocabulary
 
 NAMES = ("disjoint-types",)
 

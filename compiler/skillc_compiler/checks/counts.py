@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from skillc_compiler.library.conditions import Arithmetic, Literal
-from skillc_compiler.library.rewriting import constant_number
 from skillc_compiler.logic.intervals import Interval, interval_of, intervals
 from skillc_compiler.logic.rounds import MOST_ROUNDS
 from skillc_compiler.program.typed import Program, TypedExpression, TypedNode
@@ -13,6 +11,8 @@ from skillc_compiler.program.walk import steps, values, within
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
+from skillc_model.conditions import Arithmetic, Literal
+from skillc_model.rewriting import constant_number
 
 NAMES = ("bad-count", "bad-time", "bad-number")
 MOST = 1e100

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from skillc_compiler.library.vocabulary import Vocabulary, local_name
 from skillc_compiler.logic.subsumption import overlap
 from skillc_compiler.program.typed import Argument, Call, Implementation, Parameter, Program, Skill
 from skillc_compiler.program.types import Thing, describe, fits
 from skillc_compiler.program.walk import calls
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("no-fitting-implementation",)
 SHOWN = 3

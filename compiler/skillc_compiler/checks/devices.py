@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.library.vocabulary import THING, Vocabulary
 from skillc_compiler.program.typed import Parameter, Program, Skill
 from skillc_compiler.program.types import UNKNOWN, Thing, describe, fits
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_rdf.vocabulary.types import THING, Vocabulary
 
 NAMES = ("not-a-device",)
 DEVICE = "http://www.inf.ufrgs.br/phi-group/ontologies/sumo.owl#Device"

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from skillc_compiler.library.conditions import Condition
 from skillc_compiler.logic.conjunctions import Fact, conjuncts
 from skillc_compiler.program.typed import Program, Requirement, TypedCondition
 from skillc_compiler.program.walk import steps
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_model.conditions import Condition
 
 NAMES = ("duplicate-condition",)
 

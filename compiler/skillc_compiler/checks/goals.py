@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.library.conditions import Compare, Holds, PropertyOf
-from skillc_compiler.library.read_write import may_change, terms_written_by
-from skillc_compiler.library.vocabulary import Vocabulary, local_name
 from skillc_compiler.logic.effects import NoEffect, effects
 from skillc_compiler.program.typed import Program, TypedCondition
 from skillc_compiler.program.walk import clauses_in
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_model.conditions import Compare, Holds, PropertyOf
+from skillc_model.read_write import may_change, terms_written_by
+from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("unachievable-goal",)
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.library.conditions import Arithmetic, Compare
 from skillc_compiler.program.typed import Program, TypedCondition, TypedExpression
 from skillc_compiler.program.types import INT, UNKNOWN, Direction, Measure, Type, Vector, describe, fits
 from skillc_compiler.program.walk import clauses, values
 from skillc_compiler.resolve.values import result_type
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
+from skillc_model.conditions import Arithmetic, Compare
 
 NAMES = ("unlike-dimensions", "wrong-operands")
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from skillc_compiler.library.conditions import And, Given, Not, Or, Variable
 from skillc_compiler.program.typed import (
     Implementation,
     Parameter,
@@ -17,6 +16,7 @@ from skillc_compiler.program.typed import (
 from skillc_compiler.program.walk import implementation_values, skill_values, step_values, values_in
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_model.conditions import And, Given, Not, Or, Variable
 
 NAMES = ("unset-optional",)
 Guards = frozenset[str]

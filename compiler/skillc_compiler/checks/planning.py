@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.library.conditions import Assign
-from skillc_compiler.library.pddl.names import kebab
-from skillc_compiler.library.vocabulary import local_name
 from skillc_compiler.logic.effects import effects
 from skillc_compiler.program.typed import Program, Skill
 from skillc_compiler.program.types import INT, Measure, Thing, Unknown, describe, of_library
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_model.conditions import Assign
+from skillc_model.pddl.names import kebab
+from skillc_rdf.vocabulary.types import local_name
 
 NAMES = ("no-effect", "unplannable-parameter", "numeric-effect", "colliding-names")
 

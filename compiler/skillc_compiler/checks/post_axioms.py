@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from skillc_compiler.library.conditions import Holds
-from skillc_compiler.library.format_condition import format_condition
-from skillc_compiler.library.vocabulary import local_name
 from skillc_compiler.logic.conflicts import Conflicts, covers
 from skillc_compiler.logic.conjunctions import Fact, conjuncts, equal_names, renamed
 from skillc_compiler.program.typed import Program, Requirement
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
+from skillc_model.conditions import Holds
+from skillc_model.format_condition import format_condition
+from skillc_rdf.vocabulary.types import local_name
 
 NAMES = ("breaks-axiom",)
 

@@ -4,24 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from skillc_compiler.library.conditions import (
-    Assert,
-    Assign,
-    Compare,
-    Effect,
-    Expression,
-    HasProperty,
-    Holds,
-    Literal,
-    Retract,
-)
-from skillc_compiler.library.rewriting import substitute
-from skillc_compiler.library.vocabulary import PropertyTerm, RelationTerm, Vocabulary, local_name
 from skillc_compiler.logic.conflicts import Conflicts, covers
 from skillc_compiler.logic.conjunctions import Fact, conjuncts, equal_names, renamed
 from skillc_compiler.logic.effects import NoEffect, effects
 from skillc_compiler.program.typed import Program, Requirement
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_model.conditions import Assert, Assign, Compare, Effect, Expression, HasProperty, Holds, Literal, Retract
+from skillc_model.rewriting import substitute
+from skillc_rdf.vocabulary.types import PropertyTerm, RelationTerm, Vocabulary, local_name
 
 NAMES = ("post-not-literal", "computed-property", "two-values", "contradicting-posts")
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.library.conditions import HasProperty, PropertyOf
-from skillc_compiler.library.vocabulary import local_name
 from skillc_compiler.program.labels import declared
 from skillc_compiler.program.typed import Program, TypedExpression
 from skillc_compiler.program.types import Thing, describe, fits
 from skillc_compiler.program.walk import clauses, values
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_model.conditions import HasProperty, PropertyOf
+from skillc_rdf.vocabulary.types import local_name
 
 NAMES = ("property-domain",)
 

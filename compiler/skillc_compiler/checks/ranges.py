@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import isfinite
 
-from skillc_compiler.library.rewriting import constant_number
 from skillc_compiler.program.typed import Parameter, Program, TypedExpression
 from skillc_compiler.program.types import INT, Measure, Type
 from skillc_compiler.program.walk import calls
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
 from skillc_dsl.units import NUMBER, UNITS
+from skillc_model.rewriting import constant_number
 
 NAMES = ("out-of-range", "empty-range")
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.library.rewriting import constant_number
 from skillc_compiler.program.typed import Parameter, Program, Refinement, TypedExpression
 from skillc_compiler.program.types import describe, fits
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_model.rewriting import constant_number
 
 NAMES = ("not-narrower",)
 

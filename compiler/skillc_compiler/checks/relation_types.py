@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.library.conditions import Holds
-from skillc_compiler.library.vocabulary import RelationTerm, local_name
 from skillc_compiler.program.labels import declared
 from skillc_compiler.program.typed import Program, TypedExpression
 from skillc_compiler.program.types import Thing, Unknown, describe, fits
 from skillc_compiler.program.walk import clauses
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_model.conditions import Holds
+from skillc_rdf.vocabulary.types import RelationTerm, local_name
 
 NAMES = ("relation-domain", "relation-range")
 

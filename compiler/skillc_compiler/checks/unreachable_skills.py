@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.library.closure import reachable
 from skillc_compiler.program.typed import Implementation, Program, Skill, TypedNode
 from skillc_compiler.program.walk import within
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_rdf.vocabulary.closure import reachable
 
 NAMES = ("unreachable-skill",)
 

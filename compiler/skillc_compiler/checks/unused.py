@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from skillc_compiler.library.conditions import Given, Variable
-from skillc_compiler.library.vocabulary import Vocabulary, local_name
 from skillc_compiler.program.typed import (
     Implementation,
     Program,
@@ -19,6 +17,8 @@ from skillc_compiler.program.walk import clauses_in, implementation_values, skil
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
+from skillc_model.conditions import Given, Variable
+from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("unused-use", "unused-prefix", "unused-import", "unused-let", "unused-parameter")
 

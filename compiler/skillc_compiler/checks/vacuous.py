@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from skillc_compiler.library.conditions import Compare, Given, Holds, IsA, Literal, Or, Same, Variable
-from skillc_compiler.library.rewriting import constant_number, fold
 from skillc_compiler.logic.bounds import Bound, are_disjoint, bound, decided
 from skillc_compiler.logic.conflicts import Conflicts
 from skillc_compiler.logic.conjunctions import conjuncts
@@ -13,6 +11,8 @@ from skillc_compiler.program.typed import Implementation, Parameter, Program, Sk
 from skillc_compiler.program.types import Thing, describe
 from skillc_compiler.program.walk import clauses_in, within
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_model.conditions import Compare, Given, Holds, IsA, Literal, Or, Same, Variable
+from skillc_model.rewriting import constant_number, fold
 
 NAMES = ("always-true", "always-false")
 _Parameters = Mapping[str, Parameter]

@@ -5,13 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from skillc_compiler.library.conditions import Individual, Literal, Variable
-from skillc_compiler.library.vocabulary import Vocabulary, local_name
 from skillc_compiler.program.expected import Place, places
 from skillc_compiler.program.typed import Program
 from skillc_compiler.program.types import INT, TEXT, Direction, Measure, Thing, Vector, describe, fits, of_library
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.units import NUMBER, UNITS, Dimension
+from skillc_model.conditions import Individual, Literal, Variable
+from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("wrong-type", "wrong-dimension", "missing-unit")
 _QUANTITY = re.compile(r"\s*(-?\d+(?:\.\d+)?)\s*([A-Za-z/0-9]*)\s*$")

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from skillc_compiler.library.pddl.domain import Excluded
-from skillc_compiler.library.pddl.planning import planning_domain
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program.typed import Program, Skill
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
+from skillc_model.pddl.domain import Excluded
+from skillc_model.pddl.planning import planning_domain
+from skillc_model.skills import SkillLibrary
+from skillc_rdf.vocabulary.types import Vocabulary
 
 TOLD = frozenset({"no-effect", "no-implementation", "numeric-effect", "unplannable-parameter"})
 COUNTING = ("compares", "no finite", "known only at run time")

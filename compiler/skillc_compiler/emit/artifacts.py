@@ -8,7 +8,7 @@ from typing import Protocol, cast
 
 import skillc_compiler.emit as folder
 from skillc_compiler.emit.headers import headed
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.skills import SkillLibrary
 
 
 class Emitter(Protocol):

@@ -6,7 +6,7 @@ from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from skillc_compiler.library.skills import SkillLibrary
+    from skillc_model.skills import SkillLibrary
 
 MARK = "Made by skillc from the library"
 COMMENTS = {".pddl": "; {}\n", ".ttl": "# {}\n", ".xml": "<!-- {} -->\n", ".md": "<!-- {} -->\n"}

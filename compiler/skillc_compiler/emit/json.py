@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from skillc_compiler.library.codec import dumps
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.codec import dumps
+from skillc_model.skills import SkillLibrary
 
 
 def emit(library: SkillLibrary) -> dict[str, str]:

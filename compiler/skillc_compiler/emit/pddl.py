@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 import sys
 
-from skillc_compiler.library.pddl.planning import planning_domain
-from skillc_compiler.library.pddl.pruning import pruned
-from skillc_compiler.library.pddl.text import domain_text, temporal_text
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.pddl.planning import planning_domain
+from skillc_model.pddl.pruning import pruned
+from skillc_model.pddl.text import domain_text, temporal_text
+from skillc_model.skills import SkillLibrary
 
 _TYPES = re.compile(r"^\s*\(:types\b([^()]*)\)", re.MULTILINE)
 

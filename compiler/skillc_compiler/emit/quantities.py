@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from skillc_compiler.library.vocabulary import NumberType, ValueType
-from skillc_compiler.library.words import quantity_text
 from skillc_dsl.units import to_si
+from skillc_model.words import quantity_text
+from skillc_rdf.vocabulary.types import NumberType, ValueType
 
 SMALL = 0.1
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from skillc_compiler.library import skills as library
-from skillc_compiler.library.conditions import Expression, Literal
-from skillc_compiler.library.vocabulary import Position, Vocabulary
 from skillc_compiler.program.typed import Parameter, Skill, TypedExpression
 from skillc_compiler.program.types import Type, of_library
 from skillc_compiler.resolve.individuals import Individuals, narrowest
 from skillc_compiler.resolve.names import Names, bare_terms
 from skillc_compiler.resolve.scope import FileContext
 from skillc_dsl.source import Span
+from skillc_model import skills as library
+from skillc_model.conditions import Expression, Literal
+from skillc_rdf.vocabulary.types import Position, Vocabulary
 
 
 def make_context(

@@ -12,12 +12,6 @@ from skillc_compiler.checks import check
 from skillc_compiler.goals.context import make_context
 from skillc_compiler.goals.mistakes import EXAMPLES, Asked, find_mistakes, reword
 from skillc_compiler.goals.pddl_text import COMPARING, Group, PddlGoalError, Word, goal, read_group
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.reading import is_deeper
-from skillc_compiler.library.rewriting import fold
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.library.vocabulary import Position, Vocabulary
 from skillc_compiler.lower.bodies import node
 from skillc_compiler.program.typed import Program, Task
 from skillc_compiler.resolve.individuals import Individuals
@@ -28,6 +22,12 @@ from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source, Span
+from skillc_model import tree
+from skillc_model.conditions import Condition
+from skillc_model.reading import is_deeper
+from skillc_model.rewriting import fold
+from skillc_model.skills import SkillLibrary
+from skillc_rdf.vocabulary.types import Position, Vocabulary
 
 T = TypeVar("T")
 

@@ -8,8 +8,6 @@ from functools import cached_property
 
 from skillc_compiler.ide.index import Index, index_of
 from skillc_compiler.ide.visible import Visible, visible_in
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.pipeline import NO_SCENES, finish, problems
 from skillc_compiler.program.typed import Program, ReadFile
 from skillc_compiler.program.types import Type
@@ -20,6 +18,8 @@ from skillc_compiler.resolve.program import resolve
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source, Span
+from skillc_model.skills import SkillLibrary
+from skillc_rdf.vocabulary.types import Vocabulary
 
 
 @dataclass(frozen=True, slots=True)

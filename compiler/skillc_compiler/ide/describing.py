@@ -25,9 +25,9 @@ from skillc_compiler.ide.symbols import (
     TypeSymbol,
 )
 from skillc_compiler.ide.term_pages import page
-from skillc_compiler.library.vocabulary import local_name
 from skillc_compiler.program.typed import Parameter, Requirement, Skill
 from skillc_compiler.program.types import describe
+from skillc_rdf.vocabulary.types import local_name
 
 
 def described(analysis: Analysis, symbol: Symbol) -> str:

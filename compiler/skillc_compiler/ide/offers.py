@@ -11,7 +11,6 @@ from skillc_compiler.ide.describing import parameter_line
 from skillc_compiler.ide.imports import importable
 from skillc_compiler.ide.surroundings import Surroundings
 from skillc_compiler.ide.term_pages import function_head, type_text
-from skillc_compiler.library.vocabulary import THING, PropertyTerm, RelationTerm, local_name
 from skillc_compiler.program.typed import Parameter
 from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, Type, describe, fits, of_library
 from skillc_compiler.resolve.names import Kind
@@ -19,6 +18,7 @@ from skillc_compiler.resolve.typenames import BUILT_IN
 from skillc_compiler.resolve.values import ExpectedType
 from skillc_dsl import syntax as s
 from skillc_dsl.units import DIMENSIONS
+from skillc_rdf.vocabulary.types import THING, PropertyTerm, RelationTerm, local_name
 
 OfferKind: TypeAlias = Literal[
     "keyword", "class", "type", "relation", "property", "function", "skill", "implementation", "parameter", "variable",

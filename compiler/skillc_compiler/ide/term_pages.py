@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from skillc_compiler.library.vocabulary import (
+from skillc_compiler.resolve.names import Kind
+from skillc_dsl.units import DIMENSIONS, UNITS, dimension_of, to_si
+from skillc_rdf.vocabulary.types import (
     THING,
     ClassTerm,
     ClassType,
@@ -21,8 +23,6 @@ from skillc_compiler.library.vocabulary import (
     Vocabulary,
     local_name,
 )
-from skillc_compiler.resolve.names import Kind
-from skillc_dsl.units import DIMENSIONS, UNITS, dimension_of, to_si
 
 ABOUT = {
     "Vector": ": three numbers along the axes of the world, pure ones or of a dimension: `Vector of Length`",

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program.typed import Program, ReadFile
 from skillc_compiler.resolve.declared import Bare, Declared, declare, prefixes_in, used, visible
 from skillc_compiler.resolve.names import Kind, bare_terms
+from skillc_rdf.vocabulary.types import Vocabulary
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import TypeAlias, assert_never
 
-from skillc_compiler.library.conditions import Compare, Condition, Expression, Literal, Operator
-from skillc_compiler.library.rewriting import fold
+from skillc_model.conditions import Compare, Condition, Expression, Literal, Operator
+from skillc_model.rewriting import fold
 
 MIRRORED: dict[Operator, Operator] = {"==": "==", "!=": "!=", "<": ">", "<=": ">=", ">": "<", ">=": "<="}
 """What a comparison says with its sides exchanged."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from skillc_compiler.library.conditions import Anything, HasProperty, Holds, Individual, IsA, PropertyOf, Term
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.logic.bounds import Bound, are_disjoint, bound
 from skillc_compiler.logic.conjunctions import Fact
+from skillc_model.conditions import Anything, HasProperty, Holds, Individual, IsA, PropertyOf, Term
+from skillc_rdf.vocabulary.types import Vocabulary
 
 
 @dataclass(frozen=True, slots=True)

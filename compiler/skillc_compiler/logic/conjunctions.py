@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from skillc_compiler.library.conditions import And, Condition, Expression, Individual, Not, Or, Same, Variable
-from skillc_compiler.library.rewriting import substitute
 from skillc_compiler.program.typed import Implementation, Program, Requirement, Skill, TypedCondition
 from skillc_compiler.program.walk import clauses_in, steps
+from skillc_model.conditions import And, Condition, Expression, Individual, Not, Or, Same, Variable
+from skillc_model.rewriting import substitute
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from skillc_compiler.library.conditions import (
+from skillc_compiler.program.typed import TypedCondition
+from skillc_dsl.source import Span
+from skillc_model.conditions import (
     And,
     Anything,
     Assert,
@@ -20,8 +22,6 @@ from skillc_compiler.library.conditions import (
     Retract,
     Variable,
 )
-from skillc_compiler.program.typed import TypedCondition
-from skillc_dsl.source import Span
 
 
 @dataclass(frozen=True, slots=True)

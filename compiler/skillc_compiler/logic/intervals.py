@@ -6,17 +6,9 @@ from collections.abc import Iterable, Mapping
 from math import isnan
 from typing import TypeAlias, assert_never
 
-from skillc_compiler.library.conditions import (
-    Arithmetic,
-    Expression,
-    Individual,
-    Invoke,
-    Literal,
-    PropertyOf,
-    Variable,
-)
-from skillc_compiler.library.rewriting import constant_number
 from skillc_compiler.program.typed import Let, Parameter
+from skillc_model.conditions import Arithmetic, Expression, Individual, Invoke, Literal, PropertyOf, Variable
+from skillc_model.rewriting import constant_number
 
 Interval: TypeAlias = tuple[float, float]
 """The least and the greatest number, in SI units."""

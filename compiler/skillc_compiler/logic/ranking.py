@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program.typed import Implementation
 from skillc_compiler.program.types import fits
+from skillc_rdf.vocabulary.types import Vocabulary
 
 
 def ranked(vocabulary: Vocabulary, declared: Sequence[Implementation]) -> tuple[Implementation, ...]:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from skillc_compiler.library.conditions import Condition, Literal
-from skillc_compiler.library.rewriting import constant_number
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.logic.bounds import Bound, are_disjoint
 from skillc_compiler.logic.conflicts import Conflicts
 from skillc_compiler.logic.conjunctions import Fact, conjuncts
 from skillc_compiler.program.typed import Implementation, Parameter, TypedExpression
 from skillc_compiler.program.types import Thing, Type, fits
+from skillc_model.conditions import Condition, Literal
+from skillc_model.rewriting import constant_number
+from skillc_rdf.vocabulary.types import Vocabulary
 
 _ANY = Literal(0.0)
 

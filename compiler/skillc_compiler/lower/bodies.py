@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import assert_never
 
-from skillc_compiler.library import tree as t
-from skillc_compiler.library.conditions import Condition, Expression
-from skillc_compiler.library.rewriting import fold
 from skillc_compiler.logic.rounds import count_rounds
 from skillc_compiler.program.typed import TypedNode, position
 from skillc_dsl import syntax as s
+from skillc_model import tree as t
+from skillc_model.conditions import Condition, Expression
+from skillc_model.rewriting import fold
 
 
 def node(step: TypedNode) -> t.Node:

@@ -4,10 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from skillc_compiler.library import properties
-from skillc_compiler.library import skills as library
-from skillc_compiler.library.conditions import Expression
-from skillc_compiler.library.rewriting import constant_number, fold
 from skillc_compiler.logic.effects import NoEffect, effects
 from skillc_compiler.lower.bodies import node
 from skillc_compiler.program.typed import (
@@ -23,6 +19,10 @@ from skillc_compiler.program.typed import (
     position,
 )
 from skillc_dsl import syntax as s
+from skillc_model import properties
+from skillc_model import skills as library
+from skillc_model.conditions import Expression
+from skillc_model.rewriting import constant_number, fold
 
 
 def skill(understood: Skill, implementations: Sequence[str]) -> library.Skill:

@@ -8,14 +8,14 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import msgspec
 
-from skillc_compiler.library import skills as library
-from skillc_compiler.library.pddl.names import pddl_names
-from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.logic.ranking import ranked
 from skillc_compiler.lower import flattening
 from skillc_compiler.program.spans import Places
 from skillc_compiler.program.typed import Call, Implementation, Program, ReadFile, TypedNode
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_model import skills as library
+from skillc_model.pddl.names import pddl_names
+from skillc_model.skills import SkillLibrary
 
 
 def lower(program: Program, problems: Sequence[Diagnostic]) -> SkillLibrary:

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from skillc_compiler.library.conditions import Invoke
 from skillc_compiler.program.typed import Call, Parameter, Program, Refinement, TypedExpression
 from skillc_compiler.program.types import UNKNOWN, ListOf, Measure, Type, of_library
 from skillc_compiler.program.walk import calls, steps, values
 from skillc_dsl import syntax as s
 from skillc_dsl.source import Span
 from skillc_dsl.units import TIME
+from skillc_model.conditions import Invoke
 
 SECONDS = Measure(TIME)
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from skillc_compiler.library.vocabulary import ClassTerm, FunctionTerm, PropertyTerm, RelationTerm
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.source import Span
+from skillc_rdf.vocabulary.types import ClassTerm, FunctionTerm, PropertyTerm, RelationTerm
 
 
 def declared(term: ClassTerm | RelationTerm | PropertyTerm | FunctionTerm) -> tuple[Label, ...]:

@@ -8,11 +8,11 @@ from functools import cached_property
 from typing import Literal as OneOf
 from typing import TypeAlias
 
-from skillc_compiler.library.conditions import Condition, Expression, Operator
-from skillc_compiler.library.vocabulary import Position, ValueType, Vocabulary
 from skillc_compiler.program.types import Type
 from skillc_dsl import syntax as s
 from skillc_dsl.source import Span
+from skillc_model.conditions import Condition, Expression, Operator
+from skillc_rdf.vocabulary.types import Position, ValueType, Vocabulary
 
 
 @dataclass(frozen=True, slots=True)

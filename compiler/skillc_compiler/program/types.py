@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from skillc_compiler.library.vocabulary import (
+from skillc_dsl.units import DIMENSIONS, NUMBER, Dimension
+from skillc_rdf.vocabulary.types import (
     ClassType,
     DirectionType,
     ListType,
@@ -16,7 +17,6 @@ from skillc_compiler.library.vocabulary import (
     Vocabulary,
     local_name,
 )
-from skillc_dsl.units import DIMENSIONS, NUMBER, Dimension
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import assert_never
 
-from skillc_compiler.library.conditions import (
+from skillc_compiler.program.typed import TypedCondition, TypedExpression
+from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, Type, fits
+from skillc_compiler.resolve.scope import FileContext, Scope, Variable
+from skillc_compiler.resolve.values import ANYTHING, ExpectedType, property_of, value
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Fix
+from skillc_dsl.source import Span
+from skillc_model.conditions import (
     And,
     Anything,
     Compare,
@@ -23,15 +30,8 @@ from skillc_compiler.library.conditions import (
     Same,
     Term,
 )
-from skillc_compiler.library.conditions import Variable as VariableTerm
-from skillc_compiler.library.vocabulary import THING
-from skillc_compiler.program.typed import TypedCondition, TypedExpression
-from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, Type, fits
-from skillc_compiler.resolve.scope import FileContext, Scope, Variable
-from skillc_compiler.resolve.values import ANYTHING, ExpectedType, property_of, value
-from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Fix
-from skillc_dsl.source import Span
+from skillc_model.conditions import Variable as VariableTerm
+from skillc_rdf.vocabulary.types import THING
 
 
 def clause(context: FileContext, scope: Scope, written: s.Condition) -> TypedCondition:

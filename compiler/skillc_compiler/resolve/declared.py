@@ -8,11 +8,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program.typed import ReadFile
 from skillc_compiler.resolve.names import KINDS, Kind, bare_terms
 from skillc_compiler.resolve.near import correction
 from skillc_dsl import syntax as s
+from skillc_rdf.vocabulary.types import Vocabulary
 
 LIBRARIES = "https://w3id.org/skillc/library/"
 TermDeclaration: TypeAlias = s.ClassDeclaration | s.RelationDeclaration | s.PropertyDeclaration

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TypeAlias
 
-from skillc_compiler.library.vocabulary import THING, Vocabulary
+from skillc_rdf.vocabulary.types import THING, Vocabulary
 
 Individuals: TypeAlias = Mapping[str, Sequence[str]]
 """The IRIs of a scene's individuals, each with those of its classes."""

@@ -6,7 +6,11 @@ from collections.abc import Callable, Iterable, Mapping, Set
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
-from skillc_compiler.library.vocabulary import (
+from skillc_compiler.program.labels import declared
+from skillc_compiler.resolve.near import correction
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean
+from skillc_rdf.vocabulary.types import (
     THING,
     ClassTerm,
     FunctionTerm,
@@ -15,10 +19,6 @@ from skillc_compiler.library.vocabulary import (
     Vocabulary,
     local_name,
 )
-from skillc_compiler.program.labels import declared
-from skillc_compiler.resolve.near import correction
-from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean
 
 Kind: TypeAlias = Literal["class", "relation", "property"]
 KINDS: tuple[Kind, ...] = ("class", "relation", "property")

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program.typed import Implementation, Program, ReadFile, Skill, Task
 from skillc_compiler.resolve.declared import Declared, bare_in, declare, prefixes_in, visible
 from skillc_compiler.resolve.implementations import implementation
@@ -19,6 +18,7 @@ from skillc_compiler.resolve.tasks import task
 from skillc_compiler.resolve.terms import extend
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
+from skillc_rdf.vocabulary.types import Vocabulary
 
 
 def resolve(

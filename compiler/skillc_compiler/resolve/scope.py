@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
 
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program.typed import Skill
 from skillc_compiler.program.types import UNKNOWN, Type
 from skillc_compiler.resolve.names import Names
@@ -14,6 +13,7 @@ from skillc_compiler.resolve.near import correction
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label, did_you_mean
 from skillc_dsl.source import Span
+from skillc_rdf.vocabulary.types import Vocabulary
 
 Origin: TypeAlias = Literal["parameter", "out", "let", "output", "loop variable", "variable"]
 

@@ -7,14 +7,6 @@ from typing import TypeVar
 
 import msgspec
 
-from skillc_compiler.library.vocabulary import (
-    ClassTerm,
-    FunctionTerm,
-    PropertyTerm,
-    RelationTerm,
-    Signature,
-    Vocabulary,
-)
 from skillc_compiler.program.typed import ReadFile, position
 from skillc_compiler.resolve.declared import Declared, kind_of, namespace, prefix
 from skillc_compiler.resolve.names import Kind, Names
@@ -22,6 +14,7 @@ from skillc_compiler.resolve.typenames import BUILT_IN, value_type
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
+from skillc_rdf.vocabulary.types import ClassTerm, FunctionTerm, PropertyTerm, RelationTerm, Signature, Vocabulary
 
 Term = TypeVar("Term", ClassTerm, RelationTerm, PropertyTerm)
 

@@ -2,19 +2,11 @@
 
 from __future__ import annotations
 
-from skillc_compiler.library.vocabulary import (
-    ClassType,
-    DirectionType,
-    ListType,
-    NumberType,
-    PlainType,
-    ValueType,
-    VectorType,
-)
 from skillc_compiler.resolve.names import Names
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, did_you_mean
 from skillc_dsl.units import DIMENSIONS
+from skillc_rdf.vocabulary.types import ClassType, DirectionType, ListType, NumberType, PlainType, ValueType, VectorType
 
 NOT_UNDERSTOOD = NumberType("?")
 BUILT_IN: dict[str, ValueType] = {

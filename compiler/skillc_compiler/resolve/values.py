@@ -6,14 +6,6 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import assert_never
 
-from skillc_compiler.library.conditions import (
-    Arithmetic,
-    Individual,
-    Invoke,
-    Literal,
-    PropertyOf,
-    Variable,
-)
 from skillc_compiler.program.typed import TypedExpression
 from skillc_compiler.program.types import (
     BOOL,
@@ -31,6 +23,7 @@ from skillc_compiler.program.types import (
 from skillc_compiler.resolve.scope import FileContext, Scope
 from skillc_dsl import syntax as s
 from skillc_dsl.units import NUMBER, dimension_of, to_si
+from skillc_model.conditions import Arithmetic, Individual, Invoke, Literal, PropertyOf, Variable
 
 
 @dataclass(frozen=True, slots=True)

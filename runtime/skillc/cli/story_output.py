@@ -10,7 +10,7 @@ from skillc_runtime.recording.known import assumed_facts, format_evidence, forma
 from skillc_runtime.recording.question import Answer
 from skillc_runtime.recording.reasons import ParameterReason, UntriedImplementation
 from skillc_runtime.recording.story import Attempt, Call, Fact, FailedNode, Story
-from skillc_runtime.world.labelled import format_fact, format_value
+from skillc_runtime.world.state.labelled_text import format_fact, format_value
 
 HOW = {"passed": "passed by the caller", "default": "the default", "inferred": "found in the world"}
 PLANNED = "bound by the planner"

@@ -11,10 +11,10 @@ import msgspec
 
 from skillc.services.library_checks import check_with_scenes
 from skillc_compiler.ide.analysis import Analysis
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_ontology import catalogue
+from skillc_rdf.vocabulary.types import Vocabulary
 
 if TYPE_CHECKING:
     from skillc.services.task_scenes import TaskScenes

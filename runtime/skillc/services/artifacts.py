@@ -12,9 +12,9 @@ from skillc.services.reporting import Reporter
 from skillc_compiler.emit.artifacts import artifacts
 from skillc_compiler.emit.headers import is_ours
 from skillc_compiler.emit.write import EmitError, write
-from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.program.typed import ReadFile
 from skillc_compiler.resolve.files import read
+from skillc_model.skills import SkillLibrary
 
 
 def write_artifacts(path: Path, output: Path, reporter: Reporter) -> tuple[Path, ...]:

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, requires, version
 
+from skillc_runtime.film.rendering import RenderingError, check_rendering
 from skillc_runtime.planning.aries import solver as aries
 from skillc_runtime.planning.fast_downward import solver as fast_downward
-from skillc_runtime.simulation.rendering import RenderingError, check_rendering
 
 
 @dataclass(frozen=True, slots=True)

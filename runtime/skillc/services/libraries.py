@@ -18,18 +18,18 @@ from skillc.services.library_files import (
     user_vocabularies,
 )
 from skillc_compiler import pipeline
-from skillc_compiler.library.skills import SkillLibrary, Task
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program.typed import Program
 from skillc_compiler.resolve.files import read
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve
-from skillc_compiler.vocabulary.load import load
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
 from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source, Span
+from skillc_model.skills import SkillLibrary, Task
 from skillc_ontology import catalogue
+from skillc_rdf.vocabulary.load import load
+from skillc_rdf.vocabulary.types import Vocabulary
 
 IndividualsByTask: TypeAlias = Callable[[Program], Mapping[str, Individuals]]
 """Returns the individuals in the scenes of a program's tasks, by task."""

@@ -11,10 +11,10 @@ from skillc.services.library_files import LibraryFiles
 from skillc.services.reporting import sort_diagnostics
 from skillc.services.value_checks import check_values
 from skillc_compiler.diagnostics.suppressions import without_suppressed
-from skillc_compiler.library.skills import SkillLibrary
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.source import Source
+from skillc_model.skills import SkillLibrary
 
 if TYPE_CHECKING:
     from skillc.services.task_scenes import TaskScenes

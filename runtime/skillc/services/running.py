@@ -13,6 +13,7 @@ from skillc.services.errors import RequestError, ServiceError
 from skillc.services.files import writing_to
 from skillc.services.reporting import Reporter
 from skillc.services.task_loading import LoadedTask
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.evaluation.report.choices import Choices
 from skillc_runtime.evaluation.report.drawing import Drawing, make_drawing
 from skillc_runtime.evaluation.report.moments import find_moments
@@ -22,13 +23,12 @@ from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.evaluation.report.write import write_figure, write_report
 from skillc_runtime.execution.assignment import PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
+from skillc_runtime.film.film import Film, Filmed, Moment
+from skillc_runtime.film.picture_files import FilmError
+from skillc_runtime.film.rendering import RenderingError
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.recording.events import Event
 from skillc_runtime.recording.writer import TraceWriter
-from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.film import Film, Filmed, Moment
-from skillc_runtime.simulation.pictures import FilmError
-from skillc_runtime.simulation.rendering import RenderingError
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldModel
@@ -184,13 +184,13 @@ def _run(
 
 def _model_with_meshes(cell: SimulatedCell, looks: str) -> Any:
     """Return the model of a cell with the meshes of that name, for films. ServiceError if there are none."""
-    from skillc_runtime.simulation.build import described
-    from skillc_runtime.simulation.looks import LooksError, read_looks
-    from skillc_runtime.simulation.looks_meshes import dressed
+    from skillc_runtime.backends.mujoco.model_builder import describe_model
+    from skillc_runtime.film.look_meshes import dressed
+    from skillc_runtime.film.looks import LooksError, read_looks
 
     try:
         wanted = read_looks(cell.world.snapshot(), cell.facts, looks)
-        return dressed(described(cell.facts, cell.variation), wanted)
+        return dressed(describe_model(cell.facts, cell.variation), wanted)
     except LooksError as error:
         raise ServiceError(str(error)) from error
 

@@ -10,13 +10,13 @@ import pyoxigraph as ox
 
 from skillc.services.errors import ServiceError
 from skillc.services.files import rewrite_file
-from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.turtle.editing import Editor, NotWritten
-from skillc_compiler.turtle.parser import parse
-from skillc_compiler.turtle.statements import Node
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.encoding import decode
 from skillc_ontology import catalogue
+from skillc_rdf.turtle.editing import Editor, NotWritten
+from skillc_rdf.turtle.parser import parse
+from skillc_rdf.turtle.statements import Node
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import BASE, WELL_KNOWN, Document
 from skillc_runtime.scene.load import scene_of, sheet_documents
 from skillc_runtime.scene.statements import iri_of

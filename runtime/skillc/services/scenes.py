@@ -18,8 +18,8 @@ from skillc.services.library_files import SHIPPED, find_library, find_scene
 from skillc.services.reporting import Reporter
 from skillc.services.stores import StoreChoice, load_world, open_world
 from skillc_compiler.emit.picture import svg
-from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_rdf.turtle.terms import RDF_TYPE
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.contents import read_contents
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import sheet_documents, world_of

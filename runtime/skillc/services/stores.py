@@ -12,7 +12,7 @@ from pathlib import Path
 from skillc.services.errors import DiagnosticsError, RequestError, ServiceError
 from skillc.services.reporting import Reporter, count_of
 from skillc.services.scene_diagnostics import scene_text, with_shown_paths
-from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import SceneError
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.store.address import without_credentials

@@ -13,12 +13,12 @@ from typing import TypeAlias
 from skillc.services import scene_diagnostics, value_checks
 from skillc.services.device_checks import check_controllers, check_sheets
 from skillc.services.task_scenes import TaskScenes
-from skillc_compiler.library.skills import SkillLibrary, Task
-from skillc_compiler.library.vocabulary import Position
 from skillc_compiler.program.typed import Program
-from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_dsl.diagnostics import Diagnostic, Label, Outcome, Severity, did_you_mean
 from skillc_dsl.source import Span
+from skillc_model.skills import SkillLibrary, Task
+from skillc_rdf.turtle.terms import RDF_TYPE
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.selection.initial_calls import initial_call_refusals
 from skillc_runtime.execution.selection.preflight import Origin, Refusal, preflight
 from skillc_runtime.execution.selection.unsupported import UnsupportedIndividual, unsupported_individuals

@@ -15,9 +15,9 @@ from skillc.services.library_files import SHIPPED, find_library, find_scene
 from skillc.services.reporting import Reporter
 from skillc.services.stores import NO_STORE, StoreChoice, open_world
 from skillc_compiler.goals.parsing import parse_call, parse_goal
-from skillc_compiler.library.skills import SkillLibrary, Task
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
+from skillc_model.skills import SkillLibrary, Task
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody
 from skillc_runtime.world.state.model import WorldModel
 

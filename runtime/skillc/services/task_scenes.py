@@ -10,12 +10,12 @@ from typing import TypeAlias
 from skillc.services import scene_diagnostics
 from skillc.services.files import inspect_path
 from skillc.services.library_files import LibraryFiles
-from skillc_compiler.library.skills import Task
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.program.typed import Program
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
+from skillc_model.skills import Task
 from skillc_ontology import catalogue
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document, SceneError
 from skillc_runtime.scene.load import Scene, scene_in
 from skillc_runtime.world.state.world_state import WorldState

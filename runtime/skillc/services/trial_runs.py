@@ -14,8 +14,8 @@ from skillc.services.files import writing_to
 from skillc.services.reporting import Reporter
 from skillc.services.stores import load_world
 from skillc.services.task_loading import find_task_in_scene
-from skillc_compiler.library import codec
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model import codec
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.trials import identity, page
 from skillc_runtime.evaluation.trials.experiment import Experiment, TrialRunner
 from skillc_runtime.evaluation.trials.journal import Heading, Journal, JournalError, missing

@@ -8,13 +8,13 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from skillc_compiler.library.conditions import Literal
-from skillc_compiler.library.skills import Compound, SkillLibrary
-from skillc_compiler.library.vocabulary import Position
 from skillc_compiler.program import walk
 from skillc_compiler.program.typed import Implementation, Program, TypedExpression, position
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label, Outcome, Severity, did_you_mean
 from skillc_dsl.source import Span
+from skillc_model.conditions import Literal
+from skillc_model.skills import Compound, SkillLibrary
+from skillc_rdf.vocabulary.types import Position
 
 if TYPE_CHECKING:
     from skillc.services.task_scenes import TaskScenes
@@ -69,7 +69,7 @@ def check_values(
     errors = {each.span for each in reported if each.name == "unknown-value"}
     # The world model is heavy to import.
     from skillc.services.task_scenes import read_scene
-    from skillc_compiler.library.read_write import changing_terms
+    from skillc_model.read_write import changing_terms
     from skillc_runtime.execution.selection.text_names import UnknownName, is_fixed_path, list_names
 
     changing = changing_terms(compiled.value)

@@ -12,7 +12,7 @@ import numpy as np
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.control.safety import SafetyLimits, SafetyMonitor
 from skillc_runtime.devices.arm import Arm, ArmState, Command, JointPosition, JointVelocity, Torque, command_values
-from skillc_runtime.motion.numerics.arrays import OutVector, Vector
+from skillc_runtime.motion.arrays import OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.pose import Array
 

@@ -27,7 +27,7 @@ from skillc_runtime.control.task_error import (
 )
 from skillc_runtime.control.virtual_arm import VirtualArm, VirtualState
 from skillc_runtime.devices.arm import ArmState, Command
-from skillc_runtime.motion.numerics.arrays import OutMatrix, OutVector, Vector
+from skillc_runtime.motion.arrays import OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.numerics.linear import cholesky, cholesky_solve, times, transposed_times
 from skillc_runtime.motion.pose import Array, Pose

@@ -33,7 +33,7 @@ from skillc_runtime.control.task_error import (
     task_error_of,
 )
 from skillc_runtime.devices.arm import ArmState, Torque
-from skillc_runtime.motion.numerics.arrays import OutMatrix, OutVector, Vector
+from skillc_runtime.motion.arrays import OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled, part
 from skillc_runtime.motion.numerics.linear import times, transposed_times
 from skillc_runtime.motion.pose import Array, Pose

@@ -8,7 +8,7 @@ import numpy as np
 
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.devices.arm import ArmLimits, ArmState, JointPosition, JointVelocity
-from skillc_runtime.motion.numerics.arrays import OutMatrix, OutVector, Vector
+from skillc_runtime.motion.arrays import OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled, part
 from skillc_runtime.motion.pose import Array
 

@@ -12,7 +12,7 @@ from math import sqrt
 import numpy as np
 
 from skillc_runtime.devices.arm import ArmState
-from skillc_runtime.motion.numerics.arrays import Matrix, OutVector, Vector
+from skillc_runtime.motion.arrays import Matrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled, part
 from skillc_runtime.motion.numerics.linear import cholesky, cholesky_solve, product, times, transposed_times
 from skillc_runtime.motion.pose import Array

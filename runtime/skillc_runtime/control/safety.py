@@ -9,7 +9,7 @@ import numpy as np
 
 from skillc_runtime.control.momentum_observer import MomentumObserver
 from skillc_runtime.devices.arm import ArmState, Command, Torque
-from skillc_runtime.motion.numerics.arrays import Matrix, Vector
+from skillc_runtime.motion.arrays import Matrix, Vector
 from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.numerics.linear import times, transposed_times
 from skillc_runtime.motion.pose import Array, Pose

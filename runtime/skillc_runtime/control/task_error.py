@@ -7,7 +7,7 @@ from math import sqrt
 
 import numpy as np
 
-from skillc_runtime.motion.numerics.arrays import OutMatrix
+from skillc_runtime.motion.arrays import OutMatrix
 from skillc_runtime.motion.numerics.compiled import part
 from skillc_runtime.motion.numerics.linear import product, rotation_between
 from skillc_runtime.motion.pose import Array, Pose

@@ -15,7 +15,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from skillc_runtime.motion.numerics.arrays import Matrix, OutMatrix, Vector
+from skillc_runtime.motion.arrays import Matrix, OutMatrix, Vector
 from skillc_runtime.motion.pose import Array, Pose, quaternion_of
 
 LINK_MASS_KG, LINK_INERTIA = 0.01, 1e-6

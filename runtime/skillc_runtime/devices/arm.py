@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, Protocol, TypeAlias, assert_never
 
-from skillc_runtime.motion.numerics.arrays import Matrix, Vector
+from skillc_runtime.motion.arrays import Matrix, Vector
 from skillc_runtime.motion.pose import Array, Pose
 
 

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, assert_never
 
-from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.library.tree import Node
+from skillc_model.conditions import Condition
+from skillc_model.skills import SkillLibrary
+from skillc_model.tree import Node
 from skillc_runtime.execution.plans.plan_body import build_plan_body
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.planning.arrangement import arrange_plan, step_numbers

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PlannedSteps, PreparedTask
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
@@ -19,7 +19,7 @@ from skillc_runtime.recording.events import Listener, Note, PlanMade, PlanStep
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.listeners import Listeners
 from skillc_runtime.recording.outcome import Outcome
-from skillc_runtime.world.labelled import label
+from skillc_runtime.world.state.labelled import label
 from skillc_runtime.world.state.world_state import WorldState
 
 TICK_S = 0.01

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TypeAlias
 
-from skillc_compiler.library.conditions import Condition
+from skillc_model.conditions import Condition
 from skillc_runtime.recording.known import KnownFact
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.grounds import Ground, grounds
-from skillc_runtime.world.labelled import label_fact
+from skillc_runtime.world.state.labelled import label_fact
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Generic, TypeVar
 
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.assignment import (
     AchieveGoal,
     Assignment,

@@ -7,7 +7,7 @@ from math import asinh, cos, pi, sin, sqrt
 
 import numpy as np
 
-from skillc_runtime.motion.numerics.arrays import OutMatrix, Vector
+from skillc_runtime.motion.arrays import OutMatrix, Vector
 from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import Overlay

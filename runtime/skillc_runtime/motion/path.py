@@ -15,7 +15,7 @@ from math import sqrt
 import numpy as np
 
 from skillc_runtime.motion.arc import Arc
-from skillc_runtime.motion.numerics.arrays import Matrix, OutMatrix
+from skillc_runtime.motion.arrays import Matrix, OutMatrix
 from skillc_runtime.motion.numerics.compiled import compiled, part
 from skillc_runtime.motion.numerics.linear import cross, product, rotation_by, times
 from skillc_runtime.motion.piece import COLUMNS, motion_at

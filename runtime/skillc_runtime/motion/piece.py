@@ -6,7 +6,7 @@ from math import cos, sin, sqrt
 
 import numpy as np
 
-from skillc_runtime.motion.numerics.arrays import OutMatrix, Vector
+from skillc_runtime.motion.arrays import OutMatrix, Vector
 from skillc_runtime.motion.numerics.compiled import compiled, part
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.smooth import smooth_at

@@ -8,7 +8,7 @@ from math import atan2, sin, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from skillc_runtime.motion.numerics.arrays import Matrix, Vector
+from skillc_runtime.motion.arrays import Matrix, Vector
 
 Array = NDArray[np.float64]
 

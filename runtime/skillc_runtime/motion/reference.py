@@ -7,7 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
-from skillc_runtime.motion.numerics.arrays import Matrix, Vector
+from skillc_runtime.motion.arrays import Matrix, Vector
 from skillc_runtime.motion.pose import Array, Pose
 
 POSITION, ROTATION, TWIST, ACCELERATION = slice(0, 1), slice(1, 4), slice(4, 6), slice(6, 8)

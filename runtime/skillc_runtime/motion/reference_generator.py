@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from skillc_runtime.motion.numerics.arrays import Matrix, OutMatrix
+from skillc_runtime.motion.arrays import Matrix, OutMatrix
 from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.numerics.linear import product
 from skillc_runtime.motion.overlays import FadedOverlay

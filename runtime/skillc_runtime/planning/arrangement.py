@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.pddl.devices import devices
-from skillc_compiler.library.read_write import ReadWriteSet, facts_read
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.conditions import Condition
+from skillc_model.pddl.devices import devices
+from skillc_model.read_write import ReadWriteSet, facts_read
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.planning.validation import apply_step, compute_effects
 from skillc_runtime.planning.world_changes import changed_between, settled_by

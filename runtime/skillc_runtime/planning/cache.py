@@ -13,9 +13,9 @@ from typing import Protocol, TypeVar
 
 import msgspec
 
-from skillc_compiler.library.pddl.formulas import FALSE
-from skillc_compiler.library.pddl.problem import Problem
-from skillc_compiler.library.pddl.text import domain_text, problem_text, temporal_problem_text, temporal_text
+from skillc_model.pddl.formulas import FALSE
+from skillc_model.pddl.problem import Problem
+from skillc_model.pddl.text import domain_text, problem_text, temporal_problem_text, temporal_text
 from skillc_runtime.planning.plan import GaveUp, Planner, PlanResult, Solved
 from skillc_runtime.planning.schedule import Schedule, Scheduler
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import assert_never
 
-from skillc_compiler.library.format_condition import (
+from skillc_model.format_condition import (
     format_all,
     format_any,
     format_class,
@@ -13,19 +13,10 @@ from skillc_compiler.library.format_condition import (
     format_quantified,
     format_relation,
 )
-from skillc_compiler.library.pddl.domain import ROOT, ClassFact, GoalFact, GuardFact, PropertyFact, RelationFact
-from skillc_compiler.library.pddl.formulas import (
-    Atom,
-    Conjunction,
-    Disjunction,
-    Equal,
-    Existential,
-    Formula,
-    Negation,
-    Universal,
-)
-from skillc_compiler.library.pddl.problem import Problem
-from skillc_compiler.library.skills import Implementation, SkillLibrary
+from skillc_model.pddl.domain import ROOT, ClassFact, GoalFact, GuardFact, PropertyFact, RelationFact
+from skillc_model.pddl.formulas import Atom, Conjunction, Disjunction, Equal, Existential, Formula, Negation, Universal
+from skillc_model.pddl.problem import Problem
+from skillc_model.skills import Implementation, SkillLibrary
 from skillc_runtime.world.state.values import show
 
 

@@ -6,7 +6,7 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Literal, Protocol, TypeAlias, assert_never
 
-from skillc_compiler.library.pddl.problem import Problem
+from skillc_model.pddl.problem import Problem
 
 
 @dataclass(frozen=True, slots=True)

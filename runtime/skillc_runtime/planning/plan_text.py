@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from skillc_compiler.library.pddl.domain import Action, ComputedCost, FixedCost
-from skillc_compiler.library.pddl.problem import Problem
+from skillc_model.pddl.domain import Action, ComputedCost, FixedCost
+from skillc_model.pddl.problem import Problem
 from skillc_runtime.planning.plan import Plan, Step
 
 

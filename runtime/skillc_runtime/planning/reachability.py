@@ -5,10 +5,10 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass, replace
 
-from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.pddl.formulas import FALSE, conjuncts
-from skillc_compiler.library.pddl.problem import Problem
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.conditions import Condition
+from skillc_model.pddl.formulas import FALSE, conjuncts
+from skillc_model.pddl.problem import Problem
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import AT_ONCE

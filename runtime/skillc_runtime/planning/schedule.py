@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
-from skillc_compiler.library.pddl.problem import Problem
+from skillc_model.pddl.problem import Problem
 from skillc_runtime.planning.plan import GaveUp, LeftOut, Plan, Solved, Step
 
 

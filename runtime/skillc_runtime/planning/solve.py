@@ -6,9 +6,9 @@ import time
 from collections.abc import Sequence
 from dataclasses import replace
 
-from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.pddl.problem import Problem
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.conditions import Condition
+from skillc_model.pddl.problem import Problem
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.abstraction.stages import PlanningStages, plan_in_stages
 from skillc_runtime.planning.plan import (
     GaveUp,

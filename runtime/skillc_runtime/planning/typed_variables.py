@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import assert_never
 
-from skillc_compiler.library.pddl.domain import PlanningDomain
-from skillc_compiler.library.pddl.formulas import (
+from skillc_model.pddl.domain import PlanningDomain
+from skillc_model.pddl.formulas import (
     Atom,
     Conjunction,
     Disjunction,

@@ -5,9 +5,9 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 
-from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.pddl.domain import Action, GuardFact, Meaning
-from skillc_compiler.library.pddl.formulas import FALSE, Atom, Conjunction, Disjunction, Formula, conjunction, conjuncts
+from skillc_model.conditions import Condition
+from skillc_model.pddl.domain import Action, GuardFact, Meaning
+from skillc_model.pddl.formulas import FALSE, Atom, Conjunction, Disjunction, Formula, conjunction, conjuncts
 from skillc_runtime.planning.formula_text import FormulaFormatter
 from skillc_runtime.planning.problem.pose import Posed
 from skillc_runtime.planning.search.grounding import Grounding, GroundingTimeout

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.pddl.costs import ASSUMED_SECONDS, duration_of
-from skillc_compiler.library.skills import Implementation, Parameter, Requirement, SkillLibrary
-from skillc_compiler.library.vocabulary import ClassType
+from skillc_model.conditions import Condition
+from skillc_model.pddl.costs import ASSUMED_SECONDS, duration_of
+from skillc_model.skills import Implementation, Parameter, Requirement, SkillLibrary
+from skillc_rdf.vocabulary.types import ClassType
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.planning.problem.initial_state import evaluate_duration_s
 from skillc_runtime.world.eval.conditions import evaluate

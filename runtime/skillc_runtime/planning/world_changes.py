@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.library.read_write import EVERYTHING, FactPattern
+from skillc_model.read_write import EVERYTHING, FactPattern
 from skillc_runtime.world.state.changes import AddRelation, Change, ClearProperty, RemoveRelation, SetProperty
 from skillc_runtime.world.state.world_state import WorldState
 

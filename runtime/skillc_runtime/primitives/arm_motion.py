@@ -8,7 +8,7 @@ from skillc_runtime.devices.arm_driver import Infeasible
 from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.primitives.place_description import describe_place
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.world.labelled import Quantity
+from skillc_runtime.world.state.labelled import Quantity
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.arm_driver import ArmDriver

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from skillc_runtime.avoidance.body import body
-from skillc_runtime.avoidance.contacts import Contacts
-from skillc_runtime.avoidance.outfit import outfit
-from skillc_runtime.avoidance.scenery import scenery
-from skillc_runtime.avoidance.ways import Known, NoWay, touch_on, way
+from skillc_runtime.collision.arm_assembly import outfit
+from skillc_runtime.collision.body import body
+from skillc_runtime.collision.contacts import Contacts
+from skillc_runtime.collision.path_planning import Known, NoWay, plan_joint_path, touch_on
+from skillc_runtime.collision.scenery import scenery
 from skillc_runtime.motion.joint import JointTrajectory
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.primitives.primitive import SkillFailure
@@ -61,7 +61,7 @@ def _plan_motion(
 
     If no blending is possible the arm stops at each posture of the path, which is free of collisions.
     """
-    postures = way(contacts, driver.motion.stopping_joints(), goals, known)
+    postures = plan_joint_path(contacts, driver.motion.stopping_joints(), goals, known)
     if len(postures) > 1:
         for blend in BLEND_SHARES:
             motion = driver.motion.joint_motion(postures, pace, blend)

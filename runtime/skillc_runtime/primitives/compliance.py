@@ -13,7 +13,7 @@ from skillc_runtime.motion.pose import Array, log
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.primitives.surface_location import write_surface_pose
-from skillc_runtime.world.labelled import Quantity
+from skillc_runtime.world.state.labelled import Quantity
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell

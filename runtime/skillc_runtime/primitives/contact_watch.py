@@ -6,9 +6,9 @@ from collections import deque
 from typing import TYPE_CHECKING
 
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.world.labelled import Quantity, label
 from skillc_runtime.world.space.surfaces import least_contact, least_force_n
 from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.labelled import Quantity, label
 from skillc_runtime.world.state.terms import CONTACT_SHARE
 
 if TYPE_CHECKING:

@@ -11,13 +11,14 @@ import numpy as np
 
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.devices.gripper import Gripper
-from skillc_runtime.world.labelled import format_fact, label_fact
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import RemoveRelation
 from skillc_runtime.world.state.data_sheet import SheetError, number, sheet_of
 from skillc_runtime.world.state.evidence import Established
 from skillc_runtime.world.state.facts import Related
+from skillc_runtime.world.state.labelled import label_fact
+from skillc_runtime.world.state.labelled_text import format_fact
 from skillc_runtime.world.state.terms import ARRIVAL_TOLERANCE, AT, CONTAIN, END_EFFECTOR, MOBILE_ROBOT
 from skillc_runtime.world.state.world_state import WorldState
 

@@ -6,9 +6,9 @@ from skillc_runtime.devices.cell import Cell
 from skillc_runtime.devices.gripper import working_face
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.world.labelled import Quantity, label
 from skillc_runtime.world.space.frames import placed, pose, size
 from skillc_runtime.world.state.changes import AddRelation, RemoveRelation
+from skillc_runtime.world.state.labelled import Quantity, label
 from skillc_runtime.world.state.terms import CONTAIN, FRAME_ID, GRASP_WIDTH
 
 FREE_CLEARANCE_M = 0.005

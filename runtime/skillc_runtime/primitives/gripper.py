@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.world.labelled import Iri, Quantity, label
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
+from skillc_runtime.world.state.labelled import Iri, Quantity, label
 
 TOLERANCE_M = 0.003
 

@@ -8,9 +8,9 @@ import numpy as np
 
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.world.labelled import Quantity, label
 from skillc_runtime.world.space.frames import placed
 from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.labelled import Quantity, label
 from skillc_runtime.world.state.terms import IS_TAUGHT
 
 if TYPE_CHECKING:

@@ -9,10 +9,10 @@ import numpy as np
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.world.labelled import Quantity, label
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError, number
+from skillc_runtime.world.state.labelled import Quantity, label
 from skillc_runtime.world.state.terms import DEPTH, INSERTED_DEPTH, IS_SEATED
 
 if TYPE_CHECKING:

@@ -14,8 +14,8 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.collision_free_motion import move_collision_free
 from skillc_runtime.primitives.primitive import SkillFailure
-from skillc_runtime.world.labelled import Quantity, Vector
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
+from skillc_runtime.world.state.labelled import Quantity, Vector
 from skillc_runtime.world.state.terms import HAS_POSTURE, HAS_SHEET, POSTURE_NAME
 
 if TYPE_CHECKING:

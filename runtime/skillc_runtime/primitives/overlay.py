@@ -13,7 +13,7 @@ from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import Overlay
 from skillc_runtime.primitives.arm_motion import infeasible_motion
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.world.labelled import Quantity
+from skillc_runtime.world.state.labelled import Quantity
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell

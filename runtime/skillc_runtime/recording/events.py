@@ -7,12 +7,12 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-from skillc_compiler.library.vocabulary import Position
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known import KnownFact
 from skillc_runtime.recording.reasons import FailedCallContext, ParameterReason, UntriedImplementation
-from skillc_runtime.world.labelled import Iri, LabelledChange, LabelledValue
 from skillc_runtime.world.state.evidence import Evidence
+from skillc_runtime.world.state.labelled import Iri, LabelledChange, LabelledValue
 
 FORMAT = 4
 """Raised with every change of what the events mean. A reader takes no other format."""

@@ -6,8 +6,8 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-from skillc_compiler.library.vocabulary import Position
-from skillc_runtime.world.labelled import LabelledValue
+from skillc_rdf.vocabulary.types import Position
+from skillc_runtime.world.state.labelled import LabelledValue
 
 FailureKind: TypeAlias = Literal[
     "pre", "hold", "verify", "post", "inference", "lock", "timeout", "body", "plan", "contradiction", "error", "halted"

@@ -12,7 +12,7 @@ from skillc_runtime.recording.events import Event
 from skillc_runtime.recording.record import AttemptRecord, NodeRecords
 from skillc_runtime.recording.steps import collect_steps, failure_chain
 from skillc_runtime.recording.story import Attempt, Fact, Story
-from skillc_runtime.world.labelled import LabelledFact, PropertyFact, RelationFact
+from skillc_runtime.world.state.labelled import LabelledFact, PropertyFact, RelationFact
 
 
 def read_story(recording: Iterable[Event]) -> Story | None:

@@ -7,7 +7,8 @@ from typing import Literal, assert_never
 import msgspec
 from msgspec import structs
 
-from skillc_runtime.world.labelled import ClassFact, IdentityFact, LabelledFact, PropertyFact, RelationFact, format_fact
+from skillc_runtime.world.state.labelled import ClassFact, IdentityFact, LabelledFact, PropertyFact, RelationFact
+from skillc_runtime.world.state.labelled_text import format_fact
 
 UNVERIFIED = "finished, not verified"
 """How a task ended that did all it was to do, where something that this rests on is only assumed."""

@@ -6,9 +6,9 @@ from typing import Literal
 
 import msgspec
 
-from skillc_compiler.library.vocabulary import Position
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.recording.failure import Rejection
-from skillc_runtime.world.labelled import Iri, LabelledFact, LabelledValue
+from skillc_runtime.world.state.labelled import Iri, LabelledFact, LabelledValue
 
 
 class DecidingCondition(msgspec.Struct, frozen=True, kw_only=True):

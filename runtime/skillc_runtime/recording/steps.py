@@ -10,7 +10,7 @@ from msgspec import structs
 from skillc_runtime.recording.events import PlanStep
 from skillc_runtime.recording.record import AttemptRecord, NodeRecord
 from skillc_runtime.recording.story import Call, FailedNode
-from skillc_runtime.world.labelled import LabelledValue
+from skillc_runtime.world.state.labelled import LabelledValue
 
 
 def collect_steps(body: AttemptRecord, before: int) -> tuple[Call, ...]:

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 import msgspec
 
-from skillc_compiler.library.vocabulary import Position
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known import KnownFact
 from skillc_runtime.recording.reasons import ParameterReason, UntriedImplementation
-from skillc_runtime.world.labelled import LabelledFact, LabelledValue
+from skillc_runtime.world.state.labelled import LabelledFact, LabelledValue
 
 
 class _Part(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import pyoxigraph as ox
 
-from skillc_compiler.turtle.terms import RDFS
+from skillc_rdf.turtle.terms import RDFS
 from skillc_runtime.scene.documents import Document, statements_of
 from skillc_runtime.scene.statements import iri_of
 

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pyoxigraph as ox
 
-from skillc_compiler.turtle.parser import parse as parse_turtle
-from skillc_compiler.turtle.statements import Parsed, Statement
-from skillc_compiler.turtle.terms import OWL, RDF, RDFS, XSD
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
+from skillc_rdf.turtle.parser import parse as parse_turtle
+from skillc_rdf.turtle.statements import Parsed, Statement
+from skillc_rdf.turtle.terms import OWL, RDF, RDFS, XSD
 from skillc_runtime.scene.memory import BULK_BYTES, TooLittleMemory, check_available
 
 BASE = "file:///scene"

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Set
 from dataclasses import dataclass
 from typing import Literal, NamedTuple, TypeAlias
 
-from skillc_compiler.library.vocabulary import PropertyTerm, Vocabulary
-from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_rdf.turtle.terms import RDF_TYPE
+from skillc_rdf.vocabulary.types import PropertyTerm, Vocabulary
 from skillc_runtime.scene.statements import NAMED_INDIVIDUAL, FactFilter
 from skillc_runtime.scene.table import Literals, Named, Table
 from skillc_runtime.store.literals import LiteralError, read

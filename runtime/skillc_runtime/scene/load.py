@@ -8,13 +8,13 @@ from pathlib import Path
 
 import msgspec
 
-from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.turtle.statements import Parsed, Statement
-from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.source import Span
 from skillc_ontology.catalogue import sheet_files
+from skillc_rdf.turtle.statements import Parsed, Statement
+from skillc_rdf.turtle.terms import RDF_TYPE
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.checks.classes import are_placed, misplaced_classes, of_lost_classes
 from skillc_runtime.scene.checks.identity import Claims
 from skillc_runtime.scene.checks.ineffective import ineffective, language_tags, without_class

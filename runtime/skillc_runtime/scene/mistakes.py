@@ -8,11 +8,11 @@ from typing import TypeAlias, assert_never
 
 import pyoxigraph as ox
 
-from skillc_compiler.library.vocabulary import THING, Vocabulary
-from skillc_compiler.turtle.statements import SOMETHING, Statement
-from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
+from skillc_rdf.turtle.statements import SOMETHING, Statement
+from skillc_rdf.turtle.terms import RDF_TYPE
+from skillc_rdf.vocabulary.types import THING, Vocabulary
 from skillc_runtime.scene.interpretation import Interpretation, Mistake, interpret
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.scene.suggestions import suggest

@@ -10,8 +10,8 @@ from typing import TypeAlias
 import msgspec
 import pyoxigraph as ox
 
-from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.turtle.terms import OWL, RDF, RDFS, XSD
+from skillc_rdf.turtle.terms import OWL, RDF, RDFS, XSD
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document, statements_of
 from skillc_runtime.scene.query_errors import federation_error, syntax_error_message
 from skillc_runtime.store.literals import INTEGERS, NUMBERS

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pyoxigraph as ox
 
-from skillc_compiler.library.vocabulary import NumberType, Vocabulary
-from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_rdf.turtle.terms import RDF_TYPE
+from skillc_rdf.vocabulary.types import NumberType, Vocabulary
 from skillc_runtime.scene.documents import Document, statements_of, with_own_terms
 from skillc_runtime.scene.statements import facts, iri_of, with_own_classes
 from skillc_runtime.store.triples import CLASS, SUBCLASS, TYPE

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from skillc_compiler.library.vocabulary import (
+from skillc_rdf.vocabulary.types import (
     THING,
     Bounds,
     ClassTerm,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from skillc_compiler.turtle.terms import OWL, RDF, RDFS
+from skillc_rdf.turtle.terms import OWL, RDF, RDFS
 
 _NAMES = {
     RDF: "type first rest nil value subject predicate object Statement Property List Bag Seq Alt langString",

@@ -8,9 +8,9 @@ from collections.abc import Collection, Iterable, Sequence
 import msgspec
 import pyoxigraph as ox
 
-from skillc_compiler.library.vocabulary import THING, ClassTerm, Vocabulary
-from skillc_compiler.turtle.statements import Node, Parsed, Statement
-from skillc_compiler.turtle.terms import OWL, RDF, RDF_TYPE, RDFS
+from skillc_rdf.turtle.statements import Node, Parsed, Statement
+from skillc_rdf.turtle.terms import OWL, RDF, RDF_TYPE, RDFS
+from skillc_rdf.vocabulary.types import THING, ClassTerm, Vocabulary
 from skillc_runtime.world.state.terms import HAS_TEMPLATE, TEMPLATE
 
 ABOUT_TERMS = (OWL, RDFS, RDF, "http://purl.org/vocab/vann/")

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 
-from skillc_compiler.library.vocabulary import Vocabulary, local_name
 from skillc_dsl.diagnostics import Fix
 from skillc_dsl.source import Span
+from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 LISTED = 12
 """How many names help lists at most."""

@@ -10,9 +10,9 @@ from typing import TypeAlias
 
 import pyoxigraph as ox
 
-from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.turtle.statements import Statement
-from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_rdf.turtle.statements import Statement
+from skillc_rdf.turtle.terms import RDF_TYPE
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.checks.ineffective import is_ordinary, is_ordinary_class
 from skillc_runtime.scene.documents import BASE, Document
 from skillc_runtime.scene.memory import MemoryGuard

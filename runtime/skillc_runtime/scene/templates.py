@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.turtle.statements import Statement
-from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_rdf.turtle.statements import Statement
+from skillc_rdf.turtle.terms import RDF_TYPE
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document, SceneError, parse, with_own_terms
 from skillc_runtime.scene.load import sheet_documents
 from skillc_runtime.scene.mistakes import PlacedFacts

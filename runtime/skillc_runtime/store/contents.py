@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import msgspec
 import pyoxigraph as ox
 
-from skillc_compiler.library.vocabulary import ClassTerm, Vocabulary
+from skillc_rdf.vocabulary.types import ClassTerm, Vocabulary
 from skillc_runtime.store.literals import LiteralError, read
 from skillc_runtime.store.triples import CLASS, PREFIX, SUBCLASS, TYPE
 from skillc_runtime.world.state.axiom_violations import axiom_violations

@@ -10,9 +10,9 @@ from difflib import get_close_matches
 import numpy as np
 import pyoxigraph as ox
 
-from skillc_compiler.library.vocabulary import DirectionType, NumberType, PlainType, PropertyTerm, VectorType
-from skillc_compiler.library.words import SI_UNITS
-from skillc_compiler.turtle.terms import XSD
+from skillc_model.words import SI_UNITS
+from skillc_rdf.turtle.terms import XSD
+from skillc_rdf.vocabulary.types import DirectionType, NumberType, PlainType, PropertyTerm, VectorType
 from skillc_runtime.world.state.terms import SKILLC
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.vectors import is_direction, is_too_large, vector_of

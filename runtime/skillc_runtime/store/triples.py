@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import pyoxigraph as ox
 
-from skillc_compiler.library.vocabulary import NumberType, PropertyTerm, Vocabulary
-from skillc_compiler.turtle.terms import OWL, RDF_TYPE, RDFS
+from skillc_rdf.turtle.terms import OWL, RDF_TYPE, RDFS
+from skillc_rdf.vocabulary.types import NumberType, PropertyTerm, Vocabulary
 from skillc_runtime.world.state.changes import about
 from skillc_runtime.world.state.transactions import ChangeEvent, StoreError
 from skillc_runtime.world.state.values import Value

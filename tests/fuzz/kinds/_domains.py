@@ -12,20 +12,11 @@ import msgspec
 from oracle.drawing import RELATIONS, VOCABULARY, Dice
 from oracle.forced import steps, worked
 from oracle.text import Contradictory, asked, condition_text
-from skillc_compiler.library.conditions import (
-    And,
-    Anything,
-    Compare,
-    Condition,
-    Holds,
-    Individual,
-    Not,
-    PropertyOf,
-)
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.library.vocabulary import RelationTerm, Signature
 from skillc_compiler.pipeline import compile
 from skillc_dsl.source import Source
+from skillc_model.conditions import And, Anything, Compare, Condition, Holds, Individual, Not, PropertyOf
+from skillc_model.skills import SkillLibrary
+from skillc_rdf.vocabulary.types import RelationTerm, Signature
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, SetProperty
 from skillc_runtime.world.state.model import WorldError, WorldModel

@@ -6,7 +6,7 @@ from functools import cache
 from random import Random
 
 from skillc.services import libraries
-from skillc_compiler.turtle.tokens import tokens
+from skillc_rdf.turtle.tokens import tokens
 
 HEAD = """@prefix lab: <http://example.org/lab#> .
 @prefix rdf: <http://www.w3.org/1999/02/22-rdf-syntax-ns#> .

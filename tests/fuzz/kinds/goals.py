@@ -11,12 +11,12 @@ from fuzz.kinds._texts import make_text
 from skillc.services import libraries, task_scenes
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.goals.parsing import parse_goal
-from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.reading import free_variables
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.library.vocabulary import PlainType
 from skillc_dsl.diagnostics import Outcome
+from skillc_model.conditions import Condition
+from skillc_model.reading import free_variables
+from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
+from skillc_rdf.vocabulary.types import PlainType
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.explain import explain

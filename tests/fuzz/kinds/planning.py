@@ -9,8 +9,8 @@ import msgspec
 
 from fuzz.kinds._domains import Domains
 from oracle.forced import TooManyStates, cheapest, seconds
-from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.conditions import Condition
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule
 from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Unsolvable

@@ -10,9 +10,9 @@ import pyoxigraph as ox
 
 from fuzz.kinds._turtle import generated, mutated
 from skillc.services import libraries
-from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_ontology import catalogue
+from skillc_rdf.turtle.terms import RDF_TYPE
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.checks.identity import PROPERTY, SOURCE, TARGETS
 from skillc_runtime.scene.documents import BASE, Document, SceneError, parse
 from skillc_runtime.scene.load import Scene, load_in_bulk, scene_of, world_of

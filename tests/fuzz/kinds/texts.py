@@ -11,9 +11,7 @@ from random import Random
 
 from fuzz.kinds._texts import make_text
 from skillc_compiler.emit.artifacts import artifacts
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.pipeline import compile
-from skillc_compiler.vocabulary.load import load
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.encoding import decode
@@ -23,6 +21,8 @@ from skillc_dsl.rendering import concise, full, github, sarif
 from skillc_dsl.rendering import json as as_json
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
+from skillc_rdf.vocabulary.load import load
+from skillc_rdf.vocabulary.types import Vocabulary
 
 NAME = "input.skill"
 FORMATS = ("concise", "full", "github", "json", "sarif")

@@ -15,11 +15,11 @@ from fuzz.kinds._trees import write_library
 from peers.comparing import differences
 from proof.plays import Writer
 from skillc_compiler.emit import bt
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.library.vocabulary import Vocabulary
 from skillc_compiler.pipeline import compile
-from skillc_compiler.vocabulary.load import load
 from skillc_dsl.source import Source
+from skillc_model.skills import SkillLibrary
+from skillc_rdf.vocabulary.load import load
+from skillc_rdf.vocabulary.types import Vocabulary
 
 SECONDS = 20
 DRAWS = 20

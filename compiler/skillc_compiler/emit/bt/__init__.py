@@ -20,9 +20,9 @@ from skillc_compiler.emit.bt.nodes import Body, started
 from skillc_compiler.emit.bt.rules import verified
 from skillc_compiler.emit.bt.skills import fixed_tree, implementation_tree, main_tree, skill_tree
 from skillc_compiler.emit.headers import XML_DECLARATION
-from skillc_compiler.library.reading import calls_in
-from skillc_compiler.library.skills import Compound, Skill, SkillLibrary, Task
-from skillc_compiler.library.tree import Node
+from skillc_model.reading import calls_in
+from skillc_model.skills import Compound, Skill, SkillLibrary, Task
+from skillc_model.tree import Node
 
 
 def emit(library: SkillLibrary) -> dict[str, str]:

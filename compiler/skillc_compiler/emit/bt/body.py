@@ -9,11 +9,11 @@ from xml.etree.ElementTree import Element
 from skillc_compiler.emit.bt.model import Kind, Model, Port
 from skillc_compiler.emit.bt.names import Names, entry, port
 from skillc_compiler.emit.bt.ports import plain_value, port_type
-from skillc_compiler.library.conditions import Condition, Expression, Variable
-from skillc_compiler.library.format_condition import format_expression
-from skillc_compiler.library.reading import free_variables_in_order
-from skillc_compiler.library.skills import Parameter, Post, SkillLibrary
-from skillc_compiler.library.vocabulary import Position, ValueType
+from skillc_model.conditions import Condition, Expression, Variable
+from skillc_model.format_condition import format_expression
+from skillc_model.reading import free_variables_in_order
+from skillc_model.skills import Parameter, Post, SkillLibrary
+from skillc_rdf.vocabulary.types import Position, ValueType
 
 
 @dataclass(frozen=True)

@@ -18,11 +18,11 @@ from skillc_compiler.emit.bt.ports import (
     tree_ports,
     whole_ports,
 )
-from skillc_compiler.library.closure import reachable
-from skillc_compiler.library.reading import calls_in
-from skillc_compiler.library.skills import Compound, Implementation, Parameter, Skill, SkillLibrary
-from skillc_compiler.library.tree import Call, Node
-from skillc_compiler.library.vocabulary import Position
+from skillc_model.reading import calls_in
+from skillc_model.skills import Compound, Implementation, Parameter, Skill, SkillLibrary
+from skillc_model.tree import Call, Node
+from skillc_rdf.vocabulary.closure import reachable
+from skillc_rdf.vocabulary.types import Position
 
 
 def is_tree(library: SkillLibrary, skill: Skill) -> bool:

@@ -17,10 +17,10 @@ from skillc_compiler.emit.bt.body import Writer, after, holding, pointer, sequen
 from skillc_compiler.emit.bt.calls import call, may_break_hold, scoped
 from skillc_compiler.emit.bt.model import Port
 from skillc_compiler.emit.bt.patterns import count_text, forget, kept, lead, once, sequence_of, until, while_
-from skillc_compiler.library.conditions import Arithmetic, Expression, Literal
-from skillc_compiler.library.reading import calls_in, free_variables_in_order, walk
-from skillc_compiler.library.skills import Post
-from skillc_compiler.library.tree import (
+from skillc_model.conditions import Arithmetic, Expression, Literal
+from skillc_model.reading import calls_in, free_variables_in_order, walk
+from skillc_model.skills import Post
+from skillc_model.tree import (
     Apply,
     Call,
     Check,

@@ -16,18 +16,10 @@ from typing import assert_never
 
 from skillc_compiler.emit.bt.model import Direction, Port
 from skillc_compiler.emit.bt.names import NOT_IN_XML, given, port
-from skillc_compiler.library.conditions import Expression, Individual, Literal
-from skillc_compiler.library.rewriting import constant_number
-from skillc_compiler.library.skills import Parameter
-from skillc_compiler.library.vocabulary import (
-    ClassType,
-    DirectionType,
-    ListType,
-    NumberType,
-    PlainType,
-    ValueType,
-    VectorType,
-)
+from skillc_model.conditions import Expression, Individual, Literal
+from skillc_model.rewriting import constant_number
+from skillc_model.skills import Parameter
+from skillc_rdf.vocabulary.types import ClassType, DirectionType, ListType, NumberType, PlainType, ValueType, VectorType
 
 PLAIN = {"Bool": "bool", "Int": "int", "Text": "std::string", "Pose": None}
 TAKEN_OTHERWISE = re.compile(

@@ -13,7 +13,7 @@ from functools import partial
 from xml.etree.ElementTree import Element
 
 from skillc_compiler.emit.bt.names import BUILT_IN
-from skillc_compiler.library.closure import reachable
+from skillc_rdf.vocabulary.closure import reachable
 
 Children = tuple[int, int]
 ANY = 10**6

@@ -11,10 +11,10 @@ from skillc_compiler.emit.bt.model import Model
 from skillc_compiler.emit.bt.names import Names, given, port
 from skillc_compiler.emit.bt.nodes import Body, started
 from skillc_compiler.emit.bt.ports import inferring_ports, passed_on
-from skillc_compiler.library.conditions import Expression, IsA, Variable
-from skillc_compiler.library.skills import Compound, Implementation, Post, Requirement, Skill, SkillLibrary
-from skillc_compiler.library.tree import Call
-from skillc_compiler.library.vocabulary import ClassType
+from skillc_model.conditions import Expression, IsA, Variable
+from skillc_model.skills import Compound, Implementation, Post, Requirement, Skill, SkillLibrary
+from skillc_model.tree import Call
+from skillc_rdf.vocabulary.types import ClassType
 
 DESCRIPTION = ""
 """Stands in a path of names where that of an implementation would."""

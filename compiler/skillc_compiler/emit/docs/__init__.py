@@ -7,13 +7,13 @@ from functools import cache
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 
 from skillc_compiler.emit.quantities import quantity_texts
-from skillc_compiler.library.conditions import Expression, Literal
-from skillc_compiler.library.format_condition import format_expression, format_literal
-from skillc_compiler.library.reading import calls_in
-from skillc_compiler.library.rewriting import constant_number
-from skillc_compiler.library.skills import Compound, Implementation, Parameter, Skill, SkillLibrary
-from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.library.words import type_text
+from skillc_model.conditions import Expression, Literal
+from skillc_model.format_condition import format_expression, format_literal
+from skillc_model.reading import calls_in
+from skillc_model.rewriting import constant_number
+from skillc_model.skills import Compound, Implementation, Parameter, Skill, SkillLibrary
+from skillc_model.words import type_text
+from skillc_rdf.vocabulary.types import Vocabulary
 
 KINDS = {"in": "required", "opt": "optional", "infer": "inferred", "out": "output"}
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
-from skillc_compiler.library.vocabulary import ClassType, ListType, Position, ValueType, Vocabulary, local_name
-from skillc_compiler.library.words import type_text
+from skillc_model.words import type_text
+from skillc_rdf.vocabulary.types import ClassType, ListType, Position, ValueType, Vocabulary, local_name
 
 _NAME = re.compile(r"[A-Za-z_][\w-]*(?::[A-Za-z_][\w-]*)?")
 

@@ -6,20 +6,9 @@ from collections.abc import Iterator
 
 import msgspec
 
-from skillc_compiler.library.conditions import (
-    Assert,
-    Assign,
-    Exists,
-    Forall,
-    HasProperty,
-    Holds,
-    Invoke,
-    IsA,
-    PropertyOf,
-    Retract,
-)
-from skillc_compiler.library.reading import calls_in, walk
-from skillc_compiler.library.vocabulary import ClassType
+from skillc_model.conditions import Assert, Assign, Exists, Forall, HasProperty, Holds, Invoke, IsA, PropertyOf, Retract
+from skillc_model.reading import calls_in, walk
+from skillc_rdf.vocabulary.types import ClassType
 
 
 def mentioned(item: msgspec.Struct) -> frozenset[str]:

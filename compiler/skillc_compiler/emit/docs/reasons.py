@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
-from skillc_compiler.library.skills import Implementation
-from skillc_compiler.library.vocabulary import ClassType, Vocabulary
-from skillc_compiler.library.words import type_text
+from skillc_model.skills import Implementation
+from skillc_model.words import type_text
+from skillc_rdf.vocabulary.types import ClassType, Vocabulary
 
 
 def reasons(ranked: Sequence[Implementation], vocabulary: Vocabulary) -> tuple[str, ...]:

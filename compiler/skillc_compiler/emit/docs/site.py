@@ -22,8 +22,8 @@ from skillc_compiler.emit.docs.terms_page import shown_terms, term_groups
 from skillc_compiler.emit.docs.written import Written, written
 from skillc_compiler.emit.picture import svg
 from skillc_compiler.emit.picture.drawing import task_box
-from skillc_compiler.library.skills import Skill, SkillLibrary, Task
 from skillc_compiler.program.typed import ReadFile
+from skillc_model.skills import Skill, SkillLibrary, Task
 
 ENTRIES = "[/* entries */]"
 """Where the script of the search box has its entries."""

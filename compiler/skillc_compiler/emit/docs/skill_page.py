@@ -15,9 +15,9 @@ from skillc_compiler.emit.docs.reasons import reasons
 from skillc_compiler.emit.docs.written import Written
 from skillc_compiler.emit.picture import svg
 from skillc_compiler.emit.picture.drawing import implementation_box
-from skillc_compiler.library.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
-from skillc_compiler.library.vocabulary import local_name
 from skillc_dsl import syntax as s
+from skillc_model.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
+from skillc_rdf.vocabulary.types import local_name
 
 COLUMNS = ("name", "kind", "type", "default", "range", "what it is")
 Row: TypeAlias = tuple[str, Markup, str, Markup]

@@ -12,16 +12,9 @@ from markupsafe import Markup
 from skillc_compiler.emit.docs import prose
 from skillc_compiler.emit.docs.linking import Links, anchor
 from skillc_compiler.emit.docs.mentions import mentioned
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.library.vocabulary import (
-    ClassTerm,
-    FunctionTerm,
-    PropertyTerm,
-    RelationTerm,
-    Vocabulary,
-    local_name,
-)
 from skillc_compiler.resolve.declared import namespace
+from skillc_model.skills import SkillLibrary
+from skillc_rdf.vocabulary.types import ClassTerm, FunctionTerm, PropertyTerm, RelationTerm, Vocabulary, local_name
 
 Term: TypeAlias = ClassTerm | RelationTerm | PropertyTerm | FunctionTerm
 

@@ -13,7 +13,7 @@ from skillc_compiler.emit.owl.skills import description, implementation
 from skillc_compiler.emit.owl.terms import used_terms
 from skillc_compiler.emit.owl.turtle import RDF_TYPE, Iri, Object, turtle
 from skillc_compiler.emit.owl.words import OWL, PREFIXES, RDFS, SKILLC, library_base
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.skills import SkillLibrary
 
 REPEATED = (
     "Terms of other vocabularies are repeated here as far as these skills need them, so that this file can be read by "

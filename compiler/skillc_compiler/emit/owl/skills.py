@@ -19,7 +19,7 @@ from skillc_compiler.emit.owl.words import (
     SKIROS,
     library_base,
 )
-from skillc_compiler.library.conditions import (
+from skillc_model.conditions import (
     Compare,
     Condition,
     HasProperty,
@@ -32,9 +32,9 @@ from skillc_compiler.library.conditions import (
     Term,
     Variable,
 )
-from skillc_compiler.library.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
-from skillc_compiler.library.vocabulary import ClassType, NumberType, Position
-from skillc_compiler.library.words import SI_UNITS
+from skillc_model.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
+from skillc_model.words import SI_UNITS
+from skillc_rdf.vocabulary.types import ClassType, NumberType, Position
 
 Statement = tuple[str, str, Object]
 BOUND = ("in", "infer")

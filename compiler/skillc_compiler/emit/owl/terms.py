@@ -6,11 +6,12 @@ from collections.abc import Iterator
 
 from skillc_compiler.emit.owl.turtle import RDF_TYPE, Anonymous, Iri, Listed, Object
 from skillc_compiler.emit.owl.words import DATATYPES, OWL, RDFS, SKILLC, XSD, frame, library_base
-from skillc_compiler.library.conditions import IsA
-from skillc_compiler.library.read_write import terms_read
-from skillc_compiler.library.reading import walk
-from skillc_compiler.library.skills import Implementation, Skill, SkillLibrary
-from skillc_compiler.library.vocabulary import (
+from skillc_model.conditions import IsA
+from skillc_model.read_write import terms_read
+from skillc_model.reading import walk
+from skillc_model.skills import Implementation, Skill, SkillLibrary
+from skillc_model.words import SI_UNITS
+from skillc_rdf.vocabulary.types import (
     THING,
     ClassType,
     NumberType,
@@ -20,7 +21,6 @@ from skillc_compiler.library.vocabulary import (
     VectorType,
     Vocabulary,
 )
-from skillc_compiler.library.words import SI_UNITS
 
 Statement = tuple[str, str, Object]
 FLAGS = {

@@ -7,10 +7,11 @@ from typing import assert_never
 
 from skillc_compiler.emit.owl.turtle import RDF_TYPE, Iri, Object
 from skillc_compiler.emit.owl.words import DATATYPES, DIMENSION, RDFS, SKILLC, XSD
-from skillc_compiler.library.conditions import Expression, Individual, Literal
-from skillc_compiler.library.format_condition import format_expression
-from skillc_compiler.library.rewriting import constant_number
-from skillc_compiler.library.vocabulary import (
+from skillc_model.conditions import Expression, Individual, Literal
+from skillc_model.format_condition import format_expression
+from skillc_model.rewriting import constant_number
+from skillc_model.words import SI_UNITS
+from skillc_rdf.vocabulary.types import (
     ClassType,
     DirectionType,
     ListType,
@@ -20,7 +21,6 @@ from skillc_compiler.library.vocabulary import (
     VectorType,
     Vocabulary,
 )
-from skillc_compiler.library.words import SI_UNITS
 
 Statement = tuple[str, str, Object]
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.emit.owl.turtle import RDF_TYPE, Iri, Object
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.skills import SkillLibrary
 
 OWL = "http://www.w3.org/2002/07/owl#"
 RDFS = "http://www.w3.org/2000/01/rdf-schema#"

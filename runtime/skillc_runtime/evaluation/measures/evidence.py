@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from skillc_compiler.library.conditions import Literal
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.conditions import Literal
+from skillc_model.skills import SkillLibrary
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.report.wiping import Wiping
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.outcome import Outcome
-from skillc_runtime.simulation.cell import SimulatedCell
 
 
 @dataclass(frozen=True, slots=True)

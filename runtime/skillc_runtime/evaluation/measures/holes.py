@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_runtime.backends.mujoco.fixture_spec import FixtureSpec
+from skillc_runtime.backends.mujoco.fixture_variation import FixtureVariation
+from skillc_runtime.backends.mujoco.names import part
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import InsertingWork, Work
-from skillc_runtime.simulation.fixture_facts import FixtureFacts
-from skillc_runtime.simulation.fixture_variation import FixtureVariation
-from skillc_runtime.simulation.names import part
 from skillc_runtime.world.state.data_sheet import number
 from skillc_runtime.world.state.terms import CONTAIN, DEPTH, PEG, SOCKET
 
@@ -22,7 +22,7 @@ def measure(evidence: RunEvidence) -> Iterator[Work]:
             yield _inserted(evidence, fixture, true, peg)
 
 
-def _inserted(evidence: RunEvidence, fixture: FixtureFacts, true: FixtureVariation, peg: str) -> InsertingWork:
+def _inserted(evidence: RunEvidence, fixture: FixtureSpec, true: FixtureVariation, peg: str) -> InsertingWork:
     cell = evidence.cell
     end = cell.data.site(part(cell.facts.names[peg], "face")).xpos
     return InsertingWork(

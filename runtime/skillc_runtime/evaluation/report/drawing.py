@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.devices.ground_truth import Recording, join_recordings
+from skillc_runtime.evaluation.metrics.lane_dwell import LINGERING, along_lanes
+from skillc_runtime.evaluation.metrics.wiping import measure_coverage
 from skillc_runtime.evaluation.report.wiping import Wiping, describe_wiping
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.dwell import LINGERING, along_lanes
-from skillc_runtime.simulation.metrics import measure_coverage
 
 EVERY = 5
 """Of so many steps one is drawn."""

@@ -7,12 +7,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.devices.ground_truth import Recording
 from skillc_runtime.evaluation.report.wiping import Wiping
+from skillc_runtime.film.film import Moment
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.outcome import Outcome
-from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.film import Moment
 
 GRASPED_S = 0.3
 """How long after the first moment at which a tool is held its grasp is looked at."""

@@ -9,10 +9,10 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from skillc_runtime.evaluation.report.figures import FigureFiles
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.table import reason_of, table_rows
+from skillc_runtime.film.film import SPEED_UP, Filmed
 from skillc_runtime.recording.known import assumed_facts, format_assumption, format_status
 from skillc_runtime.recording.outcome import Outcome
-from skillc_runtime.simulation.film import SPEED_UP, Filmed
-from skillc_runtime.world.labelled import format_value
+from skillc_runtime.world.state.labelled_text import format_value
 
 
 def render(

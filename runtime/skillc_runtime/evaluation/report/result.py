@@ -8,7 +8,7 @@ import msgspec
 
 from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.recording.known import KnownFact
-from skillc_runtime.world.labelled import LabelledValue
+from skillc_runtime.world.state.labelled import LabelledValue
 
 
 class StepResult(msgspec.Struct, frozen=True, kw_only=True):

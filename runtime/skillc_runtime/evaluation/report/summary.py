@@ -8,7 +8,8 @@ from typing import Literal
 import numpy as np
 from msgspec import structs
 
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.skills import SkillLibrary
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult
 from skillc_runtime.evaluation.report.wiping import Wiping, judge_wiping
 from skillc_runtime.execution.task_run import Execution
@@ -16,7 +17,6 @@ from skillc_runtime.planning.plan import describe_quality
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.outcome import Outcome
-from skillc_runtime.simulation.cell import SimulatedCell
 from skillc_runtime.world.state.terms import COMPLIANT_CONTROLLER
 
 ENDED: Mapping[Status, Literal["success", "failure", "halted"]] = {

@@ -6,15 +6,15 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from math import inf
 
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.evaluation.metrics.wiping import Stroke, WipingSetup, measure_wiping
 from skillc_runtime.evaluation.report.choices import Choices
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.primitives.primitive import Activity
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.outcome import Outcome
-from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.metrics import Stroke, WipingSetup, measure_wiping
-from skillc_runtime.world.labelled import Quantity
 from skillc_runtime.world.space.frames import size
+from skillc_runtime.world.state.labelled import Quantity
 from skillc_runtime.world.state.terms import SURFACE, TOOL
 
 FORCE = "force"

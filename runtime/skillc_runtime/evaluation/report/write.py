@@ -7,13 +7,13 @@ from pathlib import Path
 
 import msgspec
 
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.evaluation.report import page
 from skillc_runtime.evaluation.report.drawing import Drawing
 from skillc_runtime.evaluation.report.figures import FigureFiles, render_figure
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.execution.task_run import Execution
-from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.film import Filmed
+from skillc_runtime.film.film import Filmed
 
 FIGURE = "wiping"
 """Name of the figure's files, but for their ending."""

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import assert_never
 
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.mujoco.names import part
+from skillc_runtime.backends.mujoco.rng import rng_for
+from skillc_runtime.backends.mujoco.scene_spec import ArmSpec, SceneSpec
+from skillc_runtime.backends.mujoco.variation import Variation, deserted, draw, with_obstacles
 from skillc_runtime.evaluation.trials.trial import Disturbance
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.primitives.primitive import Activity
 from skillc_runtime.recording.events import Event, ImplementationChosen
-from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.simulation.facts import ArmFacts, SceneFacts
-from skillc_runtime.simulation.names import part
-from skillc_runtime.simulation.rng import rng_for
-from skillc_runtime.simulation.variation import Variation, deserted, draw, with_obstacles
 
 PUSH_N, PUSH_S = 30.0, 0.5
 """How hard and how long a person pushes."""
@@ -24,7 +24,7 @@ WORKING: tuple[Activity, ...] = ("follow-path", "search")
 """What is done while a person pushes."""
 
 
-def reality(disturbance: Disturbance, scene: SceneFacts, seed: int) -> Variation:
+def reality(disturbance: Disturbance, scene: SceneSpec, seed: int) -> Variation:
     """Draw how reality differs from the facts, and then disturb it."""
     drawn = draw(scene, seed)
     match disturbance:
@@ -63,12 +63,12 @@ class PushDisturbance:
             self._cell.data.body(hand).xfrc_applied[:3] = force if pushes else 0.0
             self.pushed |= pushes
 
-    def _decided(self, arm: ArmFacts, now: float) -> tuple[float, Array]:
+    def _decided(self, arm: ArmSpec, now: float) -> tuple[float, Array]:
         rng = rng_for(arm.individual, self._cell.variation.seed, 3)
         direction = rng.standard_normal(3)
         return now + float(rng.uniform(*PUSH_AFTER_S)), PUSH_N * direction / float((direction @ direction) ** 0.5)
 
 
-def _hand(arm: ArmFacts, cell: SimulatedCell) -> str:
+def _hand(arm: ArmSpec, cell: SimulatedCell) -> str:
     assert arm.gripper is not None, "what works along a path holds a tool"
     return part(cell.facts.names[arm.gripper.individual], "palm")

@@ -8,8 +8,9 @@ from functools import partial
 from math import inf
 from pathlib import Path
 
-from skillc_compiler.library import codec
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model import codec
+from skillc_model.skills import SkillLibrary
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.evaluation.measures import buttons, holes, poses, surfaces
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import Work
@@ -30,10 +31,9 @@ from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.known import assumed_facts
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.simulation.cell import SimulatedCell
-from skillc_runtime.world.labelled import format_fact
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError, number
+from skillc_runtime.world.state.labelled_text import format_fact
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import CONTACT_FORCE_LIMIT
 from skillc_runtime.world.state.world_state import WorldState

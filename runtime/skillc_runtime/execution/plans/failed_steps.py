@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from skillc_compiler.library.read_write import FactPattern, facts_read
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.read_write import FactPattern, facts_read
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.validation import PlanError, apply_step, find_startable_implementations
 from skillc_runtime.planning.world_changes import changed_between

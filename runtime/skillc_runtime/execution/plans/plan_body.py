@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import assert_never
 
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import And, Condition, Expression, Individual, Not
-from skillc_compiler.library.reading import free_variables
-from skillc_compiler.library.rewriting import substitute
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.library.vocabulary import Position
+from skillc_model import tree
+from skillc_model.conditions import And, Condition, Expression, Individual, Not
+from skillc_model.reading import free_variables
+from skillc_model.rewriting import substitute
+from skillc_model.skills import SkillLibrary
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSeries
 from skillc_runtime.planning.plan import Plan, Step
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.conditions import Condition
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.plans.plan_body import achieved_condition
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.validation import PlanError, apply_effects, apply_step, check_goal_reached

@@ -4,17 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from skillc_compiler.library.skills import Parameter
-from skillc_compiler.library.vocabulary import (
-    THING,
-    ClassType,
-    DirectionType,
-    ValueType,
-    Vocabulary,
-    local_name,
-)
-from skillc_compiler.library.words import type_text
-from skillc_runtime.world.labelled import format_value, label_value
+from skillc_model.skills import Parameter
+from skillc_model.words import type_text
+from skillc_rdf.vocabulary.types import THING, ClassType, DirectionType, ValueType, Vocabulary, local_name
+from skillc_runtime.world.state.labelled import label_value
+from skillc_runtime.world.state.labelled_text import format_value
 from skillc_runtime.world.state.value_types import is_of
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.vectors import is_vector

@@ -6,15 +6,16 @@ import re
 from collections.abc import Mapping, Set
 from dataclasses import dataclass, field
 
-from skillc_compiler.library.reading import free_variables
-from skillc_compiler.library.skills import Implementation, Parameter, Post, Requirement
+from skillc_model.reading import free_variables
+from skillc_model.skills import Implementation, Parameter, Post, Requirement
 from skillc_runtime.execution.selection.arguments import check_value
 from skillc_runtime.execution.selection.inferred_parameters import InferredParameters, infer_parameters
 from skillc_runtime.recording.failure import Rejection, Stage
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.expressions import value_of
-from skillc_runtime.world.labelled import format_value, label_bindings
+from skillc_runtime.world.state.labelled import label_bindings
+from skillc_runtime.world.state.labelled_text import format_value
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Set
 
-from skillc_compiler.library.reading import free_variables
-from skillc_compiler.library.skills import Implementation, Parameter, Requirement
+from skillc_model.reading import free_variables
+from skillc_model.skills import Implementation, Parameter, Requirement
 from skillc_runtime.execution.selection.binding import BoundImplementation
 from skillc_runtime.recording.reasons import DecidingCondition, ParameterReason
 from skillc_runtime.world.eval.support import deciding_facts
-from skillc_runtime.world.labelled import label
+from skillc_runtime.world.state.labelled import label
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 

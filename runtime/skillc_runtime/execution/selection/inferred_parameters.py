@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field
 
-from skillc_compiler.library.reading import free_variables
-from skillc_compiler.library.skills import Implementation, Parameter, Requirement
-from skillc_compiler.library.vocabulary import ClassType, Vocabulary
+from skillc_model.reading import free_variables
+from skillc_model.skills import Implementation, Parameter, Requirement
+from skillc_rdf.vocabulary.types import ClassType, Vocabulary
 from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.explain import explain

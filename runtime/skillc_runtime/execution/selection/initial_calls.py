@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.library import tree
-from skillc_compiler.library.reading import free_variables
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model import tree
+from skillc_model.reading import free_variables
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.selection.preflight import Refusal
 from skillc_runtime.execution.selection.select import NoneSelected, explain_none_selected, select_implementation
 from skillc_runtime.world.eval.expressions import value_of

@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias, assert_never
 
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Condition, Expression, Variable
-from skillc_compiler.library.read_write import changing_terms, is_fixed
-from skillc_compiler.library.reading import free_variables
-from skillc_compiler.library.skills import Compound, Implementation, Primitive, SkillLibrary
-from skillc_compiler.library.vocabulary import Position
+from skillc_model import tree
+from skillc_model.conditions import Condition, Expression, Variable
+from skillc_model.read_write import changing_terms, is_fixed
+from skillc_model.reading import free_variables
+from skillc_model.skills import Compound, Implementation, Primitive, SkillLibrary
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.selection.binding import bind_arguments
 from skillc_runtime.execution.selection.inferred_parameters import infer_fixed_parameters
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_matching_primitive

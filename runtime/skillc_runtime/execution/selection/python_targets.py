@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from typing import get_args
 
-from skillc_compiler.library.skills import Parameter
+from skillc_model.skills import Parameter
 from skillc_runtime.primitives.primitive import Activity, Phase, Primitive
 from skillc_runtime.world.state.python_calls import EvaluationError, load_python
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from skillc_compiler.library.skills import Implementation, SkillLibrary
+from skillc_model.skills import Implementation, SkillLibrary
 from skillc_runtime.execution.selection.binding import BoundImplementation, bind_implementation
 from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.world.state.values import Value

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from skillc_compiler.library.conditions import Condition, Expression, Invoke, PropertyOf
-from skillc_compiler.library.read_write import is_fixed
-from skillc_compiler.library.reading import free_variables, walk
+from skillc_model.conditions import Condition, Expression, Invoke, PropertyOf
+from skillc_model.read_write import is_fixed
+from skillc_model.reading import free_variables, walk
 from skillc_runtime.execution.selection.python_targets import check_function
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.space.frame_tree import MissingFact

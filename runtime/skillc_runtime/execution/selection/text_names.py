@@ -9,11 +9,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Variable
-from skillc_compiler.library.reading import calls_in
-from skillc_compiler.library.skills import Implementation, Primitive, SkillLibrary
-from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_model import tree
+from skillc_model.conditions import Variable
+from skillc_model.reading import calls_in
+from skillc_model.skills import Implementation, Primitive, SkillLibrary
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_primitive
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from skillc_compiler.library.skills import Parameter, SkillLibrary
-from skillc_compiler.library.vocabulary import ClassType
+from skillc_model.skills import Parameter, SkillLibrary
+from skillc_rdf.vocabulary.types import ClassType
 from skillc_runtime.world.state.world_state import WorldState
 
 

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TypeAlias, assert_never, cast
 
-from skillc_compiler.library import tree
-from skillc_compiler.library.skills import Compound, Implementation, Primitive, Skill
+from skillc_model import tree
+from skillc_model.skills import Compound, Implementation, Primitive, Skill
 from skillc_runtime.execution.selection.arguments import check_value
 from skillc_runtime.execution.selection.binding import BoundImplementation, check_requirements, describe_unmet_condition
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_matching_primitive

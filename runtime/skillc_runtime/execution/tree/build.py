@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import assert_never
 
-from skillc_compiler.library import tree
+from skillc_model import tree
 from skillc_runtime.execution.tree.call_node import CallNode
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.decorators import InvertNode, OnceNode, TimeoutNode, TryNode

@@ -7,9 +7,9 @@ from typing import ClassVar
 
 from msgspec import structs
 
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Variable
-from skillc_compiler.library.skills import Implementation
+from skillc_model import tree
+from skillc_model.conditions import Variable
+from skillc_model.skills import Implementation
 from skillc_runtime.execution.selection.binding import bind_implementation
 from skillc_runtime.execution.selection.select import explain_none_selected, ranked_implementations
 from skillc_runtime.execution.tree.activation import Activation, BuildNode, activate
@@ -28,7 +28,7 @@ from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure, Rejection, as_failure
 from skillc_runtime.recording.reasons import FailedCallContext
 from skillc_runtime.world.eval.expressions import value_of
-from skillc_runtime.world.labelled import LabelledFact
+from skillc_runtime.world.state.labelled import LabelledFact
 
 _STAGES = ("argument", "inference", "pre", "hold", "lock", "start", "run")
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.library.vocabulary import Position
+from skillc_model.skills import SkillLibrary
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.recording.events import Listener, Note

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from skillc_compiler.library.skills import Implementation, Primitive, Skill
-from skillc_compiler.library.tree import Call
+from skillc_model.skills import Implementation, Primitive, Skill
+from skillc_model.tree import Call
 from skillc_runtime.execution.selection.binding import bind_implementation
 from skillc_runtime.execution.selection.binding_reasons import explain_bindings
 from skillc_runtime.execution.selection.python_targets import import_primitive
@@ -17,7 +17,7 @@ from skillc_runtime.recording.events import Highlight, ImplementationChosen, Wor
 from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.recording.reasons import FailedCallContext, UntriedImplementation
 from skillc_runtime.world.eval.support import deciding_facts
-from skillc_runtime.world.labelled import Iri, LabelledFact, LabelledValue, label_bindings, label_change
+from skillc_runtime.world.state.labelled import Iri, LabelledFact, LabelledValue, label_bindings, label_change
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.transactions import ChangeEvent
 from skillc_runtime.world.state.values import Value

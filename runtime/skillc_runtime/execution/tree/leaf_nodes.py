@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import ClassVar
 
-from skillc_compiler.library import tree
-from skillc_compiler.library.conditions import Expression
+from skillc_model import tree
+from skillc_model.conditions import Expression
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
 from skillc_runtime.execution.tree.node import RUNNING, Node

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol, TypeAlias
 
-from skillc_compiler.library.skills import Implementation
+from skillc_model.skills import Implementation
 from skillc_runtime.execution.tree.undo_stack import UndoStack
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from skillc_compiler.library.vocabulary import Position
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.errors import describe_exception
 from skillc_runtime.primitives.primitive import Status

@@ -6,14 +6,14 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import ClassVar
 
-from skillc_compiler.library.vocabulary import Position
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.errors import describe_exception
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.execution.tree.undo_stack import UndoStack
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.world.labelled import LabelledValue
+from skillc_runtime.world.state.labelled import LabelledValue
 
 NO_VALUES: Mapping[str, LabelledValue] = MappingProxyType({})
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from skillc_compiler.library import tree
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model import tree
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.cell import Cell, WatchdogTimeout
 from skillc_runtime.execution.success_facts import Claim
 from skillc_runtime.execution.tree.active_path import ActivePath

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from skillc_compiler.library.reading import conjuncts
-from skillc_compiler.library.skills import Post
+from skillc_model.reading import conjuncts
+from skillc_model.skills import Post
 from skillc_runtime.execution.tree.lexical_scope import Frame
 from skillc_runtime.world.eval.grounds import Ground, grounds
-from skillc_runtime.world.labelled import format_fact, label_fact
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.evidence import Established, statement
+from skillc_runtime.world.state.labelled import label_fact
+from skillc_runtime.world.state.labelled_text import format_fact
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.values import equal
 

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from skillc_compiler.library.conditions import Compare, Literal
-from skillc_compiler.library.properties import Is, Measures, Property
-from skillc_compiler.library.skills import Implementation
-from skillc_compiler.library.vocabulary import ClassType, Vocabulary
+from skillc_model.conditions import Compare, Literal
+from skillc_model.properties import Is, Measures, Property
+from skillc_model.skills import Implementation
+from skillc_rdf.vocabulary.types import ClassType, Vocabulary
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.execution.tree.lexical_scope import Frame
 from skillc_runtime.recording.failure import Failure

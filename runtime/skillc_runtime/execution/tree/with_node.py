@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from skillc_compiler.library import tree
+from skillc_model import tree
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.node import RUNNING, SUCCESS, Node
 from skillc_runtime.execution.tree.undo_stack import UndoStack

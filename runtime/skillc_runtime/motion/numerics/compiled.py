@@ -21,7 +21,7 @@ from inspect import get_annotations, isfunction
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar, get_args, get_origin, get_type_hints
 
-from skillc_runtime.cache_folder import cache_folder
+from skillc_dsl.cache import cache_folder
 
 Parameters = ParamSpec("Parameters")
 Result = TypeVar("Result")

@@ -17,8 +17,8 @@ from itertools import product
 from math import prod
 from typing import assert_never
 
-from skillc_compiler.library.pddl.costs import ASSUMED_SECONDS
-from skillc_compiler.library.pddl.domain import (
+from skillc_model.pddl.costs import ASSUMED_SECONDS
+from skillc_model.pddl.domain import (
     ClassFact,
     CostFunction,
     GoalFact,
@@ -28,9 +28,9 @@ from skillc_compiler.library.pddl.domain import (
     PropertyFact,
     RelationFact,
 )
-from skillc_compiler.library.pddl.formulas import Atom, Typed
-from skillc_compiler.library.pddl.names import fresh
-from skillc_compiler.library.pddl.problem import CostValue, Problem
+from skillc_model.pddl.formulas import Atom, Typed
+from skillc_model.pddl.names import fresh
+from skillc_model.pddl.problem import CostValue, Problem
 from skillc_runtime.planning.abstraction.relaxation import DomainRelaxation, NotRelaxable
 from skillc_runtime.planning.problem.initial_state import TooManyValues, evaluate_duration_s
 from skillc_runtime.planning.problem.pose import Posed

@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import assert_never
 
-from skillc_compiler.library.pddl.domain import ROOT, Action, ClassFact, PlanningDomain, Predicate, RelationFact
-from skillc_compiler.library.pddl.formulas import (
+from skillc_model.pddl.domain import ROOT, Action, ClassFact, PlanningDomain, Predicate, RelationFact
+from skillc_model.pddl.formulas import (
     TRUE,
     Atom,
     Change,
@@ -26,9 +26,9 @@ from skillc_compiler.library.pddl.formulas import (
     conjunction,
     disjunction,
 )
-from skillc_compiler.library.pddl.names import fresh
-from skillc_compiler.library.read_write import unique_sides
-from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_model.pddl.names import fresh
+from skillc_model.read_write import unique_sides
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.planning.problem.relevance import list_literals
 
 

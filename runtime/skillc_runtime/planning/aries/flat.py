@@ -11,8 +11,8 @@ from itertools import count, product
 from math import prod
 from typing import TypeAlias, assert_never
 
-from skillc_compiler.library.pddl.domain import Action
-from skillc_compiler.library.pddl.formulas import (
+from skillc_model.pddl.domain import Action
+from skillc_model.pddl.formulas import (
     TRUE,
     Atom,
     Change,
@@ -25,9 +25,9 @@ from skillc_compiler.library.pddl.formulas import (
     Typed,
     Universal,
 )
-from skillc_compiler.library.pddl.prepare import prepared
-from skillc_compiler.library.pddl.problem import Problem
-from skillc_compiler.library.pddl.text import used_up
+from skillc_model.pddl.prepare import prepared
+from skillc_model.pddl.problem import Problem
+from skillc_model.pddl.text import used_up
 
 MOST_CASES = 64
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import assert_never
 
-from skillc_compiler.library.pddl.domain import ROOT, ComputedCost, Cost, FixedCost, PlanningDomain
-from skillc_compiler.library.pddl.formulas import Atom, Change, Equal, Negation, Typed
-from skillc_compiler.library.pddl.problem import Problem
+from skillc_model.pddl.domain import ROOT, ComputedCost, Cost, FixedCost, PlanningDomain
+from skillc_model.pddl.formulas import Atom, Change, Equal, Negation, Typed
+from skillc_model.pddl.problem import Problem
 from skillc_runtime.planning.aries.flat import FlatAction, FlatProblem, Literal
 from skillc_runtime.planning.aries.wire import encode_message, encode_nested, encode_number, encode_text
 

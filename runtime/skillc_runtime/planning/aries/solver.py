@@ -10,8 +10,8 @@ from importlib.util import find_spec
 from itertools import count
 from pathlib import Path
 
-from skillc_compiler.library.pddl.costs import MOST_UNITS
-from skillc_compiler.library.pddl.problem import Problem, durations
+from skillc_model.pddl.costs import MOST_UNITS
+from skillc_model.pddl.problem import Problem, durations
 from skillc_runtime.planning.aries.flat import FlatProblem, NotTemporal, flatten_problem
 from skillc_runtime.planning.aries.messages import action_name, encode_problem
 from skillc_runtime.planning.plan import GaveUp

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 
-from skillc_compiler.library.pddl.complement import complemented
-from skillc_compiler.library.pddl.formulas import FALSE
-from skillc_compiler.library.pddl.prepare import prepared
-from skillc_compiler.library.pddl.problem import Problem
-from skillc_compiler.library.pddl.text import domain_text, problem_text
+from skillc_model.pddl.complement import complemented
+from skillc_model.pddl.formulas import FALSE
+from skillc_model.pddl.prepare import prepared
+from skillc_model.pddl.problem import Problem
+from skillc_model.pddl.text import domain_text, problem_text
 from skillc_runtime.planning.fast_downward.heuristics import Heuristic, choose_heuristics, read_task_features
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.plan_text import PlanTextError, cost_plan

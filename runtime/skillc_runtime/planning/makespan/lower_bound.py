@@ -5,8 +5,8 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 
-from skillc_compiler.library.pddl.devices import devices
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.pddl.devices import devices
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.plan import Planner, Solved
 from skillc_runtime.planning.problem.pose import Posed
 from skillc_runtime.planning.schedule import Schedule

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
-from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.conditions import Condition
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.makespan.lower_bound import TOLERANCE_S, makespan_lower_bound_s
 from skillc_runtime.planning.makespan.scheduling import schedule_plan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule

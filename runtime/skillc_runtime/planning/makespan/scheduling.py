@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import assert_never
 
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSeries, arrange_plan
 from skillc_runtime.planning.plan import Plan
 from skillc_runtime.planning.schedule import Schedule, TimedStep

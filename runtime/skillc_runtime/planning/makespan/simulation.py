@@ -10,10 +10,10 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
-from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.pddl.devices import devices
-from skillc_compiler.library.read_write import ReadWriteSet
-from skillc_compiler.library.skills import Implementation, SkillLibrary
+from skillc_model.conditions import Condition
+from skillc_model.pddl.devices import devices
+from skillc_model.read_write import ReadWriteSet
+from skillc_model.skills import Implementation, SkillLibrary
 from skillc_runtime.planning.arrangement import read_write_set
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.schedule import Schedule, TimedStep

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
-from skillc_compiler.library.pddl.constants import mentions
-from skillc_compiler.library.pddl.domain import PlanningDomain
-from skillc_compiler.library.pddl.planning import planning_domain
-from skillc_compiler.library.skills import SkillLibrary
+from skillc_model.pddl.constants import mentions
+from skillc_model.pddl.domain import PlanningDomain
+from skillc_model.pddl.planning import planning_domain
+from skillc_model.skills import SkillLibrary
 
 REMEMBERED = 4
 

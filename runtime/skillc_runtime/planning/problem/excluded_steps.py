@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from skillc_compiler.library.pddl.domain import Action, PlanningDomain
-from skillc_compiler.library.pddl.formulas import Equal, Negation, Typed, conjunction, disjunction
+from skillc_model.pddl.domain import Action, PlanningDomain
+from skillc_model.pddl.formulas import Equal, Negation, Typed, conjunction, disjunction
 from skillc_runtime.planning.plan import Step
 
 

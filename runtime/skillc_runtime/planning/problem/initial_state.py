@@ -8,9 +8,9 @@ from itertools import product
 from math import prod
 from typing import assert_never
 
-from skillc_compiler.library.conditions import Expression
-from skillc_compiler.library.pddl.costs import ASSUMED_SECONDS, exact_seconds
-from skillc_compiler.library.pddl.domain import (
+from skillc_model.conditions import Expression
+from skillc_model.pddl.costs import ASSUMED_SECONDS, exact_seconds
+from skillc_model.pddl.domain import (
     ClassFact,
     CostFunction,
     GoalFact,
@@ -20,8 +20,8 @@ from skillc_compiler.library.pddl.domain import (
     PropertyFact,
     RelationFact,
 )
-from skillc_compiler.library.pddl.formulas import Atom, Typed
-from skillc_compiler.library.pddl.problem import CostValue
+from skillc_model.pddl.formulas import Atom, Typed
+from skillc_model.pddl.problem import CostValue
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.state.properties import property_of

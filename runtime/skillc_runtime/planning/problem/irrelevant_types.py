@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Set
 from typing import assert_never
 
-from skillc_compiler.library.pddl.domain import Meaning, PlanningDomain, Predicate, PropertyFact, RelationFact
-from skillc_compiler.library.pddl.formulas import (
+from skillc_model.pddl.domain import Meaning, PlanningDomain, Predicate, PropertyFact, RelationFact
+from skillc_model.pddl.formulas import (
     FALSE,
     TRUE,
     Atom,
@@ -25,7 +25,7 @@ from skillc_compiler.library.pddl.formulas import (
     conjunction,
     disjunction,
 )
-from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.world.state.world_state import WorldState
 
 

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from heapq import nsmallest
 
-from skillc_compiler.library.pddl.domain import GuardFact, PlanningDomain, RelationFact
+from skillc_model.pddl.domain import GuardFact, PlanningDomain, RelationFact
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState

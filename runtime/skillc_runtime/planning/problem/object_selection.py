@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import TypeAlias
 
-from skillc_compiler.library.pddl.constants import lowest
-from skillc_compiler.library.pddl.domain import PlanningDomain
-from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_model.pddl.constants import lowest
+from skillc_model.pddl.domain import PlanningDomain
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.planning.plan import LeftOut
 from skillc_runtime.planning.problem.irrelevant_types import find_relevant_types, has_written_fact
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize, select_near

@@ -9,18 +9,18 @@ from dataclasses import dataclass, field, replace
 
 import msgspec
 
-from skillc_compiler.library.conditions import Anything, Condition, Exists, Forall, Holds, Individual
-from skillc_compiler.library.pddl.constants import lowest
-from skillc_compiler.library.pddl.costs import common_scale
-from skillc_compiler.library.pddl.domain import Action, ComputedCost, PlanningDomain
-from skillc_compiler.library.pddl.formulas import TRUE, Formula, Typed, renamed
-from skillc_compiler.library.pddl.goals import ground_goal, with_predicates_of
-from skillc_compiler.library.pddl.names import object_names
-from skillc_compiler.library.pddl.problem import Problem, durations
-from skillc_compiler.library.pddl.translate import Untranslatable
-from skillc_compiler.library.reading import walk
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_model.conditions import Anything, Condition, Exists, Forall, Holds, Individual
+from skillc_model.pddl.constants import lowest
+from skillc_model.pddl.costs import common_scale
+from skillc_model.pddl.domain import Action, ComputedCost, PlanningDomain
+from skillc_model.pddl.formulas import TRUE, Formula, Typed, renamed
+from skillc_model.pddl.goals import ground_goal, with_predicates_of
+from skillc_model.pddl.names import object_names
+from skillc_model.pddl.problem import Problem, durations
+from skillc_model.pddl.translate import Untranslatable
+from skillc_model.reading import walk
+from skillc_model.skills import SkillLibrary
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.planning.plan import LeftOut, Step
 from skillc_runtime.planning.problem.domain_cache import get_planning_domain
 from skillc_runtime.planning.problem.excluded_steps import exclude_steps

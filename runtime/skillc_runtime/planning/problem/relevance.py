@@ -14,8 +14,8 @@ from collections.abc import Iterable, Iterator, Set
 from dataclasses import dataclass, replace
 from typing import TypeAlias, assert_never
 
-from skillc_compiler.library.pddl.domain import Action, PlanningDomain
-from skillc_compiler.library.pddl.formulas import (
+from skillc_model.pddl.domain import Action, PlanningDomain
+from skillc_model.pddl.formulas import (
     Atom,
     Change,
     Conjunction,
@@ -27,7 +27,7 @@ from skillc_compiler.library.pddl.formulas import (
     Universal,
     conjunction,
 )
-from skillc_compiler.library.pddl.typed import action_terms
+from skillc_model.pddl.typed import action_terms
 
 Literal: TypeAlias = tuple[str, bool]
 

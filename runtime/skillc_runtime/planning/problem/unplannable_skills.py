@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Set
 
-from skillc_compiler.library.conditions import Condition
-from skillc_compiler.library.pddl.domain import Excluded
-from skillc_compiler.library.read_write import terms_read, terms_read_by, terms_written
-from skillc_compiler.library.skills import SkillLibrary
-from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_model.conditions import Condition
+from skillc_model.pddl.domain import Excluded
+from skillc_model.read_write import terms_read, terms_read_by, terms_written
+from skillc_model.skills import SkillLibrary
+from skillc_rdf.vocabulary.types import Vocabulary
 
 
 def select_skills_that_may_matter(

@@ -9,17 +9,8 @@ from heapq import heappop, heappush
 from itertools import count
 from typing import TypeAlias, assert_never
 
-from skillc_compiler.library.pddl.formulas import (
-    Atom,
-    Conjunction,
-    Disjunction,
-    Equal,
-    Existential,
-    Formula,
-    Negation,
-    Universal,
-)
-from skillc_compiler.library.pddl.problem import Problem
+from skillc_model.pddl.formulas import Atom, Conjunction, Disjunction, Equal, Existential, Formula, Negation, Universal
+from skillc_model.pddl.problem import Problem
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.plan_text import cost_plan
 from skillc_runtime.planning.search.grounding import GroundAction, Grounding, GroundingTimeout

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 
-from skillc_compiler.library.pddl.domain import Action, FixedCost
-from skillc_compiler.library.pddl.formulas import Equal, Negation, conjunction
-from skillc_compiler.library.pddl.names import fresh
-from skillc_compiler.library.pddl.problem import Problem
+from skillc_model.pddl.domain import Action, FixedCost
+from skillc_model.pddl.formulas import Equal, Negation, conjunction
+from skillc_model.pddl.names import fresh
+from skillc_model.pddl.problem import Problem
 
 
 def price_device_work(problem: Problem, device: str) -> Problem:

@@ -13,8 +13,8 @@ from functools import cached_property
 from itertools import product
 from typing import TypeAlias, assert_never
 
-from skillc_compiler.library.pddl.domain import Action, ComputedCost, FixedCost
-from skillc_compiler.library.pddl.formulas import (
+from skillc_model.pddl.domain import Action, ComputedCost, FixedCost
+from skillc_model.pddl.formulas import (
     FALSE,
     TRUE,
     Atom,
@@ -30,7 +30,7 @@ from skillc_compiler.library.pddl.formulas import (
     conjuncts,
     disjunction,
 )
-from skillc_compiler.library.pddl.problem import Problem
+from skillc_model.pddl.problem import Problem
 from skillc_runtime.planning.typed_variables import list_typed_variables
 
 Values: TypeAlias = Mapping[str, str]

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from heapq import heappop, heappush
 from itertools import product
 
-from skillc_compiler.library.pddl.formulas import Atom, Conjunction, Disjunction, Formula, Negation
-from skillc_compiler.library.pddl.problem import Problem
+from skillc_model.pddl.formulas import Atom, Conjunction, Disjunction, Formula, Negation
+from skillc_model.pddl.problem import Problem
 from skillc_runtime.planning.search.grounding import GroundAction, Grounding, GroundingTimeout
 
 MAX_CASES = 64

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from skillc_compiler.library.vocabulary import THING, Vocabulary
-from skillc_compiler.turtle.statements import Statement
-from skillc_compiler.turtle.terms import RDF_TYPE
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_rdf.turtle.statements import Statement
+from skillc_rdf.turtle.terms import RDF_TYPE
+from skillc_rdf.vocabulary.types import THING, Vocabulary
 from skillc_runtime.scene.standard_terms import is_misspelt, standard_terms
 from skillc_runtime.scene.statements import SUBCLASS, iri_of
 from skillc_runtime.scene.suggestions import suggest

@@ -8,9 +8,9 @@ from itertools import pairwise
 
 import pyoxigraph as ox
 
-from skillc_compiler.turtle.statements import Node, Statement
-from skillc_compiler.turtle.terms import OWL, RDF, RDF_TYPE
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_rdf.turtle.statements import Node, Statement
+from skillc_rdf.turtle.terms import OWL, RDF, RDF_TYPE
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.store.literals import LiteralError, read
 from skillc_runtime.world.state.values import has

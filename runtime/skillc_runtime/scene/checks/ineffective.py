@@ -7,12 +7,12 @@ from collections.abc import Iterable, Iterator, Sequence, Set
 
 import pyoxigraph as ox
 
-from skillc_compiler.library.closure import reachable
-from skillc_compiler.library.vocabulary import THING, Vocabulary
-from skillc_compiler.turtle.statements import Node, Statement
-from skillc_compiler.turtle.terms import OWL, RDF, RDF_TYPE
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
+from skillc_rdf.turtle.statements import Node, Statement
+from skillc_rdf.turtle.terms import OWL, RDF, RDF_TYPE
+from skillc_rdf.vocabulary.closure import reachable
+from skillc_rdf.vocabulary.types import THING, Vocabulary
 from skillc_runtime.scene.standard_terms import is_misspelt
 from skillc_runtime.scene.statements import (
     ANNOTATION,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.library.vocabulary import NumberType, PlainType
-from skillc_compiler.library.words import SI_UNITS
+from skillc_model.words import SI_UNITS
+from skillc_rdf.vocabulary.types import NumberType, PlainType
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.state.world_state import WorldState
 

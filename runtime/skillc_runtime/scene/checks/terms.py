@@ -7,11 +7,11 @@ from typing import Literal
 
 import pyoxigraph as ox
 
-from skillc_compiler.library.vocabulary import Vocabulary
-from skillc_compiler.turtle.statements import Node, Statement
-from skillc_compiler.turtle.terms import RDF, RDF_TYPE
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
+from skillc_rdf.turtle.statements import Node, Statement
+from skillc_rdf.turtle.terms import RDF, RDF_TYPE
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.standard_terms import is_misspelt, standard_terms
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.scene.suggestions import suggest

@@ -6,7 +6,7 @@ import operator
 from collections.abc import Callable
 from typing import TypeAlias, assert_never
 
-from skillc_compiler.library.conditions import (
+from skillc_model.conditions import (
     And,
     Anything,
     Compare,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import assert_never
 
-from skillc_compiler.library.conditions import Anything, Assert, Assign, Effect, Individual, Retract, Variable
+from skillc_model.conditions import Anything, Assert, Assign, Effect, Individual, Retract, Variable
 from skillc_runtime.world.eval.expressions import Bindings, bound, value_of
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.python_calls import EvaluationError

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import assert_never
 
-from skillc_compiler.library.conditions import (
+from skillc_model.conditions import (
     And,
     Anything,
     Arithmetic,
@@ -28,8 +28,8 @@ from skillc_compiler.library.conditions import (
     Term,
     Variable,
 )
-from skillc_compiler.library.format_condition import format_relation
-from skillc_compiler.library.vocabulary import Vocabulary, local_name
+from skillc_model.format_condition import format_relation
+from skillc_rdf.vocabulary.types import Vocabulary, local_name
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import Bindings, compile_expression, missing
 from skillc_runtime.world.state.python_calls import EvaluationError

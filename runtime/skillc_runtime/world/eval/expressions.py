@@ -8,7 +8,7 @@ from typing import TypeAlias, assert_never
 
 import numpy as np
 
-from skillc_compiler.library.conditions import (
+from skillc_model.conditions import (
     Anything,
     Arithmetic,
     Expression,
@@ -19,8 +19,8 @@ from skillc_compiler.library.conditions import (
     Term,
     Variable,
 )
-from skillc_compiler.library.vocabulary import local_name
-from skillc_compiler.library.words import type_text
+from skillc_model.words import type_text
+from skillc_rdf.vocabulary.types import local_name
 from skillc_runtime.world.eval.identity_cache import ByIdentity
 from skillc_runtime.world.state.properties import property_of, value_from_python
 from skillc_runtime.world.state.python_calls import EvaluationError

@@ -8,7 +8,7 @@ from typing import TypeAlias, assert_never
 
 import msgspec
 
-from skillc_compiler.library.conditions import (
+from skillc_model.conditions import (
     And,
     Compare,
     Condition,
@@ -25,7 +25,7 @@ from skillc_compiler.library.conditions import (
     Same,
     Variable,
 )
-from skillc_compiler.library.reading import walk
+from skillc_model.reading import walk
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import Bindings, iri_of
 from skillc_runtime.world.state.evidence import Established, pairs

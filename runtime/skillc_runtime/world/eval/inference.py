@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from skillc_compiler.library.conditions import Condition, Exists
-from skillc_compiler.library.reading import free_variables
-from skillc_compiler.library.skills import Parameter, Requirement
-from skillc_compiler.library.vocabulary import ClassType
+from skillc_model.conditions import Condition, Exists
+from skillc_model.reading import free_variables
+from skillc_model.skills import Parameter, Requirement
+from skillc_rdf.vocabulary.types import ClassType
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.expressions import Bindings
 from skillc_runtime.world.eval.join import solutions

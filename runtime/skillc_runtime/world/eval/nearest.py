@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from skillc_compiler.library.conditions import Condition, IsA, Variable
-from skillc_compiler.library.reading import free_variables
-from skillc_compiler.library.skills import Requirement
-from skillc_compiler.library.vocabulary import THING
+from skillc_model.conditions import Condition, IsA, Variable
+from skillc_model.reading import free_variables
+from skillc_model.skills import Requirement
+from skillc_rdf.vocabulary.types import THING
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.expressions import Bindings
 from skillc_runtime.world.eval.join import solutions

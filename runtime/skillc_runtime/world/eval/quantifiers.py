@@ -5,19 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeAlias, TypeGuard
 
-from skillc_compiler.library.conditions import (
-    And,
-    Anything,
-    Condition,
-    Exists,
-    Forall,
-    Holds,
-    Individual,
-    Not,
-    Or,
-    Term,
-    Variable,
-)
+from skillc_model.conditions import And, Anything, Condition, Exists, Forall, Holds, Individual, Not, Or, Term, Variable
 from skillc_runtime.world.eval.expressions import Bindings, bound
 from skillc_runtime.world.state.world_state import WorldState
 

@@ -10,7 +10,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from skillc_compiler.library.conditions import (
+from skillc_model.conditions import (
     Condition,
     Exists,
     Forall,
@@ -23,11 +23,18 @@ from skillc_compiler.library.conditions import (
     Same,
     Variable,
 )
-from skillc_compiler.library.reading import children
+from skillc_model.reading import children
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import iri_of
 from skillc_runtime.world.eval.quantifiers import candidates
-from skillc_runtime.world.labelled import ClassFact, IdentityFact, LabelledFact, label, property_fact, relation_fact
+from skillc_runtime.world.state.labelled import (
+    ClassFact,
+    IdentityFact,
+    LabelledFact,
+    label,
+    property_fact,
+    relation_fact,
+)
 from skillc_runtime.world.state.properties import property_of
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.values import Value

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from itertools import chain, combinations
 from typing import TypeAlias, assert_never
 
-from skillc_compiler.library.vocabulary import THING, RelationTerm
-from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_rdf.turtle.terms import RDF_TYPE
+from skillc_rdf.vocabulary.types import THING, RelationTerm
 from skillc_runtime.world.state.changes import (
     AddIndividual,
     AddRelation,

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from skillc_compiler.library.closure import Directed
-from skillc_compiler.library.vocabulary import THING, Vocabulary
+from skillc_rdf.vocabulary.closure import Directed
+from skillc_rdf.vocabulary.types import THING, Vocabulary
 from skillc_runtime.world.state.computed import Computed
 
 

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from skillc_compiler.library.closure import reachable
-from skillc_compiler.library.vocabulary import Vocabulary
+from skillc_rdf.vocabulary.closure import reachable
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.world.state.axioms import Axioms
 from skillc_runtime.world.state.links import NONE, Links
 from skillc_runtime.world.state.members import Members

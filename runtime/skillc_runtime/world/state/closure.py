@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Set
 
-from skillc_compiler.library.closure import reachable
+from skillc_rdf.vocabulary.closure import reachable
 from skillc_runtime.world.state.axioms import Axioms
 from skillc_runtime.world.state.links import Links, LinksDraft
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import cached_property
 from typing import Protocol, TypeVar
 
-from skillc_compiler.library.vocabulary import RelationTerm, Vocabulary, local_name
+from skillc_rdf.vocabulary.types import RelationTerm, Vocabulary, local_name
 from skillc_runtime.world.state.python_calls import Unknown, call_python, load_python
 
 State = TypeVar("State", contravariant=True)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
 
-from skillc_compiler.turtle.terms import RDF_TYPE
+from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_runtime.world.state.axiom_violations import Fact
 from skillc_runtime.world.state.values import Value, has
 from skillc_runtime.world.state.world_state import WorldState

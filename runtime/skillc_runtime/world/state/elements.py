@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from skillc_compiler.library.vocabulary import THING, NumberType, VectorType, Vocabulary
-from skillc_compiler.library.words import SI_UNITS
+from skillc_model.words import SI_UNITS
+from skillc_rdf.vocabulary.types import THING, NumberType, VectorType, Vocabulary
 from skillc_runtime.world.state.names import NoSuchName, individual_of, term_of
 from skillc_runtime.world.state.properties import property_of
 from skillc_runtime.world.state.values import Value, has, show

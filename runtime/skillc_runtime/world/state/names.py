@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from difflib import get_close_matches
 
-from skillc_compiler.library.vocabulary import Vocabulary, local_name
+from skillc_rdf.vocabulary.types import Vocabulary, local_name
 from skillc_runtime.world.state.world_state import WorldState
 
 LISTED = 8

@@ -6,7 +6,7 @@ from typing import cast
 
 import numpy as np
 
-from skillc_compiler.library.vocabulary import local_name
+from skillc_rdf.vocabulary.types import local_name
 from skillc_runtime.world.state.python_calls import EvaluationError, call_python, load_python
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState

@@ -7,7 +7,7 @@ from functools import lru_cache
 from importlib import import_module
 from typing import Any, TypeVar
 
-from skillc_compiler.library.vocabulary import local_name
+from skillc_rdf.vocabulary.types import local_name
 
 T = TypeVar("T")
 

@@ -7,7 +7,7 @@ from math import isfinite
 from operator import itemgetter
 from typing import TypeAlias, cast
 
-from skillc_compiler.library.vocabulary import PropertyTerm
+from skillc_rdf.vocabulary.types import PropertyTerm
 from skillc_runtime.world.state.axiom_violations import Fact, axiom_violations, written_facts
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.values import Value

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from skillc_compiler.library.vocabulary import Vocabulary, local_name
+from skillc_rdf.vocabulary.types import Vocabulary, local_name
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.names import NoSuchName, expand_name
 from skillc_runtime.world.state.world_state import WorldState

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import assert_never
 
-from skillc_compiler.library.vocabulary import (
+from skillc_rdf.vocabulary.types import (
     ClassType,
     DirectionType,
     ListType,

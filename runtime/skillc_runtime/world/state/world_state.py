@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import assert_never
 
-from skillc_compiler.library.vocabulary import THING, Vocabulary
+from skillc_rdf.vocabulary.types import THING, Vocabulary
 from skillc_runtime.world.state.axioms import Axioms
 from skillc_runtime.world.state.changes import (
     AddIndividual,

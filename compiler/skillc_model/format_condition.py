@@ -1,0 +1,139 @@
+"""Conditions, expressions and facts in the words of the language; quantities in SI units, which it reads too."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import assert_never
+
+from skillc_model.conditions import (
+    And,
+    Anything,
+    Arithmetic,
+    Compare,
+    Condition,
+    Exists,
+    Expression,
+    Forall,
+    Given,
+    HasProperty,
+    Holds,
+    Individual,
+    Invoke,
+    IsA,
+    Literal,
+    Not,
+    Or,
+    PropertyOf,
+    Same,
+    Term,
+    Variable,
+)
+from skillc_rdf.vocabulary.types import Vocabulary, local_name
+
+
+def format_condition(condition: Condition, vocabulary: Vocabulary) -> str:
+    """Return the condition as it could be written in a skill; one that joins nothing as `true` or `false`."""
+    match condition:
+        case Holds(subject=subject, relation=relation, object=object_):
+            return format_relation(_term(subject, vocabulary), relation, _term(object_, vocabulary))
+        case Compare(left=left, operator=operator, right=right):
+            return f"{format_expression(left, vocabulary)} {operator} {format_expression(right, vocabulary)}"
+        case Same(left=left, right=right):
+            return f"{_term(left, vocabulary)} == {_term(right, vocabulary)}"
+        case HasProperty(subject=subject, property=iri):
+            return f"{_term(subject, vocabulary)} has {local_name(iri)}"
+        case IsA(subject=subject, cls=cls):
+            return format_class(_term(subject, vocabulary), vocabulary.short(cls))
+        case Given(parameter=name):
+            return f"given {name}"
+        case Not(body=body):
+            return f"not {_nested(body, vocabulary)}"
+        case And(parts=parts):
+            return format_all([_nested(part, vocabulary) for part in parts])
+        case Or(parts=parts):
+            return format_any([_nested(part, vocabulary) for part in parts])
+        case Exists(variable=variable, cls=cls, body=body):
+            return format_quantified("exists", variable, vocabulary.short(cls), format_condition(body, vocabulary))
+        case Forall(variable=variable, cls=cls, body=body):
+            return format_quantified("forall", variable, vocabulary.short(cls), format_condition(body, vocabulary))
+        case _:
+            assert_never(condition)
+
+
+def format_relation(subject: str, relation: str, object_: str, holds: bool = True) -> str:
+    """Return a relation, by IRI, between two names, or that it is not there."""
+    return f"{'' if holds else 'not '}{subject} {local_name(relation)} {object_}"
+
+
+def format_property(owner: str, property_: str, value: str | None) -> str:
+    """Return what value a property, by IRI, of a named individual has; None for no value."""
+    name = local_name(property_)
+    return f"not {owner} has {name}" if value is None else f"{owner}.{name} == {value}"
+
+
+def format_class(name: str, cls: str, holds: bool = True) -> str:
+    """Return that a named individual is of a named class, or is not."""
+    return f"{'' if holds else 'not '}{name} is {cls}"
+
+
+def format_all(parts: Iterable[str]) -> str:
+    """Return that all of these hold."""
+    return " and ".join(parts) or "true"
+
+
+def format_any(parts: Iterable[str]) -> str:
+    """Return that some of these hold."""
+    return " or ".join(parts) or "false"
+
+
+def format_quantified(word: str, variable: str, cls: str, body: str) -> str:
+    """Return that a condition holds for some or for all of a class, as `word` says."""
+    return f"{word} {variable}: {cls} ({body})"
+
+
+def format_literal(value: bool | int | float | str) -> str:
+    """Return a constant as plain text."""
+    match value:
+        case bool():
+            return "true" if value else "false"
+        case int() | float():
+            return f"{value:.12g}"
+        case str():
+            return value
+        case _:
+            assert_never(value)
+
+
+def format_expression(expression: Expression, vocabulary: Vocabulary) -> str:
+    """Return the expression as it could be written in a skill, with as many parentheses as it needs."""
+    match expression:
+        case Literal(value=str() as text):
+            return f'"{text}"'
+        case Literal(value=value):
+            return format_literal(value)
+        case Variable(name=name):
+            return name
+        case Individual(iri=iri):
+            return vocabulary.short(iri)
+        case PropertyOf(of=of, property=iri):
+            return f"{format_expression(of, vocabulary)}.{local_name(iri)}"
+        case Arithmetic(operator=operator, left=left, right=right):
+            return f"{_operand(left, vocabulary)} {operator} {_operand(right, vocabulary)}"
+        case Invoke(function=function, arguments=arguments):
+            return f"{function}({', '.join(format_expression(each, vocabulary) for each in arguments)})"
+        case _:
+            assert_never(expression)
+
+
+def _operand(expression: Expression, vocabulary: Vocabulary) -> str:
+    text = format_expression(expression, vocabulary)
+    return f"({text})" if isinstance(expression, Arithmetic) else text
+
+
+def _nested(condition: Condition, vocabulary: Vocabulary) -> str:
+    text = format_condition(condition, vocabulary)
+    return f"({text})" if isinstance(condition, And | Or | Not) else text
+
+
+def _term(term: Term, vocabulary: Vocabulary) -> str:
+    return "_" if isinstance(term, Anything) else format_expression(term, vocabulary)

@@ -1,0 +1,204 @@
+"""A skill's description as a planning action, with the choice among its implementations in the precondition."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+from skillc_model.conditions import Effect, Expression, Individual
+from skillc_model.pddl.consistency import Consistency
+from skillc_model.pddl.costs import action_cost, duration_of
+from skillc_model.pddl.domain import Action, CostFunction, Predicate
+from skillc_model.pddl.effects import Effects
+from skillc_model.pddl.formulas import FALSE, Change, Formula, conjunction, conjuncts, disjunction
+from skillc_model.pddl.guards import Guards
+from skillc_model.pddl.names import fresh, kebab
+from skillc_model.pddl.parameters import Defaults, defaults, planned_parameters
+from skillc_model.pddl.symbols import Symbols
+from skillc_model.pddl.translate import Impossible, Named, Scope, Translator, Untranslatable, negated
+from skillc_model.reading import free_variables_in_order
+from skillc_model.rewriting import substitute
+from skillc_model.skills import Implementation, Parameter, Requirement, Skill
+from skillc_rdf.vocabulary.types import ClassType
+
+
+@dataclass(frozen=True)
+class Planned:
+    """The actions of a skill with the static predicates and functions that they alone use."""
+
+    actions: tuple[Action, ...]
+    guards: tuple[Predicate, ...]
+    costs: tuple[CostFunction, ...]
+
+    @property
+    def names(self) -> frozenset[str]:
+        """The names that no other skill's actions, predicates and functions may have."""
+        named: tuple[Action | Predicate | CostFunction, ...] = (*self.actions, *self.guards, *self.costs)
+        return frozenset(each.name for each in named)
+
+
+@dataclass(frozen=True)
+class _Case:
+    """Implementations that take equally long, one after the other in rank order, and when one of them is taken."""
+
+    first: str
+    duration: Expression | None
+    chosen: Formula
+
+
+def planned_actions(
+    name: str,
+    skill: Skill,
+    implementations: Sequence[Implementation],
+    symbols: Symbols,
+    objects: Mapping[str, Named],
+    locks: Collection[str],
+    taken: Collection[str],
+) -> Planned:
+    """Return the actions of a skill that locks these parameters; Untranslatable says why a planner cannot reason so.
+
+    The first implementation that fits is taken: for each duration there is an action, which demands that one of its
+    implementations fits and none that comes before them does. `objects` are the individuals that it may name, by IRI,
+    `taken` are names that nothing else may have.
+    """
+    guards = Guards(skill.name, symbols, taken)
+    return _Builder(name, skill, tuple(implementations), symbols, objects, guards, taken, locks).planned()
+
+
+@dataclass(frozen=True)
+class _Builder:
+    name: str
+    skill: Skill
+    implementations: tuple[Implementation, ...]
+    symbols: Symbols
+    objects: Mapping[str, Named]
+    guards: Guards
+    taken: Collection[str]
+    locks: Collection[str]
+
+    def planned(self) -> Planned:
+        scope = planned_parameters(self.skill.parameters, self.symbols.hierarchy)
+        given = defaults(self.skill.parameters)
+        hold = self._requirements(self.skill.hold, "hold condition", given, scope)
+        described = conjunction(self._described(given, scope))
+        actions: list[Action] = []
+        costs: list[CostFunction] = []
+        never = Impossible("it has no implementation")
+        for case in self._cases(given, scope):
+            precondition = conjunction((described, case.chosen))
+            try:
+                changes, consistent = self._effects(conjunction((precondition, hold)), hold, given, scope)
+            except Impossible as reason:
+                never = reason
+                continue
+            taken = {*self.taken, *(each.name for each in actions), *(each.name for each in costs)}
+            cost, function = action_cost(self.skill.name, case.duration, scope, self.symbols, taken)
+            action = Action(
+                name=fresh(f"{self.name}-{kebab(case.first)}", taken) if actions else self.name,
+                skill=self.skill.name,
+                parameters=tuple(place.variable for place in scope.values()),
+                binds=tuple(scope),
+                precondition=conjunction((precondition, consistent)),
+                hold=hold,
+                effects=changes,
+                cost=cost,
+                uses=tuple(scope[each].variable.name for each in self.locks if each in scope),
+                doc=self.skill.doc,
+                source=self.skill.source,
+            )
+            actions.append(action)
+            costs += [function] if function else []
+        if not actions:
+            raise never
+        return Planned(tuple(actions), tuple(self.guards.found.values()), tuple(costs))
+
+    def _described(self, given: Defaults, scope: Scope) -> Iterator[Formula]:
+        translator = self._translator()
+        yield from (translator.membership(place.cls, place) for place in scope.values())
+        yield from self._defaults(self.skill.parameters, scope)
+        yield self._requirements(self.skill.pre, "precondition", given, scope)
+
+    def _cases(self, described: Defaults, scope: Scope) -> Iterator[_Case]:
+        """Yield when an implementation of each duration is the first that fits."""
+        earlier: list[Formula] = []
+        for duration, group in groupby(self.implementations, self._duration):
+            members = tuple(group)
+            fits = disjunction(self._alternative(each, described, scope) for each in members)
+            yield _Case(members[0].name, duration, conjunction((fits, *map(negated, earlier))))
+            earlier.append(fits)
+
+    def _duration(self, implementation: Implementation) -> Expression | None:
+        duration = duration_of(self.skill, implementation)
+        return None if duration is None else substitute(duration, defaults(implementation.parameters).values)
+
+    def _defaults(self, parameters: Iterable[Parameter], scope: Scope) -> Iterator[Formula]:
+        """Yield that the individuals which optional parameters are by default are of the parameters' classes."""
+        for each in parameters:
+            if isinstance(each.default, Individual) and isinstance(each.type, ClassType):
+                yield self._translator().is_a(each.default, each.type.iri, scope)
+
+    def _alternative(self, implementation: Implementation, described: Defaults, scope: Scope) -> Formula:
+        """Return what an implementation demands beyond the description: narrower types and conditions of its own."""
+        given = defaults(implementation.parameters)
+        known = {described.applied(each.condition) for each in (*self.skill.pre, *self.skill.hold)}
+        both = (*implementation.pre, *implementation.hold)
+        own = [each for each in both if given.applied(each.condition) not in known]
+        return conjunction(
+            (
+                *self._narrower(implementation, scope),
+                *self._defaults(implementation.parameters, scope),
+                self._requirements(own, f"implementation `{implementation.name}`, whose condition", given, scope),
+            )
+        )
+
+    def _narrower(self, implementation: Implementation, scope: Scope) -> Iterator[Formula]:
+        translator = self._translator()
+        for parameter in implementation.parameters:
+            place = scope.get(parameter.name)
+            if place and isinstance(parameter.type, ClassType) and parameter.type.iri != place.cls:
+                yield translator.membership(parameter.type.iri, place)
+
+    def _requirements(self, requirements: Sequence[Requirement], kind: str, given: Defaults, scope: Scope) -> Formula:
+        return conjunction(self._requirement(each, kind, given, scope) for each in requirements)
+
+    def _requirement(self, requirement: Requirement, kind: str, given: Defaults, scope: Scope) -> Formula:
+        try:
+            return self._translator(requirement.label, requirement.text).formula(
+                given.applied(requirement.condition), scope
+            )
+        except Untranslatable as reason:
+            raise Untranslatable(f"its {kind} `{requirement.text}` {reason}") from reason
+
+    def _translator(self, label: str = "", text: str = "") -> Translator:
+        return Translator(self.symbols, self.guards.labelled(label, text), self.objects)
+
+    def _effects(
+        self, known: Formula, hold: Formula, given: Defaults, scope: Scope
+    ) -> tuple[tuple[Change, ...], Formula]:
+        """Return what the action changes, and what must hold before for the world to be consistent after it."""
+        if known == FALSE:
+            raise Impossible("its conditions can never hold")
+        effects = self._stated(given)
+        changes = Effects(self._translator(), scope, known).changes(effects)
+        if not changes:
+            raise Untranslatable("it changes nothing that a planner can see")
+        for change in changes:
+            if not change.positive and not change.variables and change.atom in conjuncts(hold):
+                raise Untranslatable("its postconditions undo what its hold conditions keep")
+        consistent = Consistency(self._translator(), scope, changes, known).required(effects)
+        if consistent == FALSE:
+            raise Impossible("its postconditions contradict each other or an axiom")
+        return changes, consistent
+
+    def _stated(self, given: Defaults) -> tuple[Effect, ...]:
+        """Return the effects with the values of optional parameters put in, which no implementation may change."""
+        effects = [effect for post in self.skill.post for effect in post.effects]
+        read = {name for effect in effects for name in free_variables_in_order(effect)} & given.given.keys()
+        for implementation in self.implementations:
+            own = defaults(implementation.parameters).values
+            changed = sorted(name for name in read if own.get(name) != given.values.get(name))
+            if changed:
+                said = f"`{changed[0]}`, which its postconditions speak of"
+                raise Untranslatable(f"its implementation `{implementation.name}` has another default for {said}")
+        return tuple(substitute(effect, given.values) for effect in effects)

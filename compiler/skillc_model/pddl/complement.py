@@ -1,0 +1,203 @@
+"""A problem in which no condition denies an atom of every object of a type: what is not true has a predicate as well.
+
+Fast Downward takes a thing's places for the values of one variable, and multiplies out what the denial of one value
+leaves of the others: `forall c: not (in c gripper)` costs places to the power of crates. Said as `not-in`, which
+actions keep up to date, it costs nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+from math import prod
+from typing import TypeAlias, assert_never
+
+from skillc_model.pddl.domain import ROOT, Action, PlanningDomain, Predicate
+from skillc_model.pddl.formulas import (
+    FALSE,
+    TRUE,
+    Atom,
+    Change,
+    Conjunction,
+    Disjunction,
+    Equal,
+    Existential,
+    Formula,
+    Negation,
+    Typed,
+    Universal,
+    conjunction,
+    disjunction,
+)
+from skillc_model.pddl.names import fresh
+from skillc_model.pddl.problem import Problem
+
+Types: TypeAlias = Mapping[str, str]
+
+MOST_ATOMS = 50_000
+"""A predicate is left as it is where its complement would have more atoms at first."""
+
+
+def complemented(problem: Problem) -> Problem:
+    """Return an equivalent problem with complements of the predicates that actions deny of every object of a type."""
+    for name, types in _denied_of_all(problem.domain).items():
+        problem = _with_complement(problem, name, types)
+    return problem
+
+
+class _Entangled(Exception):
+    """An action makes the predicate true in a way that its complement cannot follow."""
+
+
+def _with_complement(problem: Problem, name: str, types: Sequence[str]) -> Problem:
+    domain = problem.domain
+    declared = domain.predicate[name]
+    own = fresh(f"not-{name}", {*domain.names, *domain.predicate})
+    parameters = tuple(Typed(each.name, type_) for each, type_ in zip(declared.parameters, types, strict=True))
+    complement = _Complement(name, replace(declared, name=own, parameters=parameters), domain)
+    members = [domain.of_type(problem.objects, each) for each in types]
+    if prod(map(len, members)) > MOST_ATOMS:
+        return problem
+    try:
+        actions = tuple(complement.action(each) for each in domain.actions)
+    except _Entangled:
+        return problem
+    true = {each.terms for each in problem.init if each.predicate == name}
+    initial = tuple(Atom(own, terms) for terms in product(*members) if terms not in true)
+    extended = replace(domain, actions=actions, predicates=(*domain.predicates, complement.predicate))
+    return replace(problem, domain=extended, init=(*problem.init, *initial))
+
+
+@dataclass(frozen=True)
+class _Complement:
+    """The predicate that is true of the tuples of its types of which the one called `of` is not."""
+
+    of: str
+    predicate: Predicate
+    domain: PlanningDomain
+
+    def action(self, action: Action) -> Action:
+        """Return the action with the complement in its conditions and effects; _Entangled where that cannot be."""
+        own = [
+            each for change in action.effects if change.atom.predicate == self.of for each in self._own(change, action)
+        ]
+        return replace(
+            action,
+            precondition=self._said(action.precondition),
+            hold=self._said(action.hold),
+            effects=tuple(sorted((*action.effects, *own), key=lambda each: not each.positive)),
+        )
+
+    def _said(self, formula: Formula, inside: bool = False) -> Formula:
+        match formula:
+            case Negation(Atom(predicate, terms)) if inside and predicate == self.of:
+                return Atom(self.predicate.name, terms)
+            case Atom() | Equal() | Negation():
+                return formula
+            case Conjunction(parts):
+                return conjunction(self._said(part, inside) for part in parts)
+            case Disjunction(parts):
+                return disjunction(self._said(part, inside) for part in parts)
+            case Existential(variable, body):
+                return Existential(variable, self._said(body, inside))
+            case Universal(variable, body):
+                return Universal(variable, self._said(body, True))
+            case _:
+                assert_never(formula)
+
+    def _own(self, change: Change, action: Action) -> Iterator[Change]:
+        """Yield what a change of the predicate is for its complement."""
+        types = _types(self.domain, action, change)
+        wanted = [each.type for each in self.predicate.parameters]
+        given = [types[term] for term in change.atom.terms]
+        if not all(_meet(self.domain, *pair) for pair in zip(wanted, given, strict=True)):
+            return
+        if change.positive and (change.variables or change.condition != TRUE):
+            raise _Entangled
+        narrow = {
+            term: type_
+            for term, type_ in zip(change.atom.terms, wanted, strict=True)
+            if not self.domain.is_a(types[term], type_)
+        }
+        variables = tuple(Typed(each.name, narrow.get(each.name, each.type)) for each in change.variables)
+        condition = TRUE if change.condition == change.atom else change.condition
+        if not change.positive:
+            condition = conjunction((condition, *self._not_made_true(change, action)))
+        if condition != FALSE:
+            atom = Atom(self.predicate.name, change.atom.terms)
+            yield Change(atom, not change.positive, variables, condition)
+
+    def _not_made_true(self, change: Change, action: Action) -> Iterator[Formula]:
+        """Yield that the atom which a change deletes is none that the action adds: that one is true afterwards."""
+        for other in action.effects:
+            if other.positive and other.atom.predicate == self.of:
+                pairs = list(zip(change.atom.terms, other.atom.terms, strict=True))
+                types = {**_types(self.domain, action, other), **_types(self.domain, action, change)}
+                if all(_meet(self.domain, types[one], types[two]) for one, two in pairs):
+                    yield disjunction(Negation(Equal(one, two)) for one, two in pairs if one != two)
+
+
+def _denied_of_all(domain: PlanningDomain) -> dict[str, list[str]]:
+    """Return the predicates that need a complement with the types of its arguments.
+
+    These are so wide that no parameter of an action that changes the predicate is of a wider type.
+    """
+    found: dict[str, list[str]] = {}
+    for action in domain.actions:
+        for atom in _denied(conjunction((action.precondition, action.hold)), _types(domain, action)):
+            if domain.predicate[atom.predicate].changes:
+                found[atom.predicate] = _join(domain, found.get(atom.predicate, atom.terms), atom.terms)
+    changes = [(each, _types(domain, action)) for action in domain.actions for each in action.effects]
+    while True:
+        wider = dict(found)
+        for change, types in changes:
+            name = change.atom.predicate
+            if name in wider:
+                quantified = {each.name for each in change.variables}
+                given = [
+                    wide if term in quantified else types[term]
+                    for term, wide in zip(change.atom.terms, wider[name], strict=True)
+                ]
+                if all(_meet(domain, *pair) for pair in zip(wider[name], given, strict=True)):
+                    wider[name] = _join(domain, wider[name], given)
+        if wider == found:
+            return found
+        found = wider
+
+
+def _denied(formula: Formula, types: Types, inside: bool = False) -> Iterator[Atom]:
+    """Yield the atoms that a formula denies of all objects of a type, with types in the place of terms."""
+    match formula:
+        case Negation(Atom(predicate, terms)) if inside:
+            yield Atom(predicate, tuple(types[each] for each in terms))
+        case Atom() | Equal() | Negation():
+            pass
+        case Conjunction(parts) | Disjunction(parts):
+            for part in parts:
+                yield from _denied(part, types, inside)
+        case Existential(variable, body):
+            yield from _denied(body, {**types, variable.name: variable.type}, inside)
+        case Universal(variable, body):
+            yield from _denied(body, {**types, variable.name: variable.type}, True)
+        case _:
+            assert_never(formula)
+
+
+def _types(domain: PlanningDomain, action: Action, change: Change | None = None) -> Types:
+    variables = change.variables if change is not None else ()
+    return {each.name: each.type for each in (*domain.constants, *action.parameters, *variables)}
+
+
+def _meet(domain: PlanningDomain, one: str, other: str) -> bool:
+    """Whether a thing may be of both types."""
+    return domain.is_a(one, other) or domain.is_a(other, one)
+
+
+def _join(domain: PlanningDomain, some: Sequence[str], others: Sequence[str]) -> list[str]:
+    """Return for each pair of types the narrowest that is above both."""
+    above = [each.name for each in sorted(domain.types, key=lambda each: -each.depth)]
+    return [
+        next((each for each in above if domain.is_a(one, each) and domain.is_a(other, each)), ROOT)
+        for one, other in zip(some, others, strict=True)
+    ]

@@ -1,0 +1,190 @@
+"""What must hold before an action so that the world after it breaks no axiom and has all that the skill promises.
+
+The world model refuses a write that breaks an axiom, and a skill fails whose postconditions do not hold in the end. So
+no step of a plan may do either: what must not be true afterwards is said of the world before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import combinations
+from typing import assert_never
+
+from skillc_model.conditions import Anything, Assert, Assign, Effect, Literal, Retract, Term
+from skillc_model.pddl.formulas import (
+    FALSE,
+    TRUE,
+    Atom,
+    Change,
+    Equal,
+    Formula,
+    Negation,
+    Typed,
+    conjunction,
+    conjuncts,
+    disjunction,
+)
+from skillc_model.pddl.translate import Impossible, Scope, Translator, Untranslatable, negated
+from skillc_rdf.vocabulary.types import RelationTerm
+
+
+@dataclass(frozen=True)
+class Consistency:
+    """Looks at the effects of an action together; `changes` are what they come to, `known` is its precondition."""
+
+    translator: Translator
+    scope: Scope
+    changes: tuple[Change, ...]
+    known: Formula
+    _apart: set[Formula] = field(default_factory=set)
+
+    def required(self, effects: Sequence[Effect]) -> Formula:
+        """Return the condition; FALSE where nothing helps. Untranslatable says what a planner cannot look ahead at."""
+        self._apart.update(each.body for each in conjuncts(self.known) if isinstance(each, Negation))
+        asserted = [each for each in effects if isinstance(each, Assert)]
+        irreflexive = [formula for each in asserted for formula in self._irreflexive(each)]
+        self._apart.update(each.body for each in irreflexive if isinstance(each, Negation))
+        alone = [formula for each in effects for formula in self._alone(each)]
+        together = [formula for pair in combinations(effects, 2) for formula in self._together(*pair)]
+        return conjunction((*irreflexive, *alone, *together))
+
+    def _alone(self, effect: Effect) -> Iterator[Formula]:
+        match effect:
+            case Assert():
+                yield from self._typed(effect)
+                yield from self._asymmetric(effect)
+            case Retract():
+                yield from self._gone(effect)
+            case Assign(subject, iri, _):
+                term = self.translator.symbols.vocabulary.properties[iri]
+                if term.computed_by is not None:
+                    raise Impossible(f"sets `{self.translator.symbols.short(iri)}`, which is computed")
+                owners = (self.translator.is_a(subject, each, self.scope) for each in term.domains)
+                yield disjunction(owners) if term.domains else TRUE
+            case _:
+                assert_never(effect)
+
+    def _implied(self, effect: Assert) -> Iterator[tuple[RelationTerm, Term, Term]]:
+        vocabulary = self.translator.symbols.vocabulary
+        for each in vocabulary.closure.implied[effect.relation]:
+            yield vocabulary.relations[each.relation], *each.ends(effect.subject, effect.object)
+
+    def _irreflexive(self, effect: Assert) -> Iterator[Formula]:
+        for term, subject, object_ in self._implied(effect):
+            if term.irreflexive:
+                yield negated(self._same(subject, object_))
+
+    def _typed(self, effect: Assert) -> Iterator[Formula]:
+        """Yield that the classes are those that the relation and all it implies take."""
+        symbols, is_a = self.translator.symbols, self.translator.is_a
+        if symbols.is_computed(effect.relation):
+            raise Impossible(f"states `{symbols.short(effect.relation)}`, which is computed")
+        for term, subject, object_ in self._implied(effect):
+            fitting = [
+                conjunction((is_a(subject, each.domain, self.scope), is_a(object_, each.range, self.scope)))
+                for each in term.signatures
+            ]
+            yield disjunction(fitting) if fitting else TRUE
+
+    def _asymmetric(self, effect: Assert) -> Iterator[Formula]:
+        """Yield that the opposite does not hold afterwards."""
+        symbols = self.translator.symbols
+        for term, subject, object_ in self._implied(effect):
+            if term.asymmetric and self._takes(term, object_, subject):
+                if symbols.follows_over_steps(term.iri):
+                    shown = symbols.short(term.iri)
+                    raise Untranslatable(f"states `{shown}`, whose opposite may follow over any number of steps")
+                opposite = self.translator.holds(term.iri, self._term(object_), self._term(subject))
+                same = self._same(subject, object_)
+                differing = replace(self, _apart={*self._apart, same})
+                yield disjunction((same, negated(disjunction(map(differing._after, opposite)))))
+
+    def _takes(self, term: RelationTerm, subject: Term, object_: Term) -> bool:
+        """Whether a relation may hold, by the classes that it takes."""
+        may_be = self.translator.may_be
+        fitting = (
+            may_be(subject, each.domain, self.scope) and may_be(object_, each.range, self.scope)
+            for each in term.signatures
+        )
+        return not term.signatures or any(fitting)
+
+    def _after(self, atom: Atom) -> Formula:
+        """Return the condition before the action under which an atom is true after it."""
+        added: list[Formula] = []
+        deleted: list[Formula] = []
+        for change in self.changes:
+            if change.atom.predicate == atom.predicate:
+                (added if change.positive else deleted).append(self._speaks_of(change, atom.terms))
+        return disjunction((*added, conjunction((atom, negated(disjunction(deleted))))))
+
+    def _speaks_of(self, change: Change, terms: Sequence[str | None]) -> Formula:
+        """Return that a change is one of the atom with these terms, of which None may be anything."""
+        free = {each.name for each in change.variables}
+        pairs = list(zip(terms, change.atom.terms, strict=True))
+        values = {other: one for one, other in pairs if one is not None and other in free}
+        same = [self._equal(one, other) for one, other in pairs if one is not None and other not in free]
+        return conjunction((*same, *(self._differ(each, values) for each in conjuncts(change.apart or TRUE))))
+
+    def _differ(self, formula: Formula, values: Mapping[str, str]) -> Formula:
+        assert isinstance(formula, Negation) and isinstance(formula.body, Equal)
+        left, right = (values.get(each, each) for each in (formula.body.left, formula.body.right))
+        return negated(self._equal(left, right))
+
+    def _gone(self, effect: Retract) -> Iterator[Formula]:
+        """Yield that nothing that is stated makes what is retracted hold."""
+        symbols = self.translator.symbols
+        sides = [None if isinstance(each, Anything) else self._term(each).name for each in _sides(effect)]
+        if None not in sides and effect.relation in symbols.vocabulary.closure.chained:
+            shown = symbols.short(effect.relation)
+            raise Untranslatable(f"takes back `{shown}`, which may still follow over any number of steps")
+        for reading in symbols.vocabulary.closure.canonical_sources[effect.relation]:
+            predicate = symbols.relation(reading.relation)
+            terms = reading.ends(*sides)
+            for change in self.changes:
+                if change.positive and change.atom.predicate == predicate:
+                    yield negated(self._speaks_of(change, terms))
+
+    def _together(self, one: Effect, other: Effect) -> Iterator[Formula]:
+        """Yield that what is stated does not take the place of what is stated too."""
+        match one, other:
+            case Assert(), Assert():
+                yield from self._rivals(one, other)
+            case Assign(property=iri, value=Literal(value)), Assign(property=also, value=Literal(second)):
+                if iri == also and (value != second or type(value) is not type(second)):
+                    yield negated(self._same(one.subject, other.subject))
+
+    def _rivals(self, one: Assert, other: Assert) -> Iterator[Formula]:
+        for term, subject, object_ in self._implied(one):
+            for also, holder, held in self._implied(other):
+                if term.iri == also.iri and term.functional:
+                    yield disjunction((negated(self._same(subject, holder)), self._same(object_, held)))
+                if term.iri == also.iri and term.inverse_functional:
+                    yield disjunction((negated(self._same(object_, held)), self._same(subject, holder)))
+
+    def _same(self, one: Term, other: Term) -> Formula:
+        return self._equal(self._term(one).name, self._term(other).name)
+
+    def _equal(self, one: str, other: str) -> Formula:
+        """Return that two names are of the same object, as far as names and types do not tell."""
+        if one == other:
+            return TRUE
+        first, second = sorted((one, other))
+        types = [self._types[each].type for each in (first, second)]
+        named = not one.startswith("?") and not other.startswith("?")
+        if named or not self.translator.symbols.hierarchy.meet(*types):
+            return FALSE
+        equal = Equal(first, second)
+        return FALSE if {equal, Equal(second, first)} & self._apart else equal
+
+    def _term(self, term: Term) -> Typed:
+        return self.translator.term(term, self.scope)
+
+    @cached_property
+    def _types(self) -> dict[str, Typed]:
+        return self.translator.typed(self.scope)
+
+
+def _sides(effect: Retract) -> tuple[Term, Term]:
+    return effect.subject, effect.object

@@ -1,0 +1,112 @@
+"""The individuals that skills name, as constants of a planning domain."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+import msgspec
+
+from skillc_model.conditions import Assert, Assign, HasProperty, Holds, Individual, PropertyOf, Retract
+from skillc_model.pddl.hierarchy import common_class
+from skillc_model.reading import walk
+from skillc_model.skills import Implementation, Parameter, Skill, SkillLibrary
+from skillc_rdf.vocabulary.types import ClassType, Position, Vocabulary
+
+
+@dataclass(frozen=True)
+class Mention:
+    """An individual that a skill names, where it does, and the class that is asked for there, None for any."""
+
+    individual: str
+    source: Position
+    cls: str | None
+
+
+def mentions(library: SkillLibrary) -> dict[str, tuple[Mention, ...]]:
+    """Return the individuals that each skill which is planned with names, its implementations included.
+
+    A library with mistakes may speak of terms that its vocabulary lacks: they ask for no class.
+    """
+    return {
+        name: tuple(_Mentions(library.vocabulary).of(skill, library.implementations_of(name)))
+        for name, skill in sorted(library.skills.items())
+        if skill.planned
+    }
+
+
+def assumed_classes(found: Iterable[Mention], vocabulary: Vocabulary) -> dict[str, frozenset[str]]:
+    """Return the classes that individuals must be of for what is said of them: all that is known without a scene."""
+    asked: dict[str, set[str]] = {}
+    for each in found:
+        asked.setdefault(each.individual, set()).update(() if each.cls is None else (each.cls,))
+    return {iri: lowest(classes, vocabulary) for iri, classes in asked.items()}
+
+
+def lowest(classes: Iterable[str], vocabulary: Vocabulary) -> frozenset[str]:
+    """Return the classes that are above none of the others."""
+    known = frozenset(classes)
+    if len(known) == 1:
+        return known
+    return frozenset(cls for cls in known if not any(each != cls and vocabulary.is_a(each, cls) for each in known))
+
+
+@dataclass(frozen=True)
+class _Mentions:
+    vocabulary: Vocabulary
+
+    def of(self, skill: Skill, implementations: Iterable[Implementation]) -> Iterator[Mention]:
+        """Yield what a skill names in its conditions, posts, defaults and duration."""
+        for post in skill.post:
+            yield from self._inside((post.condition, *post.effects), post.source)
+        described: tuple[Skill | Implementation, ...] = (skill, *implementations)
+        for each in described:
+            if each.duration is not None:
+                yield from self._inside((each.duration,), each.source)
+            for requirement in (*each.pre, *each.hold):
+                yield from self._inside((requirement.condition,), requirement.source)
+            yield from self._defaults(each.parameters)
+
+    def _defaults(self, parameters: Iterable[Parameter]) -> Iterator[Mention]:
+        for each in parameters:
+            if isinstance(each.default, Individual) and isinstance(each.type, ClassType):
+                yield Mention(each.default.iri, each.source, each.type.iri)
+
+    def _inside(self, items: Iterable[msgspec.Struct], source: Position) -> Iterator[Mention]:
+        for item in items:
+            for part in walk(item):
+                for individual, cls in self._asked(part):
+                    yield Mention(individual, source, cls)
+
+    def _asked(self, part: msgspec.Struct) -> Iterator[tuple[str, str | None]]:
+        match part:
+            case Individual(iri):
+                yield iri, None
+            case Holds(subject, relation, object_) | Assert(subject, relation, object_):
+                yield from self._sides(relation, subject, object_)
+            case Retract(subject, relation, object_):
+                yield from self._sides(relation, subject, object_)
+            case PropertyOf(Individual(iri), property_) | HasProperty(Individual(iri), property_):
+                yield iri, self._owner(property_)
+            case Assign(Individual(iri), property_, _):
+                yield iri, self._owner(property_)
+
+    def _sides(self, relation: str, *terms: object) -> Iterator[tuple[str, str | None]]:
+        known = self.vocabulary.relations.get(relation)
+        signatures = known.signatures if known is not None else ()
+        for side, term in enumerate(terms):
+            if isinstance(term, Individual) and signatures:
+                yield term.iri, common_class([(each.domain, each.range)[side] for each in signatures], self.vocabulary)
+
+    def _owner(self, property_: str) -> str | None:
+        known = self.vocabulary.properties.get(property_)
+        return common_class(known.domains, self.vocabulary) if known is not None and known.domains else None
+
+
+def absent(found: Iterable[Mention], known: Mapping[str, object]) -> Iterator[Mention]:
+    """Yield the first mention of each individual that is not known."""
+    told: set[str] = set()
+    for each in found:
+        if each.individual not in known and each.individual not in told:
+            told.add(each.individual)
+            yield each

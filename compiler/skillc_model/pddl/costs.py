@@ -1,0 +1,128 @@
+"""What an action costs: its expected duration in seconds, as an exact number; planners get whole units of it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from fractions import Fraction
+from math import floor, gcd, lcm, log10
+from numbers import Real
+
+from skillc_model.conditions import Expression, Invoke, PropertyOf
+from skillc_model.pddl.domain import ComputedCost, Cost, CostFunction, FixedCost
+from skillc_model.pddl.names import fresh, kebab
+from skillc_model.pddl.symbols import Symbols
+from skillc_model.pddl.translate import Scope, Untranslatable
+from skillc_model.reading import free_variables_in_order, walk
+from skillc_model.rewriting import constant_number
+from skillc_model.skills import Implementation, Skill
+from skillc_rdf.vocabulary.types import ClassType
+
+ASSUMED_SECONDS = Fraction(1)
+
+MOST_UNITS = 10_000_000
+"""The most that a single action costs in units: planners add costs up as 32-bit integers."""
+
+_ROUNDED_UNITS = 1_000_000
+"""Durations without a common unit are rounded down so that the longest takes no more units than this."""
+
+_MOST_DIGITS = 15
+"""A decimal text of so many digits at most survives being kept as a float; what has more was computed."""
+
+_NOISE = 4e-15
+"""Computing with floats changes numbers by about this share of them."""
+
+_MOST_DENOMINATOR = 10**6
+
+
+def exact_seconds(value: object) -> Fraction:
+    """Return a duration as the number that was written or computed; ValueError where it is no time to wait."""
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise ValueError("it is no number")
+    seconds = float(value)
+    if not 0.0 <= seconds < float("inf"):
+        raise ValueError(f"it is {seconds:g} s")
+    written = Fraction(repr(seconds))
+    if _digits(written) <= _MOST_DIGITS:
+        return written
+    near = written.limit_denominator(_MOST_DENOMINATOR)
+    return near if abs(near - written) <= _NOISE * written else written
+
+
+def _digits(decimal: Fraction) -> int:
+    """Return the number of significant digits of a decimal fraction."""
+    scaled = decimal
+    while scaled.denominator > 1:
+        scaled *= 10
+    return len(str(scaled.numerator).rstrip("0"))
+
+
+def common_scale(durations: Iterable[Fraction]) -> Fraction:
+    """Return the units per second in which durations are whole numbers that are small enough for planners.
+
+    Where there is no such unit the longest duration decides, and `PlanningDomain.units` rounds down.
+    """
+    different = set(durations)
+    longest = max(different, default=Fraction(0))
+    scale, unit = 1, 0
+    for each in different:
+        scale = lcm(scale, each.denominator)
+        if scale > MOST_UNITS**3:
+            return _rounding_scale(longest)
+    if longest * scale <= MOST_UNITS:
+        return Fraction(scale)
+    for each in different:
+        unit = gcd(unit, int(each * scale))
+    if longest * scale <= MOST_UNITS * unit:
+        return Fraction(scale, unit)
+    return _rounding_scale(longest)
+
+
+def _rounding_scale(longest: Fraction) -> Fraction:
+    return Fraction(10) ** floor(log10(_ROUNDED_UNITS / longest))
+
+
+def duration_of(skill: Skill, implementation: Implementation) -> Expression | None:
+    """Return how long a skill takes when it is done by an implementation, None where nobody says."""
+    return skill.duration if implementation.duration is None else implementation.duration
+
+
+def action_cost(
+    skill: str, duration: Expression | None, scope: Scope, symbols: Symbols, taken: Collection[str]
+) -> tuple[Cost, CostFunction | None]:
+    """Return a duration as a cost, with its function when it depends on the things; unsaid, it is taken for a second.
+
+    The function is evaluated once, in the initial world.
+    """
+    if duration is None:
+        return FixedCost(ASSUMED_SECONDS), None
+    seconds = constant_number(duration)
+    if seconds is not None:
+        try:
+            return FixedCost(exact_seconds(seconds)), None
+        except ValueError as reason:
+            raise Untranslatable(f"its duration cannot be planned with: {reason}") from reason
+    variables = free_variables_in_order(duration)
+    for name in variables:
+        if name not in scope:
+            raise Untranslatable(f"its duration reads `{name}`, which a planner does not bind")
+    places = tuple(scope[name].variable for name in variables)
+    name = fresh(f"cost-{kebab(skill)}", taken)
+    function = CostFunction(name, places, variables, duration, skill, _moving(duration, symbols))
+    return ComputedCost(name, tuple(each.name for each in places)), function
+
+
+def _moving(expression: Expression, symbols: Symbols) -> str | None:
+    """Return a term (IRI or function) whose value skills may change, None where the duration is known beforehand."""
+    properties, functions = symbols.vocabulary.properties, symbols.vocabulary.functions
+    for each in walk(expression):
+        match each:
+            case PropertyOf(property=iri):
+                computed = properties[iri].computed_by is not None and symbols.changing
+                if computed or symbols.affected(iri):
+                    return iri
+            case Invoke(function=name):
+                if symbols.changing and any(isinstance(kind, ClassType) for _, kind in functions[name].parameters):
+                    return name
+            case _:
+                pass
+    return None

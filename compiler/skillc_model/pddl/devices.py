@@ -1,0 +1,45 @@
+"""The devices that a skill locks while it runs: its own, and those of the skills its implementations call."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from skillc_model.conditions import Variable
+from skillc_model.reading import calls_in
+from skillc_model.skills import Compound, Skill, SkillLibrary
+from skillc_model.tree import Call
+
+
+def devices(library: SkillLibrary) -> dict[str, tuple[str, ...]]:
+    """Return for each skill the parameters that stand for devices it locks, in the order of its parameters.
+
+    A called skill's device counts where the caller passes a parameter of its own for it; one that is looked up anew
+    has no name at the caller.
+    """
+    locked = {name: frozenset(skill.uses) for name, skill in library.skills.items()}
+    while True:
+        extended = {
+            name: locked[name] | set(_of_calls(skill, library, locked)) for name, skill in library.skills.items()
+        }
+        if extended == locked:
+            return {name: _in_order(skill, locked[name]) for name, skill in library.skills.items()}
+        locked = extended
+
+
+def _of_calls(skill: Skill, library: SkillLibrary, locked: Mapping[str, frozenset[str]]) -> Iterator[str]:
+    own = {each.name for each in skill.parameters}
+    for call in _calls(skill, library):
+        for device in locked.get(call.skill, frozenset()):
+            match call.arguments.get(device):
+                case Variable(name=name) if name in own:
+                    yield name
+
+
+def _calls(skill: Skill, library: SkillLibrary) -> Iterator[Call]:
+    for each in library.implementations_of(skill.name):
+        if isinstance(each.body, Compound):
+            yield from calls_in(each.body.node)
+
+
+def _in_order(skill: Skill, names: frozenset[str]) -> tuple[str, ...]:
+    return tuple(each.name for each in skill.parameters if each.name in names)

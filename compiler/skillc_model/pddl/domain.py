@@ -1,0 +1,211 @@
+"""The typed form of a planning domain: what of a library a planner can reason about, and what was left out and why."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from math import floor
+from typing import TypeAlias
+
+from skillc_model.conditions import Condition, Expression
+from skillc_model.pddl.formulas import Change, Formula, Typed
+from skillc_rdf.vocabulary.types import Position
+
+ROOT = "thing"
+
+
+@dataclass(frozen=True)
+class PlanningType:
+    """A class as a PDDL type below one parent; `depth` counts the types above it, `thing` excluded."""
+
+    name: str
+    parent: str
+    cls: str
+    depth: int
+
+
+@dataclass(frozen=True)
+class RelationFact:
+    """True of (s, o) when `s relation o` follows from what is written of other relations than `narrower`.
+
+    `narrower` are other predicates' relations as (relation, swapped): those change by themselves, and a condition on
+    this relation reads them too.
+    """
+
+    relation: str
+    narrower: tuple[tuple[str, bool], ...] = ()
+
+
+@dataclass(frozen=True)
+class PropertyFact:
+    """True of an individual whose property has the value: True of a Bool, one of the values of an enumerated text."""
+
+    property: str
+    value: bool | str
+
+
+@dataclass(frozen=True)
+class ClassFact:
+    """True of the individuals of a class; never changes."""
+
+    cls: str
+
+
+@dataclass(frozen=True)
+class GuardFact:
+    """True of the individuals for which the condition holds in the initial world; it reads nothing a skill changes.
+
+    `variables` are the free variables of the condition, in the order of the predicate's parameters. `text` is the
+    labelled condition as its author wrote it, of which this one is the whole or a part.
+    """
+
+    variables: tuple[str, ...]
+    condition: Condition
+    skill: str
+    label: str
+    text: str
+
+
+@dataclass(frozen=True)
+class GoalFact:
+    """True once the goal has been reached; false at first."""
+
+
+Meaning: TypeAlias = RelationFact | PropertyFact | ClassFact | GuardFact | GoalFact
+
+
+@dataclass(frozen=True)
+class Predicate:
+    """A predicate with what it stands for, which tells how to initialise it; `changes` unless it is static."""
+
+    name: str
+    parameters: tuple[Typed, ...]
+    meaning: Meaning
+    changes: bool
+
+
+@dataclass(frozen=True)
+class FixedCost:
+    """The same duration for all things, in seconds."""
+
+    seconds: Fraction
+
+
+@dataclass(frozen=True)
+class ComputedCost:
+    """The value of a cost function for these variables of the action."""
+
+    function: str
+    arguments: tuple[str, ...]
+
+
+Cost: TypeAlias = FixedCost | ComputedCost
+
+
+@dataclass(frozen=True)
+class CostFunction:
+    """A static function: the seconds are `expression` with `variables` bound to the arguments, in the initial world.
+
+    `moving` is a property or relation (IRI) that the expression reads and skills change: the value is an estimate.
+    """
+
+    name: str
+    parameters: tuple[Typed, ...]
+    variables: tuple[str, ...]
+    expression: Expression
+    skill: str
+    moving: str | None = None
+
+
+@dataclass(frozen=True)
+class Action:
+    """A skill as a planner sees it, by implementations that take equally long.
+
+    `binds` names the skill's parameter behind each action parameter.
+
+    A goal action (`skill` is None) costs nothing and is no step of a plan. `uses` are variables of locked devices.
+    """
+
+    name: str
+    skill: str | None
+    parameters: tuple[Typed, ...]
+    binds: tuple[str, ...]
+    precondition: Formula
+    hold: Formula
+    effects: tuple[Change, ...]
+    cost: Cost
+    uses: tuple[str, ...] = ()
+    doc: str = ""
+    source: Position | None = None
+
+
+@dataclass(frozen=True)
+class Excluded:
+    """A skill that no plan can contain, with the reason in the author's words; `impossible` if no run can either."""
+
+    skill: str
+    reason: str
+    source: Position
+    impossible: bool = False
+
+
+@dataclass(frozen=True)
+class PlanningDomain:
+    """A planning domain; `names` leads from PDDL names back to IRIs and skills, `scale` is cost units per second.
+
+    Costs are exact; planners get whole units, which are exact as long as the scale is a multiple of all denominators.
+    `combined` are the sets of classes of individuals that have several.
+    """
+
+    name: str
+    types: tuple[PlanningType, ...]
+    predicates: tuple[Predicate, ...]
+    costs: tuple[CostFunction, ...]
+    actions: tuple[Action, ...]
+    excluded: tuple[Excluded, ...]
+    names: dict[str, str]
+    scale: Fraction
+    constants: tuple[Typed, ...] = ()
+    combined: frozenset[frozenset[str]] = frozenset()
+
+    @cached_property
+    def _types(self) -> dict[str, PlanningType]:
+        return {each.name: each for each in self.types}
+
+    @cached_property
+    def _by_class(self) -> dict[str, PlanningType]:
+        return {each.cls: each for each in self.types}
+
+    @cached_property
+    def predicate(self) -> dict[str, Predicate]:
+        """The predicates by name."""
+        return {each.name: each for each in self.predicates}
+
+    @cached_property
+    def action(self) -> dict[str, Action]:
+        """The actions by name."""
+        return {each.name: each for each in self.actions}
+
+    def units(self, seconds: Fraction) -> int:
+        """Return a duration in whole units, rounded down where the scale cannot tell it."""
+        return floor(seconds * self.scale)
+
+    def type_of(self, classes: Iterable[str]) -> str:
+        """Return the most specific type for an individual of these classes (IRIs); `thing` when none is known."""
+        known = [self._by_class[cls] for cls in classes if cls in self._by_class]
+        return min(known, key=lambda each: (-each.depth, each.name)).name if known else ROOT
+
+    def is_a(self, type_name: str, ancestor: str) -> bool:
+        """Whether every object of the type is one of `ancestor`."""
+        while type_name not in (ancestor, ROOT):
+            type_name = self._types[type_name].parent
+        return type_name == ancestor or ancestor == ROOT
+
+    def of_type(self, objects: Iterable[Typed], type_name: str) -> tuple[str, ...]:
+        """Return the names of those objects that are of the type, in their order."""
+        fitting = {each.name for each in self.types if self.is_a(each.name, type_name)}
+        if type_name == ROOT:
+            fitting.add(ROOT)
+        return tuple(each.name for each in objects if each.type in fitting)

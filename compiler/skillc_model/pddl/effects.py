@@ -1,0 +1,129 @@
+"""Postconditions as changes of predicates, with what the axioms retract: the former value, the former holder."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import assert_never
+
+from skillc_model.conditions import Anything, Assert, Assign, Effect, Literal, Retract, Term
+from skillc_model.pddl.formulas import Atom, Change, Equal, Formula, Negation, Typed, conjunction, conjuncts
+from skillc_model.pddl.names import variable
+from skillc_model.pddl.translate import Scope, Translator, Untranslatable
+from skillc_model.read_write import Unique, unique_sides
+from skillc_rdf.vocabulary.closure import Directed
+
+
+@dataclass(frozen=True)
+class Effects:
+    """Turns effects into changes; `known` is what the precondition guarantees, which spares searching for old facts."""
+
+    translator: Translator
+    scope: Scope
+    known: Formula
+
+    def changes(self, effects: Iterable[Effect]) -> tuple[Change, ...]:
+        """Return the changes of all effects, additions first; Untranslatable says what a planner cannot follow."""
+        found: dict[Change, None] = {}
+        for effect in effects:
+            found.update(dict.fromkeys(self._effect(effect)))
+        added = {change.atom for change in found if change.positive}
+        kept = [change for change in found if change.positive or change.variables or change.atom not in added]
+        return tuple(sorted(kept, key=lambda change: not change.positive))
+
+    def _effect(self, effect: Effect) -> Iterator[Change]:
+        match effect:
+            case Assign():
+                return self._assign(effect)
+            case Retract(subject=subject, relation=relation, object=object_):
+                return self._retract(relation, self._term(subject), self._term(object_))
+            case Assert():
+                return self._assert(effect)
+            case _:
+                assert_never(effect)
+
+    def _assign(self, effect: Assign) -> Iterator[Change]:
+        symbols = self.translator.symbols
+        values, shown = symbols.values(effect.property), symbols.short(effect.property)
+        if not values:
+            raise Untranslatable(f"sets `{shown}`, which has no finite set of values")
+        if not isinstance(effect.value, Literal) or effect.value.value not in values:
+            raise Untranslatable(f"sets `{shown}` to a value that is known only at run time")
+        subject = self.translator.term(effect.subject, self.scope).name
+        for value in values:
+            yield Change(Atom(symbols.value(effect.property, value), (subject,)), value == effect.value.value)
+
+    def _assert(self, effect: Assert) -> Iterator[Change]:
+        vocabulary = self.translator.symbols.vocabulary
+        subject = self.translator.term(effect.subject, self.scope)
+        object_ = self.translator.term(effect.object, self.scope)
+        added = self._atom(vocabulary.closure.canonical(effect.relation), subject, object_)
+        yield Change(added, True)
+        for unique in unique_sides(effect.relation, vocabulary):
+            fixed = (subject, object_)[unique.fixed]
+            kept = object_ if fixed is subject else subject
+            sides: list[Typed | None] = [None, None]
+            sides[unique.side] = fixed
+            sides[1 - unique.side] = self._known_partner(unique, fixed)
+            for change in self._retract(unique.relation, *sides):
+                yield from self._of_others(change, fixed, kept, added)
+
+    def _of_others(self, change: Change, fixed: Typed, kept: Typed, added: Atom) -> Iterator[Change]:
+        """Yield the deletion of what stands opposite to a term unless that is what does so afterwards.
+
+        That an action adds what it deletes needs no saying.
+        """
+        side = 1 if change.atom.terms[0] == fixed.name else 0
+        former = change.atom.terms[side]
+        types = {**self._typed, **{each.name: each for each in change.variables}}
+        terms = list(change.atom.terms)
+        terms[side] = kept.name
+        apart = not self.translator.symbols.hierarchy.meet(types[former].type, kept.type)
+        if apart or Atom(change.atom.predicate, tuple(terms)) == added:
+            yield change
+        elif former != kept.name:
+            yield replace(change, condition=conjunction((change.condition, Negation(Equal(former, kept.name)))))
+
+    def _known_partner(self, unique: Unique, fixed: Typed) -> Typed | None:
+        """Return what the precondition says stands opposite to the fixed term."""
+        symbols = self.translator.symbols
+        for reading in symbols.vocabulary.closure.canonical_sources[unique.relation]:
+            predicate = symbols.relation(reading.relation)
+            side = unique.side != reading.flipped
+            for each in conjuncts(self.known):
+                match each:
+                    case Atom(predicate=name, terms=terms) if name == predicate and terms[side] == fixed.name:
+                        return self._typed[terms[not side]]
+        return None
+
+    def _retract(self, relation: str, subject: Typed | None, object_: Typed | None) -> Iterator[Change]:
+        """Delete every fact of which `relation` follows; None stands for whatever is there."""
+        symbols = self.translator.symbols
+        for reading in symbols.vocabulary.closure.canonical_sources[relation]:
+            variables: list[Typed] = []
+            terms: list[Typed] = []
+            for side, term in enumerate((subject, object_)):
+                if term is None:
+                    stored_side = 1 - side if reading.flipped else side
+                    term = self._variable(reading.relation, stored_side, [each.name for each in terms])
+                    variables.append(term)
+                terms.append(term)
+            if symbols.takes(reading.relation, reading.ends(*terms)):
+                atom = self._atom(reading, *terms)
+                yield Change(atom, False, tuple(variables), atom) if variables else Change(atom, False)
+
+    def _variable(self, relation: str, side: int, beside: Sequence[str]) -> Typed:
+        symbols = self.translator.symbols
+        taken = {*beside, *(place.variable.name for place in self.scope.values())}
+        return Typed(variable("former", taken), symbols.hierarchy.type_name(symbols.side_class(relation, side)))
+
+    def _atom(self, reading: Directed, subject: Typed, object_: Typed) -> Atom:
+        return Atom(self.translator.symbols.relation(reading.relation), reading.ends(subject.name, object_.name))
+
+    def _term(self, term: Term) -> Typed | None:
+        return None if isinstance(term, Anything) else self.translator.term(term, self.scope)
+
+    @cached_property
+    def _typed(self) -> dict[str, Typed]:
+        return self.translator.typed(self.scope)

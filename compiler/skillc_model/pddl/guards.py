@@ -1,0 +1,52 @@
+"""Conditions on what no skill changes, as static predicates that are settled when the problem is built."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass, field
+
+from skillc_model.conditions import Condition
+from skillc_model.pddl.domain import GuardFact, Predicate
+from skillc_model.pddl.formulas import Atom, Formula
+from skillc_model.pddl.names import fresh, kebab
+from skillc_model.pddl.symbols import Symbols
+from skillc_model.pddl.translate import Scope, StaticEvaluator, Untranslatable
+from skillc_model.read_write import terms_read
+from skillc_model.reading import free_variables_in_order
+from skillc_model.rewriting import is_plain
+
+
+@dataclass
+class Guards:
+    """Collects the guards of one skill; `taken` are names that no guard may have.
+
+    The same condition on things of other types is another guard: it is settled for the things of its types alone.
+    """
+
+    skill: str
+    symbols: Symbols
+    taken: Collection[str]
+    found: dict[tuple[Condition, tuple[str, ...]], Predicate] = field(default_factory=dict)
+
+    def labelled(self, label: str, text: str) -> StaticEvaluator:
+        """Return what makes guards of the condition with this label, which its author wrote so."""
+
+        def evaluate(condition: Condition, scope: Scope) -> Formula | None:
+            kept = is_plain(condition) and not any(map(self.symbols.is_computed, terms_read(condition)))
+            return None if kept else self._guard(label, text, condition, scope)
+
+        return evaluate
+
+    def _guard(self, label: str, text: str, condition: Condition, scope: Scope) -> Atom:
+        variables = free_variables_in_order(condition)
+        for name in variables:
+            if name not in scope:
+                raise Untranslatable(f"reads `{name}`, which a planner does not bind")
+        places = [scope[name].variable for name in variables]
+        key = condition, tuple(each.type for each in places)
+        if key not in self.found:
+            used = {*self.taken, *(each.name for each in self.found.values())}
+            name = fresh(f"guard-{kebab(self.skill)}-{kebab(label)}", used)
+            meaning = GuardFact(variables, condition, self.skill, label, text)
+            self.found[key] = Predicate(name, tuple(places), meaning, False)
+        return Atom(self.found[key].name, tuple(each.name for each in places))

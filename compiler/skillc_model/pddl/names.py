@@ -1,0 +1,116 @@
+"""PDDL names for the terms of a library and for the objects of a scene, and the way back.
+
+A name has lower-case letters, digits and `-`, starts with a letter, is no word of PDDL, and is unique although planners
+fold case. Where two terms want the same name, both get their prefix in front.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Collection, Iterable, Mapping, Sequence
+
+from skillc_model.pddl.constants import mentions
+from skillc_model.skills import SkillLibrary
+from skillc_rdf.vocabulary.types import PlainType, PropertyTerm, Vocabulary, local_name
+
+_WORDS_OF_PDDL = """
+    action all always and assign at at-end at-most-once at-start axiom condition constants constraints decrease define
+    derived domain duration durative-action effect either end exists forall functions goal hold-after hold-during imply
+    increase init length maximize metric minimize not number object objects or over parameters precondition predicates
+    preference problem requirements scale-down scale-up sometime sometime-after sometime-before start total-cost
+    total-time types undefined when within
+"""
+_WORDS_OF_OURS = "goal-reached idle reach-goal thing"
+KEYWORDS = frozenset((_WORDS_OF_PDDL + _WORDS_OF_OURS).split())
+_KEBAB = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
+_WORD_ENDS = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
+_FOREIGN = re.compile(r"[^a-z0-9_./:#\s-]")
+_GAPS = re.compile(r"[^a-z0-9]+")
+
+
+def pddl_names(library: SkillLibrary) -> dict[str, str]:
+    """Return PDDL name -> IRI of a class, relation or property, `property=value` of a value, or skill name.
+
+    The individuals that skills name have names too: they are constants of the domain.
+    """
+    vocabulary = library.vocabulary
+    wanted = {iri: _of_iri(iri, vocabulary) for iri in (*vocabulary.classes, *vocabulary.relations)}
+    for iri, term in vocabulary.properties.items():
+        wanted |= {value_key(iri, value): _of_value(iri, value, vocabulary) for value in finite_values(term)}
+    wanted |= {name: (kebab(name), f"skill-{kebab(name)}") for name in library.skills}
+    named = {each.individual for found in mentions(library).values() for each in found}
+    wanted |= {iri: _of_iri(iri, vocabulary) for iri in named - wanted.keys()}
+    return _inverse(allocate(wanted))
+
+
+def object_names(iris: Iterable[str], vocabulary: Vocabulary, taken: Collection[str]) -> dict[str, str]:
+    """Return object name -> IRI for the individuals of a scene, none of the names being in `taken`."""
+    plain = {iri: kebab(local_name(iri)) for iri in iris}
+    times = Counter((*plain.values(), *taken, *KEYWORDS))
+    wanted = {iri: (name,) if times[name] == 1 else _of_iri(iri, vocabulary) for iri, name in plain.items()}
+    return _inverse(allocate(wanted, taken))
+
+
+def finite_values(term: PropertyTerm) -> tuple[bool | str, ...]:
+    """Return the values of a property that has finitely many, each of which becomes a predicate; () otherwise."""
+    return (True, False) if term.type == PlainType("Bool") else term.values
+
+
+def value_key(iri: str, value: bool | str) -> str:
+    """Return what a value's predicate is called in the table: the property itself for True, `property=value` else."""
+    return iri if value is True else f"{iri}={'false' if value is False else value}"
+
+
+def kebab(text: str) -> str:
+    """Return the text in PDDL's letters: `ArmDevice` becomes arm-device, `Ur5e-1` ur5e-1, a foreign letter its code."""
+    if _KEBAB.fullmatch(text):
+        return text
+    spaced = _WORD_ENDS.sub("-", text).lower()
+    plain = _FOREIGN.sub(lambda match: f"-u{ord(match.group()):x}-", spaced)
+    name = _GAPS.sub("-", plain).strip("-")
+    return name if name[:1].isalpha() else f"x-{name}".strip("-")
+
+
+def allocate(wanted: Mapping[str, Sequence[str]], taken: Collection[str] = ()) -> dict[str, str]:
+    """Give each key the first of its wanted names that no other key wants at that stage; number those left over."""
+    used = KEYWORDS | set(taken)
+    chosen: dict[str, str] = {}
+    for stage in range(max((len(names) for names in wanted.values()), default=0)):
+        open_ = {key: names[min(stage, len(names) - 1)] for key, names in sorted(wanted.items()) if key not in chosen}
+        times = Counter(open_.values())
+        granted = {key: name for key, name in open_.items() if times[name] == 1 and name not in used}
+        chosen |= granted
+        used |= set(granted.values())
+    for key in sorted(wanted.keys() - chosen.keys()):
+        chosen[key] = fresh(wanted[key][-1], used)
+        used |= {chosen[key]}
+    return chosen
+
+
+def fresh(name: str, taken: Collection[str]) -> str:
+    """Return the name, numbered from 2 if it is taken or a word of PDDL."""
+    candidate, number = name, 1
+    while candidate in taken or candidate in KEYWORDS:
+        number += 1
+        candidate = f"{name}-{number}"
+    return candidate
+
+
+def variable(name: str, taken: Collection[str]) -> str:
+    """Return a PDDL variable for a name of the library that is none of `taken`."""
+    plain = kebab(name)
+    return "?" + fresh(f"the-{plain}" if plain in KEYWORDS else plain, {each.removeprefix("?") for each in taken})
+
+
+def _of_iri(iri: str, vocabulary: Vocabulary) -> tuple[str, ...]:
+    return kebab(local_name(iri)), kebab(vocabulary.short(iri))
+
+
+def _of_value(iri: str, value: bool | str, vocabulary: Vocabulary) -> tuple[str, ...]:
+    ending = "" if value is True else f"-{kebab('false' if value is False else value)}"
+    return tuple(name + ending for name in _of_iri(iri, vocabulary))
+
+
+def _inverse(chosen: Mapping[str, str]) -> dict[str, str]:
+    return {chosen[key]: key for key in sorted(chosen)}

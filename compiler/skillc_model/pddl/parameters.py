@@ -1,0 +1,48 @@
+"""The parameters of a skill as a planner takes them: things become variables, the rest keeps its default."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from skillc_model.conditions import Condition, Expression
+from skillc_model.pddl.formulas import Typed
+from skillc_model.pddl.hierarchy import Hierarchy
+from skillc_model.pddl.names import variable
+from skillc_model.pddl.translate import Place, Untranslatable
+from skillc_model.rewriting import decided, substitute
+from skillc_model.skills import Parameter
+from skillc_rdf.vocabulary.types import ClassType
+
+
+@dataclass(frozen=True)
+class Defaults:
+    """What optional parameters are worth in a plan: their default, or not given."""
+
+    values: Mapping[str, Expression]
+    given: Mapping[str, bool]
+
+    def applied(self, condition: Condition) -> Condition:
+        """Return the condition with the defaults put in and every `given` decided."""
+        return decided(substitute(condition, self.values), self.given)
+
+
+def defaults(parameters: Sequence[Parameter]) -> Defaults:
+    """Return what the optional parameters are worth."""
+    values = {each.name: each.default for each in parameters if each.direction == "opt" and each.default is not None}
+    given = {each.name: each.direction != "opt" or each.default is not None for each in parameters}
+    return Defaults(values, given)
+
+
+def planned_parameters(parameters: Sequence[Parameter], hierarchy: Hierarchy) -> dict[str, Place]:
+    """Return the variables a planner binds, by parameter; Untranslatable names a parameter it would have to invent."""
+    places: dict[str, Place] = {}
+    for parameter in parameters:
+        if parameter.direction in ("opt", "out"):
+            continue
+        if not isinstance(parameter.type, ClassType):
+            raise Untranslatable(f"its parameter `{parameter.name}` is no thing, so a planner cannot choose it")
+        taken = {place.variable.name for place in places.values()}
+        name = variable(parameter.name, taken)
+        places[parameter.name] = Place(Typed(name, hierarchy.type_name(parameter.type.iri)), parameter.type.iri)
+    return places

@@ -1,0 +1,121 @@
+"""A problem made palatable for `astar(lmcut())`, which takes no axioms.
+
+Fast Downward turns forall over changing predicates in preconditions, and disjunctive goals, into axioms. So the first
+are expanded over the problem's objects, and the second become an action that costs nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence, Set
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import assert_never
+
+from skillc_model.pddl.domain import Action, FixedCost, GoalFact, PlanningDomain, Predicate
+from skillc_model.pddl.formulas import (
+    FALSE,
+    TRUE,
+    Atom,
+    Change,
+    Conjunction,
+    Disjunction,
+    Equal,
+    Existential,
+    Formula,
+    Negation,
+    Typed,
+    Universal,
+    conjunction,
+    conjuncts,
+    disjunction,
+    existential,
+)
+from skillc_model.pddl.problem import Problem
+
+GOAL_REACHED = "goal-reached"
+REACH_GOAL = "reach-goal"
+
+
+def prepared(problem: Problem) -> Problem:
+    """Return an equivalent problem without axioms; its goal action, if any, is no step of a plan."""
+    expanded = replace(problem, domain=_expanded_domain(problem))
+    literals = all(isinstance(each, Atom | Negation) for each in conjuncts(problem.goal))
+    return expanded if literals else _with_goal_action(expanded)
+
+
+def _expanded_domain(problem: Problem) -> PlanningDomain:
+    """Return the domain with every forall in a condition written out for the objects, which become constants."""
+    domain, expansion = problem.domain, _Expansion(problem.domain, problem.objects, frozenset(problem.init))
+    actions = tuple(
+        replace(action, precondition=expansion.of(action.precondition, {}), hold=expansion.of(action.hold, {}))
+        for action in domain.actions
+    )
+    if actions == domain.actions:
+        return domain
+    possible = tuple(each for each in actions if FALSE not in (each.precondition, each.hold))
+    return replace(domain, actions=possible, constants=problem.objects)
+
+
+def _with_goal_action(problem: Problem) -> Problem:
+    domain, reached = problem.domain, Atom(GOAL_REACHED, ())
+    action = Action(
+        name=REACH_GOAL,
+        skill=None,
+        parameters=(),
+        binds=(),
+        precondition=problem.goal,
+        hold=Conjunction(()),
+        effects=(Change(reached, True),),
+        cost=FixedCost(Fraction(0)),
+    )
+    extended = replace(
+        domain,
+        predicates=(*domain.predicates, Predicate(GOAL_REACHED, (), GoalFact(), True)),
+        actions=(*domain.actions, action),
+        constants=problem.objects,
+    )
+    return replace(problem, domain=extended, goal=reached)
+
+
+@dataclass(frozen=True)
+class _Expansion:
+    """Writes out every forall; what nothing changes is settled by the `facts`, or the planner would multiply it out."""
+
+    domain: PlanningDomain
+    objects: Sequence[Typed]
+    facts: Set[Atom]
+
+    def of(self, formula: Formula, values: Mapping[str, str]) -> Formula:
+        """Return a formula with these objects in the place of variables."""
+        match formula:
+            case Atom(predicate=predicate, terms=terms):
+                return self._settled(Atom(predicate, tuple(values.get(each, each) for each in terms)))
+            case Equal(left=left, right=right):
+                return _equal(values.get(left, left), values.get(right, right))
+            case Negation(body=body):
+                inner = self.of(body, values)
+                if isinstance(inner, Atom | Equal):
+                    return Negation(inner)
+                return FALSE if inner == TRUE else TRUE
+            case Conjunction(parts=parts):
+                return conjunction(self.of(part, values) for part in parts)
+            case Disjunction(parts=parts):
+                return disjunction(self.of(part, values) for part in parts)
+            case Existential(variable=variable, body=body):
+                return existential(variable, self.of(body, values))
+            case Universal(variable=variable, body=body):
+                names = self.domain.of_type(self.objects, variable.type)
+                return conjunction(self.of(body, {**values, variable.name: name}) for name in names)
+            case _:
+                assert_never(formula)
+
+    def _settled(self, atom: Atom) -> Formula:
+        if self.domain.predicate[atom.predicate].changes or any(each.startswith("?") for each in atom.terms):
+            return atom
+        return TRUE if atom in self.facts else FALSE
+
+
+def _equal(left: str, right: str) -> Formula:
+    if left == right:
+        return TRUE
+    return Equal(left, right) if "?" in (left[0], right[0]) else FALSE

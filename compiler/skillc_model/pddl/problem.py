@@ -1,0 +1,46 @@
+"""The typed form of a planning problem: pure data that the runtime fills from a snapshot of the world."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from skillc_model.pddl.domain import FixedCost, PlanningDomain
+from skillc_model.pddl.formulas import Atom, Formula, Typed
+
+
+@dataclass(frozen=True)
+class CostValue:
+    """The cost of one tuple of objects, in seconds."""
+
+    function: str
+    arguments: tuple[str, ...]
+    seconds: Fraction
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A problem of a domain.
+
+    Every object stands once, with its most specific type; `names` leads from object names to IRIs. `goal` is ground:
+    atoms, their negations, conjunctions and disjunctions, without quantifiers.
+    """
+
+    name: str
+    domain: PlanningDomain
+    objects: tuple[Typed, ...]
+    names: dict[str, str]
+    init: tuple[Atom, ...]
+    costs: tuple[CostValue, ...]
+    goal: Formula
+
+    @property
+    def rounds_down(self) -> bool:
+        """Whether some duration is not a whole number of units."""
+        return any((each * self.domain.scale).denominator != 1 for each in durations(self))
+
+
+def durations(problem: Problem) -> frozenset[Fraction]:
+    """Return how long actions of a problem take, in seconds."""
+    fixed = {each.cost.seconds for each in problem.domain.actions if isinstance(each.cost, FixedCost)}
+    return frozenset(fixed | {each.seconds for each in problem.costs})

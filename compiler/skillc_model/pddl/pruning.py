@@ -1,0 +1,39 @@
+"""A domain without the values of properties that no action reads, for readers who bring their own goals.
+
+`p` false is then said as `(not (p ..))`. A domain for a known goal keeps them: the goal may ask for such a value.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from skillc_model.pddl.domain import Action, PlanningDomain, Predicate, PropertyFact
+from skillc_model.pddl.formulas import atoms
+from skillc_model.pddl.typed import action_terms
+
+
+def pruned(domain: PlanningDomain) -> PlanningDomain:
+    """Return the domain without unread values that are false or that actions only take away."""
+    read = {name for action in domain.actions for name in _read(action)}
+    added = {change.atom.predicate for action in domain.actions for change in action.effects if change.positive}
+    spare = {each.name for each in domain.predicates if each.name not in read and _is_spare(each, added)}
+    actions = tuple(
+        replace(action, effects=tuple(each for each in action.effects if each.atom.predicate not in spare))
+        for action in domain.actions
+    )
+    predicates = tuple(each for each in domain.predicates if each.name not in spare)
+    used = frozenset().union(*(action_terms(each) for each in actions))
+    constants = tuple(each for each in domain.constants if each.name in used)
+    return replace(domain, predicates=predicates, actions=actions, constants=constants)
+
+
+def _read(action: Action) -> set[str]:
+    formulas = (action.precondition, action.hold, *(change.condition for change in action.effects))
+    return {atom.predicate for formula in formulas for atom in atoms(formula)}
+
+
+def _is_spare(predicate: Predicate, added: set[str]) -> bool:
+    match predicate.meaning:
+        case PropertyFact(value=value):
+            return value is False or predicate.name not in added
+    return False

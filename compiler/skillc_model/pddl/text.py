@@ -1,0 +1,203 @@
+"""PDDL text of domains and problems: Jinja2 templates lay out the page, this module writes formulas and effects."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from functools import cache
+from itertools import groupby
+from typing import assert_never
+
+from jinja2 import Environment, PackageLoader, StrictUndefined, Template
+
+from skillc_model.pddl.domain import Action, ComputedCost, Cost, FixedCost, GuardFact, PlanningDomain, Predicate
+from skillc_model.pddl.formulas import (
+    TRUE,
+    Atom,
+    Change,
+    Conjunction,
+    Disjunction,
+    Equal,
+    Existential,
+    Formula,
+    Negation,
+    Typed,
+    Universal,
+    atoms,
+    conjunction,
+    conjuncts,
+)
+from skillc_model.pddl.problem import Problem
+from skillc_model.pddl.requirements import requirements
+
+WIDTH = 100
+
+
+def domain_text(domain: PlanningDomain) -> str:
+    """Return the classical domain with action costs; hold conditions join the preconditions."""
+    return _template("domain.pddl.j2").render(domain=domain, requirements=requirements(domain))
+
+
+def temporal_text(domain: PlanningDomain) -> str:
+    """Return the domain with durative actions: hold conditions hold over all, devices in use are locked."""
+    needed = [each for each in requirements(domain) if each != ":action-costs"]
+    numbers = [":numeric-fluents"] if domain.costs else []
+    return _template("temporal.pddl.j2").render(domain=domain, requirements=(*needed, *numbers, ":durative-actions"))
+
+
+def problem_text(problem: Problem) -> str:
+    """Return the problem for the classical domain."""
+    return _template("problem.pddl.j2").render(problem=problem, objects=_declared(problem), idle=(), temporal=False)
+
+
+def temporal_problem_text(problem: Problem) -> str:
+    """Return the problem for the temporal domain: no device is in use at first, and the makespan counts."""
+    idle = _lockable(problem)
+    return _template("problem.pddl.j2").render(problem=problem, objects=_declared(problem), idle=idle, temporal=True)
+
+
+def _lockable(problem: Problem) -> list[str]:
+    """Return the objects that some action may lock."""
+    locks = {each.type for action in problem.domain.actions for each in action.parameters if each.name in action.uses}
+    return [each.name for each in problem.objects if any(problem.domain.is_a(each.type, lock) for lock in locks)]
+
+
+def _declared(problem: Problem) -> list[Typed]:
+    constants = {each.name for each in problem.domain.constants}
+    return [each for each in problem.objects if each.name not in constants]
+
+
+@cache
+def _template(name: str) -> Template:
+    environment = Environment(
+        loader=PackageLoader("skillc_model.pddl", "."),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,
+    )
+    environment.filters |= {
+        "cost": cost_text,
+        "declared": declared_text,
+        "effect": effect_text,
+        "formula": formula_text,
+        "lines": str.splitlines,
+        "meaning": _meaning_lines,
+        "scale": _scale_text,
+        "precondition": lambda action: formula_text(_classical(action), 4),
+        "start": lambda action: conjuncts(_classical(action)),
+        "conjuncts": conjuncts,
+        "durative": _durative,
+        "types": _type_lines,
+    }
+    return environment.get_template(name)
+
+
+def _classical(action: Action) -> Formula:
+    return conjunction((action.precondition, action.hold))
+
+
+def declared_text(typed: Iterable[Typed]) -> str:
+    """Return `?a - type ?b - type`."""
+    return " ".join(f"{each.name} - {each.type}" for each in typed)
+
+
+def cost_text(cost: Cost, domain: PlanningDomain) -> str:
+    """Return the number, in units of the domain, or the function that an action costs."""
+    match cost:
+        case FixedCost(seconds=seconds):
+            return str(domain.units(seconds))
+        case ComputedCost(function=function, arguments=arguments):
+            return _list(function, arguments)
+        case _:
+            assert_never(cost)
+
+
+def formula_text(formula: Formula, indent: int = 0) -> str:
+    """Return the formula, on one line where it fits and with a part per line where it does not."""
+    match formula:
+        case Atom(predicate=predicate, terms=terms):
+            return _list(predicate, terms)
+        case Equal(left=left, right=right):
+            return f"(= {left} {right})"
+        case Negation(body=body):
+            return f"(not {formula_text(body)})"
+        case Conjunction(parts=parts):
+            return _block("and", parts, indent)
+        case Disjunction(parts=parts):
+            return _block("or", parts, indent)
+        case Existential(variable=variable, body=body):
+            return f"(exists ({declared_text((variable,))}) {formula_text(body, indent)})"
+        case Universal(variable=variable, body=body):
+            return f"(forall ({declared_text((variable,))}) {formula_text(body, indent)})"
+        case _:
+            assert_never(formula)
+
+
+def effect_text(change: Change) -> str:
+    """Return one effect of a classical action."""
+    effect = _literal(change)
+    if change.condition != TRUE:
+        effect = f"(when {formula_text(change.condition)} {effect})"
+    return f"(forall ({declared_text(change.variables)}) {effect})" if change.variables else effect
+
+
+def used_up(change: Change, action: Action) -> bool:
+    """Whether an action that takes time deletes at its start what it reads there and does not need to its end."""
+    deleted = not change.positive and change.condition == TRUE and not change.variables
+    return deleted and change.atom in conjuncts(action.precondition) and change.atom not in atoms(action.hold)
+
+
+def _durative(change: Change, action: Action) -> str:
+    """Return one effect of a durative action, at its end; but what it needs at its start and uses up is gone at once.
+
+    Otherwise two actions that overlap could use up the same thing.
+    """
+    if used_up(change, action):
+        return f"(at start {_literal(change)})"
+    effect = f"(at end {_literal(change)})"
+    if change.condition != TRUE:
+        effect = f"(when (at end {formula_text(change.condition)}) {effect})"
+    return f"(forall ({declared_text(change.variables)}) {effect})" if change.variables else effect
+
+
+def _literal(change: Change) -> str:
+    return formula_text(change.atom if change.positive else Negation(change.atom))
+
+
+def _list(head: str, terms: Sequence[str]) -> str:
+    return f"({' '.join((head, *terms))})"
+
+
+def _block(word: str, parts: Sequence[Formula], indent: int) -> str:
+    flat = _list(word, [formula_text(part) for part in parts])
+    if word == "or" and not parts:
+        raise ValueError("PDDL has no word for false: a condition that can never hold must be told before printing")
+    if len(flat) + indent <= WIDTH:
+        return flat
+    inner = " " * (indent + 2)
+    lines = "".join(f"\n{inner}{formula_text(part, indent + 2)}" for part in parts)
+    return f"({word}{lines}\n{' ' * indent})"
+
+
+def _scale_text(scale: Fraction) -> str:
+    if scale == 1:
+        return "a unit is a second"
+    if scale.numerator == 1:
+        return f"a unit is {scale.denominator} seconds"
+    return f"{scale} units are a second"
+
+
+def _meaning_lines(predicate: Predicate) -> list[str]:
+    """Return what is said above a predicate whose name does not tell what it stands for: a condition as written."""
+    match predicate.meaning:
+        case GuardFact(skill=skill, label=label, text=text):
+            return [f"`{label}` of {skill}: {' '.join(text.split())}"]
+    return []
+
+
+def _type_lines(domain: PlanningDomain) -> list[str]:
+    by_parent = sorted(domain.types, key=lambda each: (each.depth, each.parent, each.name))
+    groups = groupby(by_parent, key=lambda each: each.parent)
+    return [f"{' '.join(each.name for each in group)} - {parent}" for parent, group in groups]

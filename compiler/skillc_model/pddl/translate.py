@@ -1,0 +1,278 @@
+"""Library conditions as formulas over predicates: what skills change becomes atoms, the rest is settled beforehand."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Protocol, TypeAlias, assert_never
+
+from skillc_model.conditions import (
+    And,
+    Anything,
+    Compare,
+    Condition,
+    Exists,
+    Expression,
+    Forall,
+    Given,
+    HasProperty,
+    Holds,
+    Individual,
+    IsA,
+    Literal,
+    Not,
+    Or,
+    PropertyOf,
+    Same,
+    Term,
+    Variable,
+)
+from skillc_model.pddl.formulas import (
+    FALSE,
+    TRUE,
+    Atom,
+    Conjunction,
+    Disjunction,
+    Equal,
+    Existential,
+    Formula,
+    Negation,
+    Typed,
+    Universal,
+    conjunction,
+    disjunction,
+    existential,
+)
+from skillc_model.pddl.names import variable
+from skillc_model.pddl.symbols import Symbols
+from skillc_model.read_write import terms_read
+
+
+class Untranslatable(Exception):
+    """Something a classical planner cannot reason about; the message says what, to end a sentence about the skill."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """What a variable of the library is called in PDDL, and its class."""
+
+    variable: Typed
+    cls: str
+
+
+Scope: TypeAlias = Mapping[str, Place]
+
+
+@dataclass(frozen=True)
+class Named:
+    """An individual that formulas may name: its PDDL name and type, and its classes as far as they are known."""
+
+    object: Typed
+    classes: frozenset[str]
+
+
+class Impossible(Untranslatable):
+    """Something that can never be done: a skill that is left out for it makes no difference to any plan."""
+
+
+class StaticEvaluator(Protocol):
+    """What becomes of a condition that nothing changes."""
+
+    def __call__(self, condition: Condition, scope: Scope) -> Formula | None:
+        """Return what it amounts to; None leaves it to be translated like any other."""
+        ...
+
+
+@dataclass(frozen=True)
+class Translator:
+    """Turns conditions into formulas; `objects` are the individuals that may be named, by IRI."""
+
+    symbols: Symbols
+    evaluate_static: StaticEvaluator
+    objects: Mapping[str, Named]
+
+    def formula(self, condition: Condition, scope: Scope) -> Formula:
+        """Return the condition as a formula; Untranslatable says why not."""
+        match condition:
+            case Not(body=body):
+                return negated(self.formula(body, scope))
+            case And(parts=parts):
+                return conjunction(self.formula(part, scope) for part in parts)
+            case Or(parts=parts):
+                return disjunction(self.formula(part, scope) for part in parts)
+            case Given(parameter=name):
+                raise Untranslatable(f"reads whether `{name}` was given")
+            case Holds() | Compare() | Same() | HasProperty() | IsA() | Exists() | Forall():
+                return self._leaf(condition, scope)
+            case _:
+                assert_never(condition)
+
+    def _leaf(self, condition: Holds | Compare | Same | HasProperty | IsA | Exists | Forall, scope: Scope) -> Formula:
+        read = terms_read(condition)
+        self._refuse_moving(read)
+        if not any(self.symbols.affected(iri) for iri in read):
+            settled = self.evaluate_static(condition, scope)
+            if settled is not None:
+                return settled
+        match condition:
+            case Holds():
+                return self._holds(condition, scope)
+            case Same(left=left, right=right):
+                return Equal(self.term(left, scope).name, self.term(right, scope).name)
+            case IsA(subject=subject, cls=cls):
+                return self.is_a(subject, cls, scope)
+            case HasProperty(subject=subject, property=iri):
+                return self._one_of(iri, self.symbols.values(iri), self.term(subject, scope))
+            case Compare():
+                return self._compare(condition, scope)
+            case Exists(variable=name, cls=cls, body=body):
+                return self._exists(name, cls, body, scope)
+            case Forall(variable=name, cls=cls, body=body):
+                return negated(self._exists(name, cls, Not(body), scope))
+            case _:
+                assert_never(condition)
+
+    def term(self, term: Term | Expression, scope: Scope) -> Typed:
+        """Return the PDDL name and type of a term."""
+        match term:
+            case Variable(name=name) if name in scope:
+                return scope[name].variable
+            case Individual(iri=iri) if iri in self.objects:
+                return self.objects[iri].object
+            case Variable(name=name):
+                raise Untranslatable(f"reads `{name}`, which a planner does not bind")
+            case Individual(iri=iri):
+                raise Untranslatable(f"names `{self.symbols.short(iri)}`, which is not in the scene")
+            case _:
+                raise Untranslatable("reads something a skill changes through another value")
+
+    def typed(self, scope: Scope) -> dict[str, Typed]:
+        """Return the variables and individuals that formulas in this scope may name, by their PDDL names."""
+        known = (*(each.variable for each in scope.values()), *(each.object for each in self.objects.values()))
+        return {each.name: each for each in known}
+
+    def _holds(self, condition: Holds, scope: Scope) -> Formula:
+        relation = condition.relation
+        self._refuse_transitive(relation)
+        subject, first = self._side(condition.subject, relation, 0, scope)
+        object_, second = self._side(condition.object, relation, 1, {**scope, **first})
+        formula = disjunction(self.holds(relation, subject, object_))
+        for place in (*second.values(), *first.values()):
+            formula = existential(place.variable, formula)
+        return formula
+
+    def holds(self, relation: str, subject: Typed, object_: Typed) -> Iterator[Atom]:
+        """Yield the atoms of which any makes the relation hold, without those that no objects of these types have."""
+        for each in self.symbols.readings(relation):
+            sides = each.ends(subject, object_)
+            if self.symbols.takes(each.relation, sides):
+                yield Atom(self.symbols.relation(each.relation), tuple(side.name for side in sides))
+
+    def _side(self, term: Term, relation: str, side: int, scope: Scope) -> tuple[Typed, dict[str, Place]]:
+        if not isinstance(term, Anything):
+            return self.term(term, scope), {}
+        place = self._place("any", self.symbols.side_class(relation, side), scope)
+        return place.variable, {place.variable.name: place}
+
+    def _refuse_transitive(self, relation: str) -> None:
+        if self.symbols.follows_over_steps(relation):
+            raise Untranslatable(
+                f"reads `{self.symbols.short(relation)}`, which follows over any number of steps, and skills change it"
+            )
+
+    def _refuse_moving(self, read: Iterable[str]) -> None:
+        for iri in sorted(filter(self.symbols.is_computed, read)):
+            moving = self.symbols.decided_by(iri)
+            if moving:
+                raise Untranslatable(
+                    f"reads `{self.symbols.short(iri)}`, which is computed from `{self.symbols.short(moving[0])}`, "
+                    "and skills change it"
+                )
+
+    def _place(self, name: str, cls: str, scope: Scope) -> Place:
+        taken = {place.variable.name for place in scope.values()}
+        return Place(Typed(variable(name, taken), self.symbols.hierarchy.type_name(cls)), cls)
+
+    def _exists(self, name: str, cls: str, body: Condition, scope: Scope) -> Formula:
+        place = self._place(name, cls, scope)
+        member = self.membership(cls, place)
+        return existential(place.variable, conjunction((member, self.formula(body, {**scope, name: place}))))
+
+    def membership(self, cls: str, place: Place) -> Formula:
+        """Return what remains to be tested for the variable to be of the class, given its PDDL type."""
+        hierarchy = self.symbols.hierarchy
+        exact = hierarchy.is_exact(cls) and hierarchy.type_name(cls) == place.variable.type
+        return TRUE if exact else Atom(self.symbols.member(cls), (place.variable.name,))
+
+    def is_a(self, subject: Term, cls: str, scope: Scope) -> Formula:
+        """Return what remains to be tested for a term to be of a class."""
+        term = self.term(subject, scope)
+        if any(self.symbols.is_a(each, cls) for each in self._known_classes(subject, scope)):
+            return TRUE
+        if not self.may_be(subject, cls, scope):
+            return FALSE
+        if isinstance(subject, Variable):
+            return self.membership(cls, scope[subject.name])
+        return Atom(self.symbols.member(cls), (term.name,))
+
+    def may_be(self, subject: Term, cls: str, scope: Scope) -> bool:
+        """Whether a term may be of a class."""
+        if self.symbols.settled and isinstance(subject, Individual):
+            return any(self.symbols.is_a(each, cls) for each in self._known_classes(subject, scope))
+        overlap = self.symbols.hierarchy.overlap
+        return all(overlap(each, cls) for each in self._known_classes(subject, scope))
+
+    def _known_classes(self, term: Term, scope: Scope) -> frozenset[str]:
+        match term:
+            case Variable(name=name):
+                return frozenset({scope[name].cls})
+            case Individual(iri=iri):
+                return self.objects[iri].classes
+            case Anything():
+                return frozenset()
+            case _:
+                assert_never(term)
+
+    def _compare(self, condition: Compare, scope: Scope) -> Formula:
+        match condition:
+            case Compare(left=PropertyOf() as read, operator="==" | "!=" as operator, right=Literal(value=value)):
+                pass
+            case Compare(left=Literal(value=value), operator="==" | "!=" as operator, right=PropertyOf() as read):
+                pass
+            case _:
+                names = ", ".join(f"`{self.symbols.short(each)}`" for each in sorted(terms_read(condition)))
+                raise Untranslatable(f"compares {names}, which skills change, with something else than one value")
+        values = self.symbols.values(read.property)
+        equal = operator == "=="
+        # bool is an int: compare kinds too, so that 1 is not taken for true
+        wanted = [each for each in values if (each == value and type(each) is type(value)) == equal]
+        return self._one_of(read.property, wanted, self.term(read.of, scope))
+
+    def _one_of(self, iri: str, values: tuple[bool | str, ...] | list[bool | str], subject: Typed) -> Formula:
+        if not self.symbols.values(iri):
+            raise Untranslatable(
+                f"reads `{self.symbols.short(iri)}`, which skills change and which has no finite values"
+            )
+        if not self.symbols.may_have(iri, subject):
+            return FALSE
+        return disjunction(Atom(self.symbols.value(iri, value), (subject.name,)) for value in values)
+
+
+def negated(formula: Formula) -> Formula:
+    """Return the negation of a formula, pushed inwards to its atoms."""
+    match formula:
+        case Atom() | Equal():
+            return Negation(formula)
+        case Negation(body=body):
+            return body
+        case Conjunction(parts=parts):
+            return disjunction(negated(part) for part in parts) if parts else FALSE
+        case Disjunction(parts=parts):
+            return conjunction(negated(part) for part in parts) if parts else TRUE
+        case Existential(variable=variable, body=body):
+            inner = negated(body)
+            return TRUE if inner == TRUE else Universal(variable, inner)
+        case Universal(variable=variable, body=body):
+            return existential(variable, negated(body))
+        case _:
+            assert_never(formula)

@@ -1,0 +1,44 @@
+"""What `verify` lines say of every execution of an implementation."""
+
+from __future__ import annotations
+
+from typing import Literal as OneOf
+from typing import TypeAlias
+
+import msgspec
+
+from skillc_model.conditions import Condition, Expression, Operator
+from skillc_rdf.vocabulary.types import Position
+
+
+class Runs(msgspec.Struct, frozen=True, tag="runs"):
+    """A skill runs. What must not be counts from its start, what must have been once it has succeeded."""
+
+    skill: str
+
+
+class Is(msgspec.Struct, frozen=True, tag="is"):
+    """A condition holds."""
+
+    condition: Condition
+
+
+class Measures(msgspec.Struct, frozen=True, tag="measures"):
+    """The contact force on an arm of the implementation, N, compares so with a limit, N."""
+
+    quantity: OneOf["force"]
+    operator: Operator
+    limit: Expression
+
+
+Event: TypeAlias = Runs | Is | Measures
+
+
+class Property(msgspec.Struct, frozen=True, kw_only=True):
+    """`never first`, `never first outside second`, `first before second`, `after first eventually second`."""
+
+    pattern: OneOf["never", "outside", "before", "eventually"]
+    first: Event
+    second: Event | None = None
+    text: str
+    source: Position

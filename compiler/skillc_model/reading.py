@@ -1,0 +1,66 @@
+"""Looking into conditions, expressions and bodies: what they are made of, which names they leave open."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+
+import msgspec
+
+from skillc_model.conditions import And, Condition, Effect, Exists, Expression, Forall, Variable
+from skillc_model.tree import Call
+
+
+def walk(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
+    """Yield a condition or expression and everything inside it."""
+    yield item
+    for part in children(item):
+        yield from walk(part)
+
+
+def children(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
+    """Yield the conditions, expressions, nodes and other structs of which something is made, in order."""
+    for name in item.__struct_fields__:
+        value = getattr(item, name)
+        parts = value if isinstance(value, tuple) else value.values() if isinstance(value, dict) else (value,)
+        yield from (part for part in parts if isinstance(part, msgspec.Struct))
+
+
+def conjuncts(condition: Condition) -> Iterator[Condition]:
+    """Yield the conditions that `and` joins, the condition itself where it is none."""
+    if isinstance(condition, And):
+        for part in condition.parts:
+            yield from conjuncts(part)
+    else:
+        yield condition
+
+
+def calls_in(item: msgspec.Struct) -> Iterator[Call]:
+    """Yield the calls of skills in a body, in the order of the text."""
+    return (each for each in walk(item) if isinstance(each, Call))
+
+
+def is_deeper(item: msgspec.Struct, most: int) -> bool:
+    """Whether parts of a condition, an expression or a call are inside each other more than so many times."""
+    level = [item]
+    for _ in range(most + 1):
+        level = [part for each in level for part in children(each)]
+    return bool(level)
+
+
+@lru_cache(maxsize=4096)
+def free_variables(item: Condition | Expression) -> frozenset[str]:
+    """Return the variables whose values come from outside."""
+    return frozenset(_free(item))
+
+
+def free_variables_in_order(item: Condition | Effect | Expression) -> tuple[str, ...]:
+    """Return the same in the order in which they first occur."""
+    return tuple(dict.fromkeys(_free(item)))
+
+
+def _free(item: msgspec.Struct) -> Iterator[str]:
+    if isinstance(item, Variable):
+        yield item.name
+    bound = item.variable if isinstance(item, Exists | Forall) else None
+    yield from (name for part in children(item) for name in _free(part) if name != bound)

@@ -1,0 +1,163 @@
+"""Rewriting conditions and expressions: values for variables, answers for `given`, constants."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from itertools import count
+from typing import Any, TypeVar, assert_never
+
+import msgspec
+
+from skillc_model.conditions import (
+    And,
+    Anything,
+    Arithmetic,
+    Assert,
+    Assign,
+    Compare,
+    Condition,
+    Effect,
+    Exists,
+    Expression,
+    Forall,
+    Given,
+    HasProperty,
+    Holds,
+    Individual,
+    Invoke,
+    IsA,
+    Literal,
+    Not,
+    Or,
+    PropertyOf,
+    Retract,
+    Same,
+    Term,
+    Variable,
+)
+from skillc_model.reading import free_variables, walk
+
+S = TypeVar("S", bound=msgspec.Struct)
+T = TypeVar("T", bound=Condition | Effect | Expression | Term)
+ALWAYS, NEVER = And(()), Or(())
+
+
+def map_children(item: S, change: Callable[[Any], msgspec.Struct]) -> S:
+    """Return a struct with each condition, expression or term directly inside it changed; itself if none changes."""
+    changes: dict[str, object] = {}
+    for name in item.__struct_fields__:
+        value = getattr(item, name)
+        if isinstance(value, msgspec.Struct):
+            new = change(value)
+            if new is not value:
+                changes[name] = new
+        elif isinstance(value, tuple):
+            parts = tuple(change(each) if isinstance(each, msgspec.Struct) else each for each in value)
+            if any(one is not other for one, other in zip(parts, value, strict=True)):
+                changes[name] = parts
+    return msgspec.structs.replace(item, **changes) if changes else item
+
+
+def has(item: Condition, *kinds: type[msgspec.Struct]) -> bool:
+    """Whether anything of these kinds occurs in the condition."""
+    return any(isinstance(each, kinds) for each in walk(item))
+
+
+def substitute(item: T, values: Mapping[str, Expression]) -> T:
+    """Return the condition, effect, expression or term with expressions in the place of these variables.
+
+    Where only an individual can stand, the place of a value that is none is taken by an unknown individual: the author
+    mixed them up, which is reported where it was written.
+    """
+    if isinstance(item, Variable):
+        return values.get(item.name, item)  # type: ignore[return-value]
+    if isinstance(item, Exists | Forall):
+        values = {name: value for name, value in values.items() if name != item.variable}
+        item = _without_capture(item, values)
+    changed = map_children(item, lambda part: substitute(part, values))
+    for name in _places_of_individuals(item):
+        if not isinstance(getattr(changed, name), Variable | Individual | Anything):
+            was = getattr(item, name)
+            unknown = Variable(f"{was.name}?" if isinstance(was, Variable) else "?")
+            changed = msgspec.structs.replace(changed, **{name: unknown})
+    return changed
+
+
+def _places_of_individuals(item: Condition | Effect | Expression | Term) -> tuple[str, ...]:
+    match item:
+        case Holds() | Assert() | Retract():
+            return ("subject", "object")
+        case Same():
+            return ("left", "right")
+        case HasProperty() | IsA() | Assign():
+            return ("subject",)
+        case _:
+            return ()
+
+
+def _without_capture(item: T, values: Mapping[str, Expression]) -> T:
+    """Return a quantifier whose variable is none of those that come into it from outside."""
+    assert isinstance(item, Exists | Forall)
+    coming = {name for key in free_variables(item) if key in values for name in free_variables(values[key])}
+    if item.variable not in coming:
+        return item
+    taken = coming | free_variables(item.body)
+    new = next(name for number in count(2) if (name := f"{item.variable}_{number}") not in taken)
+    body = substitute(item.body, {item.variable: Variable(new)})
+    return msgspec.structs.replace(item, variable=new, body=body)
+
+
+def decided(condition: Condition, given: Mapping[str, bool]) -> Condition:
+    """Return the condition with every `given` answered and what is then certain taken out."""
+    match condition:
+        case Given(parameter=name):
+            return ALWAYS if given[name] else NEVER
+        case Not(body=body):
+            inner = decided(body, given)
+            return NEVER if inner == ALWAYS else ALWAYS if inner == NEVER else Not(inner)
+        case And(parts=parts):
+            kept = tuple(each for each in (decided(part, given) for part in parts) if each != ALWAYS)
+            return NEVER if NEVER in kept else kept[0] if len(kept) == 1 else And(kept)
+        case Or(parts=parts):
+            kept = tuple(each for each in (decided(part, given) for part in parts) if each != NEVER)
+            return ALWAYS if ALWAYS in kept else kept[0] if len(kept) == 1 else Or(kept)
+        case Exists() | Forall():
+            return msgspec.structs.replace(condition, body=decided(condition.body, given))
+        case Holds() | Compare() | Same() | HasProperty() | IsA():
+            return condition
+        case _:
+            assert_never(condition)
+
+
+def fold(item: T) -> T:
+    """Return a condition or expression with the arithmetic on constants in it carried out; no division by zero is."""
+    folded = map_children(item, fold)
+    value = constant_number(folded) if isinstance(folded, Arithmetic) else None
+    return folded if value is None else Literal(value)  # type: ignore[return-value]
+
+
+def constant_number(expression: Expression | None) -> float | None:
+    """Return the value of a number made of constants alone, None when it depends on anything."""
+    match expression:
+        case Literal(value=bool() | str()):
+            return None
+        case Literal(value=value):
+            return float(value)
+        case Arithmetic(operator=operator, left=left, right=right):
+            a, b = constant_number(left), constant_number(right)
+            return None if a is None or b is None else _applied(operator, a, b)
+        case Variable() | Individual() | PropertyOf() | Invoke() | None:
+            return None
+        case _:
+            assert_never(expression)
+
+
+def _applied(operator: str, a: float, b: float) -> float | None:
+    if operator == "/":
+        return a / b if b else None
+    return {"+": a + b, "-": a - b, "*": a * b}[operator]
+
+
+def is_plain(condition: Condition) -> bool:
+    """Whether a fact about variables alone, which a predicate can say: a relation, identity or class."""
+    return isinstance(condition, Holds | Same | IsA) and not has(condition, Individual, Anything)

@@ -1,0 +1,144 @@
+"""Skills, their implementations and the tasks of a library, flattened: nothing is left to look up or to merge."""
+
+from __future__ import annotations
+
+from typing import Literal as OneOf
+from typing import TypeAlias
+
+import msgspec
+
+from skillc_model.conditions import Condition, Effect, Expression
+from skillc_model.properties import Property
+from skillc_model.tree import Node
+from skillc_rdf.vocabulary.types import Position, ValueType, Vocabulary
+
+FORMAT = 2
+
+
+class Parameter(msgspec.Struct, frozen=True, kw_only=True):
+    """A parameter; `low` and `high` bound a number in SI units; `any_` lets several inferred answers pass."""
+
+    name: str
+    direction: OneOf["in", "opt", "infer", "out"]
+    type: ValueType
+    any_: bool = msgspec.field(default=False, name="any")
+    default: Expression | None = None
+    low: float | None = None
+    high: float | None = None
+    doc: str = ""
+    source: Position
+
+
+class Requirement(msgspec.Struct, frozen=True, kw_only=True):
+    """A pre- or hold condition; `text` is the condition as its author wrote it."""
+
+    label: str
+    condition: Condition
+    text: str
+    source: Position
+
+
+class Post(msgspec.Struct, frozen=True, kw_only=True):
+    """A postcondition with the effects it stands for; a sensed one is only checked, never written."""
+
+    label: str
+    condition: Condition
+    effects: tuple[Effect, ...]
+    sensed: bool
+    text: str
+    source: Position
+
+
+class Skill(msgspec.Struct, frozen=True, kw_only=True):
+    """A description. `implementations` are in rank order: the first that fits is taken."""
+
+    name: str
+    doc: str = ""
+    parameters: tuple[Parameter, ...] = ()
+    pre: tuple[Requirement, ...] = ()
+    hold: tuple[Requirement, ...] = ()
+    post: tuple[Post, ...] = ()
+    duration: Expression | None = None
+    uses: tuple[str, ...] = ()
+    shares: tuple[str, ...] = ()
+    scoped: bool = False
+    planned: bool = True
+    fallback: bool = False
+    implementations: tuple[str, ...] = ()
+    source: Position
+
+
+class Compound(msgspec.Struct, frozen=True, tag="compound"):
+    """A body of nodes."""
+
+    node: Node
+
+
+class Primitive(msgspec.Struct, frozen=True, tag="primitive"):
+    """A body in Python, "module:Class"."""
+
+    python: str
+
+
+ImplementationBody: TypeAlias = Compound | Primitive
+
+
+class Let(msgspec.Struct, frozen=True):
+    """A name for a value, computed when the implementation starts."""
+
+    name: str
+    value: Expression
+
+
+class Implementation(msgspec.Struct, frozen=True, kw_only=True):
+    """A way to do a skill, complete: the description's parameters and conditions, refined, with its own added."""
+
+    name: str
+    skill: str
+    doc: str = ""
+    parameters: tuple[Parameter, ...] = ()
+    pre: tuple[Requirement, ...] = ()
+    hold: tuple[Requirement, ...] = ()
+    post: tuple[Post, ...] = ()
+    duration: Expression | None = None
+    prefer: float = 0.0
+    lets: tuple[Let, ...] = ()
+    body: ImplementationBody
+    verify: tuple[Property, ...] = ()
+    source: Position
+
+
+class Task(msgspec.Struct, frozen=True, kw_only=True):
+    """A scene with either a goal to plan for or a body to run.
+
+    `scene` is as written: relative to the task's file, or the name of a shipped scene.
+    """
+
+    name: str
+    doc: str = ""
+    scene: str | None = None
+    goal: Condition | None = None
+    goal_text: str = ""
+    body: Node | None = None
+    source: Position
+
+
+class SkillLibrary(msgspec.Struct, frozen=True, kw_only=True):
+    """A compiled library: what library.json holds and the only thing the runtime loads.
+
+    `format` is raised with every change of what the JSON means; `implementations` is keyed `Skill.name`; `hash` is of
+    the sources; `names` maps each PDDL name back to the IRI or the skill it stands for.
+    """
+
+    format: int = FORMAT
+    name: str
+    hash: str
+    vocabulary: Vocabulary
+    skills: dict[str, Skill] = {}
+    implementations: dict[str, Implementation] = {}
+    tasks: dict[str, Task] = {}
+    names: dict[str, str] = {}
+
+    def implementations_of(self, skill: str) -> tuple[Implementation, ...]:
+        """Return a skill's implementations in rank order."""
+        return tuple(self.implementations[f"{skill}.{name}"] for name in self.skills[skill].implementations)

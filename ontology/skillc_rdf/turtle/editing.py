@@ -1,0 +1,181 @@
+"""Adds statements to Turtle texts and takes them away; layout and comments around them stay as they are."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from typing import TypeAlias
+
+import pyoxigraph as ox
+
+from skillc_rdf.turtle.parser import parse
+from skillc_rdf.turtle.statements import Node, Statement
+from skillc_rdf.turtle.terms import RDF_TYPE, XSD
+from skillc_rdf.turtle.tokens import Token, tokens
+
+Names: TypeAlias = Callable[[str], str]
+"""Gives the term that an IRI stands for, for IRIs that are other names."""
+INDENT = "    "
+_LOCAL = re.compile(r"[A-Za-z_](?:[\w-]*[\w])?")
+_PLAIN = re.compile(r"[+-]?\d+|[+-]?\d*\.\d+|[+-]?(?:\d+\.?\d*|\.\d+)[eE][+-]?\d+|true|false")
+
+
+class NotWritten(ValueError):
+    """A statement that is to be taken away and does not stand in the text."""
+
+
+class Editor:
+    """A Turtle text, without mistakes, that is edited statement by statement."""
+
+    def __init__(self, text: str, base: str, named: Names) -> None:
+        self.text = text
+        self._base = base
+        self._named = named
+
+    def add(self, subject: str, predicate: str, object_: Node) -> None:
+        """Say that something is so, beside what else is said of the subject; nothing if it stands there already."""
+        said = self._said(subject)
+        alike = [each for each in said if self._named(each.predicate) == predicate]
+        if any(self._same(each.object, object_) for each in alike):
+            return
+        written = self._written(object_)
+        if alike:
+            end = self._end(alike[-1])
+            self._put(end, end, f", {written}")
+        elif said:
+            self._put_beside(max(said, key=lambda each: each.object_at), f"{self._predicate(predicate)} {written}")
+        else:
+            before = "" if not self.text or self.text.endswith("\n") else "\n"
+            sentence = f"{self._written(ox.NamedNode(subject))} {self._predicate(predicate)} {written} ."
+            self.text += f"{before}\n{sentence}\n"
+
+    def set(self, subject: str, predicate: str, object_: Node) -> None:
+        """Say that something is so and nothing else with this predicate."""
+        alike = [each for each in self._said(subject) if self._named(each.predicate) == predicate]
+        if not alike:
+            self.add(subject, predicate, object_)
+            return
+        for each in reversed(alike[1:]):
+            self._cut(each)
+        self._put(alike[0].object_at.start, self._end(alike[0]), self._written(object_))
+
+    def remove(self, subject: str, predicate: str, object_: Node) -> None:
+        """Take a statement away; NotWritten if it does not stand in the text."""
+        alike = [each for each in self._said(subject) if self._named(each.predicate) == predicate]
+        found = [each for each in alike if self._same(each.object, object_)]
+        if not found:
+            raise NotWritten
+        for each in reversed(found):
+            self._cut(each)
+
+    def forget(self, individual: str) -> None:
+        """Take away all that is said of an individual, and all that leads to it; NotWritten if there is nothing."""
+        if not self._about(individual):
+            raise NotWritten
+        while found := self._about(individual):
+            self._cut(found[-1])
+
+    def _about(self, individual: str) -> list[Statement]:
+        node = ox.NamedNode(individual)
+        ends = (each for each in self._statements() if isinstance(each.subject, ox.NamedNode))
+        return [each for each in ends if node in (each.subject, each.object)]
+
+    def _said(self, subject: str) -> list[Statement]:
+        return [each for each in self._statements() if each.subject == ox.NamedNode(subject)]
+
+    def _statements(self) -> tuple[Statement, ...]:
+        return parse("", self.text, self._base).statements
+
+    def _same(self, one: Node, other: Node) -> bool:
+        if isinstance(one, ox.NamedNode) and isinstance(other, ox.NamedNode):
+            return self._named(one.value) == self._named(other.value)
+        if isinstance(one, ox.Literal) and isinstance(other, ox.Literal) and one.value != other.value:
+            return _number(one) is not None and _number(one) == _number(other)
+        return one == other or (isinstance(one, ox.Literal) and isinstance(other, ox.Literal))
+
+    def _written(self, node: Node) -> str:
+        match node:
+            case ox.NamedNode(value=iri):
+                return self._shortened(iri)
+            case ox.Literal(value=text, datatype=datatype) if datatype.value.startswith(XSD) and _PLAIN.fullmatch(text):
+                return text if self._reads_as(text, datatype.value) else str(node)
+            case _:
+                return str(node)
+
+    def _reads_as(self, text: str, datatype: str) -> bool:
+        """Whether a literal may stand without quotes."""
+        kind = "integer" if re.fullmatch(r"[+-]?\d+", text) else "decimal"
+        kind = "double" if "e" in text.lower() and text not in ("true", "false") else kind
+        return datatype == XSD + ("boolean" if text in ("true", "false") else kind)
+
+    def _predicate(self, iri: str) -> str:
+        return "a" if iri == RDF_TYPE else self._shortened(iri)
+
+    def _shortened(self, iri: str) -> str:
+        prefixes: Mapping[str, str] = parse("", self.text, self._base).prefixes
+        for prefix, base in sorted(prefixes.items()):
+            if base and iri.startswith(base) and _LOCAL.fullmatch(iri[len(base) :]):
+                return f"{prefix}:{iri[len(base) :]}"
+        return f"<{iri}>"
+
+    def _put_beside(self, last: Statement, pair: str) -> None:
+        """Put a predicate with its object before the last of a subject, which keeps the comment behind it."""
+        if last.predicate == RDF_TYPE:
+            end = self._end(last)
+            self._put(end, end, f" ;\n{INDENT}{pair}")
+        else:
+            start = last.predicate_at.start
+            self._put(start, start, f"{pair} ;\n{INDENT}")
+
+    def _end(self, statement: Statement) -> int:
+        """Return where an object ends, with its brackets."""
+        depth = 0
+        for token in tokens(self.text):
+            if token.start < statement.object_at.start:
+                continue
+            depth += token.is_mark("[(") - token.is_mark("])")
+            if depth == 0:
+                return max(token.end, statement.object_at.end)
+        return len(self.text)
+
+    def _cut(self, statement: Statement) -> None:
+        """Take away an object, with its predicate if it is the only one, with its subject if nothing else is said."""
+        marks = list(tokens(self.text))
+        starts = {token.start: number for number, token in enumerate(marks)}
+        first, end = starts[statement.object_at.start], self._end(statement)
+        behind = next(number for number, token in enumerate(marks) if token.start >= end)
+        before, after = marks[first - 1], marks[behind]
+        if after.is_mark(","):
+            self._take(statement.object_at.start, marks[behind + 1].start)
+        elif before.is_mark(","):
+            self._take(before.start, end)
+        else:
+            self._cut_pair(statement, end, marks[first - 2], after, marks[behind + 1])
+
+    def _cut_pair(self, statement: Statement, end: int, before: Token, after: Token, next_: Token) -> None:
+        if after.is_mark(";"):
+            more = not next_.is_mark(".;")
+            self._take(statement.predicate_at.start, next_.start if more else after.end)
+        elif before.is_mark(";"):
+            self._take(len(self.text[: before.start].rstrip(" ")), end)
+        else:
+            self._take(statement.subject_at.start, after.end)
+
+    def _take(self, start: int, end: int) -> None:
+        """Take a stretch of text away, and its line if nothing else stands on it."""
+        line = self.text.rfind("\n", 0, start) + 1
+        rest = self.text.find("\n", end)
+        rest = len(self.text) if rest < 0 else rest + 1
+        if not self.text[line:start].strip() and not self.text[end:rest].strip():
+            start, end = line, rest
+        self._put(start, end, "")
+
+    def _put(self, start: int, end: int, text: str) -> None:
+        self.text = self.text[:start] + text + self.text[end:]
+
+
+def _number(literal: ox.Literal) -> float | None:
+    try:
+        return float(literal.value)
+    except ValueError:
+        return None

@@ -1,0 +1,209 @@
+"""Works out which classes can have no member and which relations can hold of nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from itertools import product
+from typing import Literal, NamedTuple
+
+from skillc_rdf.vocabulary.closure import Directed
+from skillc_rdf.vocabulary.expressions import Needed
+from skillc_rdf.vocabulary.types import THING, RelationTerm, Vocabulary
+
+MOST_CHOICES = 4096
+"""How many ways to choose among alternative domains are tried."""
+
+
+class Reason(NamedTuple):
+    """Why something is impossible, in words.
+
+    `follows` from something else that is impossible; `pair` are classes that have nothing in common; `kind` is what
+    makes a relation impossible: its domains and ranges, those above it, or its characteristics.
+    """
+
+    text: str
+    follows: bool = False
+    pair: tuple[str, str] | None = None
+    kind: Literal["domain", "parent", "kind"] = "kind"
+
+
+class Impossible:
+    """The impossible classes and relations of a vocabulary; `needs` is what the members of each class have."""
+
+    def __init__(self, vocabulary: Vocabulary, needs: Mapping[str, Sequence[Needed]]) -> None:
+        self._vocabulary = vocabulary
+        self._needs = needs
+        self.classes: dict[str, Reason] = {}
+        self.relations: dict[str, Reason] = {}
+        self._find()
+
+    def _find(self) -> None:
+        """Look until nothing more is found: what needs something impossible is impossible."""
+        for cls in self._vocabulary.classes:
+            if pair := self._clash((cls,)):
+                follows = any(self._clash((parent,)) for parent in self._vocabulary.classes[cls].parents)
+                self.classes[cls] = Reason(self._nothing_in_common(pair), follows, pair)
+        found = -1
+        while found != len(self.classes) + len(self.relations):
+            found = len(self.classes) + len(self.relations)
+            self._relations()
+            self._needy()
+
+    def _relations(self) -> None:
+        for iri in sorted(self._vocabulary.relations.keys() - self.relations.keys()):
+            if reason := self._relation(iri):
+                self.relations[iri] = reason
+
+    def _needy(self) -> None:
+        """Find classes whose members would have something impossible, and those below impossible ones."""
+        for cls in sorted(self._vocabulary.classes.keys() - self.classes.keys()):
+            above = self._vocabulary.ancestors[cls]
+            if any(other in self.classes for other in above):
+                self.classes[cls] = Reason("it is below what nothing can be", follows=True)
+            elif reason := next(self._unmet(cls, above), None):
+                inherited = any(
+                    next(self._unmet(up, self._vocabulary.ancestors[up]), None) for up in above - {cls, THING}
+                )
+                self.classes[cls] = reason._replace(follows=reason.follows or inherited)
+
+    def _unmet(self, cls: str, above: frozenset[str]) -> Iterator[Reason]:
+        """Yield why the members of a class cannot have what they need."""
+        needed = [need for other in sorted(above) for need in self._needs.get(other, ())]
+        short = self._vocabulary.short
+        for need in needed:
+            if need.property in self.relations:
+                yield Reason(f"it needs `{short(need.property)}`, which can hold of nothing", follows=True)
+            elif need.filler in self.classes:
+                yield Reason(f"it needs a `{short(need.filler or '')}`, and nothing can be one", follows=True)
+            elif need.property in self._vocabulary.relations:
+                yield from self._misfit(cls, need)
+            elif need.property in self._vocabulary.properties:
+                yield from self._wrong_owner(cls, need)
+        yield from self._too_many(cls, needed)
+
+    def _misfit(self, cls: str, need: Needed) -> Iterator[Reason]:
+        """Say that a class or what its members need does not fit the ends of the relation."""
+        relation, starts, ends = self._vocabulary.short(need.property), *self._ends(need.property)
+        if not self._possible([(cls,), *starts]):
+            yield Reason(f"it needs `{relation}`, which is of other things")
+        filler = (need.filler,) if need.filler else ()
+        if filler and not self._possible([filler, *ends]):
+            yield Reason(
+                f"it needs `{relation}` with a `{self._vocabulary.short(filler[0])}`, and leads to other things"
+            )
+
+    def _wrong_owner(self, cls: str, need: Needed) -> Iterator[Reason]:
+        term = self._vocabulary.properties[need.property]
+        if not self._possible([(cls,), term.domains]):
+            yield Reason(f"it needs `{self._vocabulary.short(need.property)}`, which is of other things")
+        if term.functional and need.least > 1:
+            yield Reason(f"it needs {need.least} values of `{self._vocabulary.short(need.property)}`, which has one")
+
+    def _too_many(self, cls: str, needed: Sequence[Needed]) -> Iterator[Reason]:
+        """Say that a class needs different things where a relation leads to one only."""
+        fillers: dict[str, list[tuple[str, ...]]] = {}
+        for need in needed:
+            for single in self._single(need.property):
+                name = self._vocabulary.short(single)
+                if need.least > 1:
+                    yield Reason(f"it needs {need.least} of `{name}`, which leads to one thing only")
+                ends = self._ends(need.property)[1]
+                fillers.setdefault(single, []).extend([*ends, *([(need.filler,)] if need.filler else [])])
+        for single, choices in fillers.items():
+            if not self._possible(choices):
+                yield Reason(
+                    f"it needs different things by `{self._vocabulary.short(single)}`, which leads to one only"
+                )
+
+    def _single(self, relation: str) -> list[str]:
+        """Return the functional relations that one implies."""
+        return [
+            iri
+            for iri, flipped in self._implied.get(relation, ())
+            if (not flipped and self._vocabulary.relations[iri].functional)
+            or (flipped and self._vocabulary.relations[iri].inverse_functional)
+        ]
+
+    def _relation(self, iri: str) -> Reason | None:
+        """Return why a relation can hold of nothing, None where it can."""
+        reached = self._implied[iri]
+        clash = self._both_ways(iri, frozenset(reached))
+        if clash is not None:
+            return clash
+        for sides in self._ends(iri):
+            if not self._possible(sides):
+                own = iri in self._vocabulary.relations and len(reached) == 1
+                names = ", ".join(sorted({" or ".join(map(self._vocabulary.short, each)) for each in sides}))
+                return Reason(f"nothing is all of {names}", self._follows(iri), kind="domain" if own else "parent")
+        return None
+
+    def _both_ways(self, iri: str, reached: frozenset[Directed]) -> Reason | None:
+        short = self._vocabulary.short
+        for other, flipped in sorted(reached):
+            term: RelationTerm = self._vocabulary.relations[other]
+            if (other, not flipped) not in reached:
+                continue
+            if term.asymmetric:
+                return Reason(f"by it `{short(other)}` would hold both ways, and it is asymmetric", self._follows(iri))
+            looping = [up for up, turn in self._implied[other] if self._vocabulary.relations[up].irreflexive]
+            if term.transitive and looping:
+                text = f"by it something would be `{short(looping[0])}` to itself, and that is irreflexive"
+                return Reason(text, self._follows(iri))
+        return None
+
+    def _follows(self, iri: str) -> bool:
+        """Whether a relation is impossible because one that it implies is."""
+        return any(other in self.relations for other, _ in self._implied[iri] if other != iri)
+
+    def _ends(self, relation: str) -> tuple[list[tuple[str, ...]], list[tuple[str, ...]]]:
+        """Return what the subjects and the objects of a relation are: of each tuple, one of the classes."""
+        sides: tuple[list[tuple[str, ...]], list[tuple[str, ...]]] = ([], [])
+        for iri, flipped in self._implied[relation]:
+            signatures = self._vocabulary.relations[iri].signatures
+            sides[flipped].append(tuple(dict.fromkeys(each.domain for each in signatures)) or (THING,))
+            sides[not flipped].append(tuple(dict.fromkeys(each.range for each in signatures)) or (THING,))
+        return sides
+
+    def _possible(self, choices: Sequence[tuple[str, ...]]) -> bool:
+        """Whether something can be one of the classes of each tuple."""
+        distinct = sorted({each for each in choices if THING not in each})
+        for number, chosen in enumerate(product(*distinct)):
+            if number >= MOST_CHOICES or not (self._clash(chosen) or any(cls in self.classes for cls in chosen)):
+                return True
+        return False
+
+    def _clash(self, classes: Sequence[str]) -> tuple[str, str] | None:
+        """Return two classes above the given ones that have nothing in common, None where there are none."""
+        above = frozenset[str]().union(*(self._above.get(cls, frozenset({cls})) for cls in classes))
+        clashing = ((one, sorted(self._apart[one] & above)) for one in sorted(above & self._apart.keys()))
+        return next(((one, others[0]) for one, others in clashing if others), None)
+
+    def _nothing_in_common(self, pair: tuple[str, str]) -> str:
+        one, other = map(self._vocabulary.short, pair)
+        return f"it is below `{other}` and below what has nothing in common with it, `{one}`"
+
+    @cached_property
+    def _above(self) -> dict[str, frozenset[str]]:
+        """Each class with all above it, also those in the domain of what its members need."""
+        above = dict(self._vocabulary.ancestors)
+        while True:
+            wider = {cls: self._with_domains(classes, above) for cls, classes in above.items()}
+            if wider == above:
+                return above
+            above = wider
+
+    def _with_domains(self, classes: frozenset[str], above: Mapping[str, frozenset[str]]) -> frozenset[str]:
+        needed = {need.property for cls in classes for need in self._needs.get(cls, ())}
+        starts = (self._ends(iri)[0] for iri in needed if iri in self._vocabulary.relations)
+        single = {choice[0] for sides in starts for choice in sides if len(choice) == 1}
+        return classes.union(single, *(above.get(cls, ()) for cls in single))
+
+    @cached_property
+    def _apart(self) -> dict[str, frozenset[str]]:
+        """The classes that are said to be disjoint with others, with these."""
+        return {iri: frozenset(term.disjoint) for iri, term in self._vocabulary.classes.items() if term.disjoint}
+
+    @property
+    def _implied(self) -> Mapping[str, tuple[Directed, ...]]:
+        return self._vocabulary.closure.implied

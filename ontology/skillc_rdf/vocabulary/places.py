@@ -1,0 +1,113 @@
+"""Where ontologies declare their terms and say what they say; lines in every format, columns in Turtle."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from functools import cached_property
+from urllib.parse import urljoin
+from xml.parsers import expat
+
+import pyoxigraph as ox
+
+from skillc_dsl.source import Source, Span
+from skillc_rdf.turtle.parser import parse
+from skillc_rdf.turtle.statements import Statement
+from skillc_rdf.vocabulary.formats import format_of
+from skillc_rdf.vocabulary.names import RDF
+from skillc_rdf.vocabulary.positions import positions
+from skillc_rdf.vocabulary.types import Position, local_name
+
+_XML_BASE = "http://www.w3.org/XML/1998/namespace base"
+
+
+class Places:
+    """Knows the places of terms; those of single statements are looked for when somebody asks."""
+
+    def __init__(self, sources: Iterable[Source]) -> None:
+        self._sources = tuple(sources)
+        self._turtle = tuple(each for each in self._sources if format_of(each) == ox.RdfFormat.TURTLE)
+
+    @cached_property
+    def terms(self) -> dict[str, Position]:
+        """Where each IRI is declared, or first said something of."""
+        found: dict[str, Position] = {}
+        for source in self._sources:
+            if format_of(source) == ox.RdfFormat.RDF_XML:
+                found = {**dict(_elements(source)), **found}
+        return {**found, **positions(self._turtle)}
+
+    def position(self, iri: str) -> Position:
+        """Return where a term is declared, or mentioned at all."""
+        if iri in self.terms:
+            return self.terms[iri]
+        span = self._mentions.get(iri) or self._found(iri)
+        return Position(span.path, span.line, span.column)
+
+    def term(self, iri: str) -> Span:
+        """Return where a term is declared, or mentioned at all, as a span."""
+        place = self.position(iri)
+        return Span(place.path, place.line, place.column, place.line, place.column + 1)
+
+    def statement(self, subject: str, predicate: str, object_: str | None = None) -> Span:
+        """Return where something is said of a term, with this object where one is given; else where the term is."""
+        for each in self._said.get(subject, ()):
+            if each.predicate == predicate and object_ in (None, _iri(each.object)):
+                place = each.object_place
+                return Span(place.path, place.line, place.column, place.end_line, place.end_column)
+        return self.term(subject)
+
+    @cached_property
+    def _said(self) -> dict[str, list[Statement]]:
+        said: dict[str, list[Statement]] = {}
+        for source in self._turtle:
+            for each in parse(source.path, source.text, base="file:///x").statements:
+                said.setdefault(_iri(each.subject), []).append(each)
+        return said
+
+    @cached_property
+    def _mentions(self) -> dict[str, Span]:
+        """Where each IRI first is an object in Turtle."""
+        found: dict[str, Span] = {}
+        for statements in self._said.values():
+            for each in statements:
+                place = each.object_place
+                span = Span(place.path, place.line, place.column, place.end_line, place.end_column)
+                iri = _iri(each.object)
+                found[iri] = min(found.get(iri, span), span)
+        return found
+
+    def _found(self, iri: str) -> Span:
+        """Return the first line that has the IRI, or else its last part; the first line of all where none has."""
+        for written in (re.escape(iri), rf"\b{re.escape(local_name(iri))}\b"):
+            for source in self._sources:
+                if match := re.search(written, source.text):
+                    line = source.text.count("\n", 0, match.start()) + 1
+                    return Span(source.path, line, 1, line, 2)
+        path = self._sources[0].path if self._sources else iri
+        return Span(path, 1, 1, 1, 2)
+
+
+def _elements(source: Source) -> Iterator[tuple[str, Position]]:
+    """Yield the elements of RDF/XML that are about an IRI, the first of each last."""
+    found: list[tuple[str, Position]] = []
+    bases: list[str] = []
+    parser = expat.ParserCreate(namespace_separator=" ")
+
+    def start(_name: str, attributes: dict[str, str]) -> None:
+        bases.append(attributes.get(_XML_BASE, bases[-1] if bases else ""))
+        named = attributes.get(f"{RDF} about")
+        if f"{RDF} ID" in attributes:
+            named = f"#{attributes[f'{RDF} ID']}"
+        if named is not None:
+            place = Position(source.path, parser.CurrentLineNumber, parser.CurrentColumnNumber + 1)
+            found.append((urljoin(bases[-1], named), place))
+
+    parser.StartElementHandler = start
+    parser.EndElementHandler = lambda _name: bases.pop() and None
+    parser.Parse(source.text, True)
+    yield from reversed(found)
+
+
+def _iri(node: object) -> str:
+    return node.value if isinstance(node, ox.NamedNode) else ""

@@ -1,0 +1,86 @@
+"""By which prefix `use` calls an ontology: the one it prefers, the one its file gives its terms, or the file's name."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import PurePath
+
+import pyoxigraph as ox
+
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Source, Span
+from skillc_rdf.vocabulary.formats import format_of
+from skillc_rdf.vocabulary.graph import Graph
+from skillc_rdf.vocabulary.names import BUILT_IN, KINDS, OWL, TYPE, VANN
+from skillc_rdf.vocabulary.reading import Ontology
+
+_NAME = re.compile(r"[A-Za-z]\w*")
+_DECLARED = re.compile(r"(?:@?prefix\s+([\w.-]+):\s*<([^>\s]+)>|xmlns:([\w.-]+)\s*=\s*[\"']([^\"'\s]+)[\"'])", re.I)
+
+
+def preferred(graph: Graph) -> dict[str, str]:
+    """Return the prefixes that ontologies themselves say are theirs, with their namespaces."""
+    pairs = (
+        (graph.text(iri, f"{VANN}preferredNamespacePrefix"), graph.text(iri, f"{VANN}preferredNamespaceUri"))
+        for iri in graph.instances(f"{OWL}Ontology")
+    )
+    return {prefix: base for prefix, base in sorted((p or "", b or "") for p, b in pairs) if prefix and base}
+
+
+def prefixes(graph: Graph, own: Sequence[Ontology], known: Mapping[str, str]) -> dict[str, str]:
+    """Return all prefixes; `known` are those of the shipped ontologies, which nobody else gets."""
+    found = {**preferred(graph), **known}
+    for ontology in own:
+        base = namespace(ontology)
+        if base is not None and base not in found.values():
+            name = next(name for name in _candidates(ontology.source, base) if found.get(name, base) == base)
+            found[name] = base
+    return dict(sorted(found.items()))
+
+
+def taken(own: Iterable[Ontology], known: Mapping[str, str]) -> Iterator[Diagnostic]:
+    """Tell of ontologies that prefer a prefix which is that of a shipped one."""
+    for ontology in own:
+        for prefix, base in preferred(Graph(ontology.triples)).items():
+            if known.get(prefix, base) != base:
+                yield Diagnostic(
+                    "prefix-taken",
+                    Span(ontology.source.path, 1, 1, 1, 2),
+                    f"the prefix `{prefix}` of this ontology is that of <{known[prefix]}>",
+                    help="give it another vann:preferredNamespacePrefix",
+                    severity="warning",
+                )
+
+
+def namespace(ontology: Ontology) -> str | None:
+    """Return the namespace in which a file declares most terms; None where it declares none of its own."""
+    kinds = {ox.NamedNode(kind) for kind in (*KINDS, f"{OWL}class")}
+    terms = {
+        each.subject.value
+        for each in ontology.triples
+        if each.predicate.value == TYPE and each.object in kinds and isinstance(each.subject, ox.NamedNode)
+    }
+    counts = Counter(_base(iri) for iri in sorted(terms) if not iri.startswith(BUILT_IN))
+    return counts.most_common(1)[0][0] if counts else None
+
+
+def _candidates(source: Source, base: str) -> Iterator[str]:
+    """Yield names for a namespace, the best first, without end."""
+    if format_of(source) != ox.RdfFormat.JSON_LD:
+        for match in _DECLARED.finditer(source.text):
+            name, iri = match[1] or match[3], match[2] or match[4]
+            if iri == base and _NAME.fullmatch(name):
+                yield name
+    stem = re.sub(r"\W", "_", PurePath(source.path).stem)
+    stem = stem if _NAME.fullmatch(stem) else f"v{stem}"
+    yield stem
+    number = 2
+    while True:
+        yield f"{stem}{number}"
+        number += 1
+
+
+def _base(iri: str) -> str:
+    return iri[: max(iri.rfind("#"), iri.rfind("/")) + 1]

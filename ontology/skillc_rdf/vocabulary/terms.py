@@ -1,0 +1,205 @@
+"""The terms of a vocabulary as a graph declares them."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import combinations
+
+import pyoxigraph as ox
+
+from skillc_rdf.vocabulary.closure import reachable
+from skillc_rdf.vocabulary.datatypes import value_type
+from skillc_rdf.vocabulary.expressions import alternatives, complements
+from skillc_rdf.vocabulary.graph import Graph
+from skillc_rdf.vocabulary.mandatory import required
+from skillc_rdf.vocabulary.names import (
+    BUILT_IN,
+    CLASS,
+    DISJOINT,
+    DOMAIN,
+    INVERSE,
+    OWL,
+    PROPERTY,
+    RANGE,
+    RDFS,
+    RELATION,
+    SKILLC,
+    TYPE,
+)
+from skillc_rdf.vocabulary.places import Places
+from skillc_rdf.vocabulary.types import THING, ClassTerm, PropertyTerm, RelationTerm, Signature
+
+COMMENT, REPLACED = f"{RDFS}comment", "http://purl.org/dc/terms/isReplacedBy"
+
+
+@dataclass(frozen=True, slots=True)
+class Terms:
+    """All terms with their kinds, what each is below of, other names, those that skillc ships, and the places."""
+
+    graph: Graph
+    kinds: Mapping[str, str]
+    below: Mapping[str, set[str]]
+    aliases: Mapping[str, str]
+    standing: frozenset[str]
+    places: Places
+
+    def of(self, kind: str) -> Iterator[str]:
+        """Yield the terms of a kind that are no other names, sorted."""
+        yield from (iri for iri in sorted(self.kinds) if self.kinds[iri] == kind and iri not in self.aliases)
+
+    def named(self, iri: str) -> str:
+        """Return the term that an IRI stands for."""
+        return self.aliases.get(iri, iri)
+
+    def same(self, iri: str) -> list[str]:
+        """Return all names of a term, its own first."""
+        return [iri, *(alias for alias, term in self.aliases.items() if term == iri)]
+
+    def above(self, iri: str) -> tuple[str, ...]:
+        """Return what a term is directly below of, sorted."""
+        found = {self.named(other) for name in self.same(iri) for other in self.below.get(name, ())}
+        return tuple(sorted(other for other in found - {iri, THING} if self.kinds.get(other) == self.kinds[iri]))
+
+    def ancestors(self, iri: str) -> frozenset[str]:
+        """Return all terms above one, itself not included."""
+        return frozenset(reachable(self.above(iri), self.above))
+
+
+def classes(terms: Terms) -> dict[str, ClassTerm]:
+    """Return the classes."""
+    disjoint = _disjoint(terms)
+    return {
+        iri: ClassTerm(
+            iri=iri,
+            parents=terms.above(iri),
+            disjoint=tuple(sorted(disjoint[iri])),
+            required=_required(terms, iri),
+            comment=terms.graph.text(iri, COMMENT) or "",
+            source=terms.places.position(iri),
+        )
+        for iri in terms.of(CLASS)
+    }
+
+
+def relations(terms: Terms) -> dict[str, RelationTerm]:
+    """Return the relations."""
+    inverse = inverses(terms)
+    return {iri: _relation(terms, iri, inverse.get(iri)) for iri in terms.of(RELATION)}
+
+
+def properties(terms: Terms) -> dict[str, PropertyTerm]:
+    """Return the properties of data that have a type of the language."""
+    found: dict[str, PropertyTerm] = {}
+    for iri in terms.of(PROPERTY):
+        typed = value_type(terms.graph, iri)
+        if typed is not None:
+            found[iri] = PropertyTerm(
+                iri=iri,
+                domains=_ends(terms, iri, DOMAIN) or (THING,),
+                type=typed.type,
+                values=typed.values,
+                bounds=typed.bounds,
+                functional=_is(terms, iri, "FunctionalProperty"),
+                computed_by=terms.graph.text(iri, f"{SKILLC}computedBy"),
+                comment=terms.graph.text(iri, COMMENT) or "",
+                source=terms.places.position(iri),
+            )
+    return found
+
+
+def deprecated(terms: Terms) -> dict[str, str]:
+    """Return the terms that should not be used any more, with what to use instead."""
+    marked = (iri for iri in sorted(terms.kinds) if terms.graph.text(iri, f"{OWL}deprecated") in ("true", "1"))
+    return {iri: next(iter(terms.graph.iris(iri, REPLACED)), "") for iri in marked}
+
+
+def _required(terms: Terms, iri: str) -> tuple[str, ...]:
+    """Return what a class requires; other names of a shipped class require nothing of it."""
+    names = [iri] if iri in terms.standing else terms.same(iri)
+    found = {each for name in names for each in required(terms.graph, name, terms.aliases)}
+    return tuple(sorted(each for each in found if _is_usable(terms, each)))
+
+
+def _is_usable(terms: Terms, iri: str) -> bool:
+    kind = terms.kinds.get(iri)
+    return kind == RELATION or (kind == PROPERTY and value_type(terms.graph, iri) is not None)
+
+
+def _disjoint(terms: Terms) -> dict[str, set[str]]:
+    graph, disjoint = terms.graph, defaultdict[str, set[str]](set)
+    for iri in terms.of(CLASS):
+        for name in terms.same(iri):
+            stated = {*graph.iris(name, DISJOINT), *complements(graph, name)}
+            disjoint[iri].update(terms.named(other) for other in stated if terms.kinds.get(other) == CLASS)
+    for members in _lists(graph):
+        for one, other in combinations([terms.named(each) for each in members], 2):
+            if not {one, other} <= terms.standing or terms.standing.issuperset(members):
+                disjoint[one].add(other)
+    return disjoint
+
+
+def _lists(graph: Graph) -> Iterator[list[str]]:
+    """Yield the lists of classes that are disjoint with each other."""
+    heads = [
+        head for axiom in graph.nodes(f"{OWL}AllDisjointClasses") for head in graph.objects(axiom, f"{OWL}members")
+    ]
+    heads += [h for iri in graph.subjects(f"{OWL}disjointUnionOf") for h in graph.objects(iri, f"{OWL}disjointUnionOf")]
+    for head in heads:
+        yield [member.value for member in graph.members(head) if isinstance(member, ox.NamedNode)]
+
+
+def inverses(terms: Terms) -> dict[str, str]:
+    """Return the inverse of each relation that has one; of several, all the others have it for theirs."""
+    stated: dict[str, str] = {}
+    reverse: dict[str, str] = {}
+    for iri in terms.of(RELATION):
+        others = sorted({terms.named(o) for name in terms.same(iri) for o in terms.graph.iris(name, INVERSE)})
+        for other in (each for each in others if terms.kinds.get(each) == RELATION):
+            stated.setdefault(iri, other)
+            reverse.setdefault(other, iri)
+    return {**reverse, **stated}
+
+
+def _relation(terms: Terms, iri: str, inverse: str | None) -> RelationTerm:
+    return RelationTerm(
+        iri=iri,
+        signatures=_signatures(terms, iri, inverse),
+        parents=terms.above(iri),
+        inverse=inverse,
+        functional=_is(terms, iri, "FunctionalProperty"),
+        inverse_functional=_is(terms, iri, "InverseFunctionalProperty"),
+        symmetric=_is(terms, iri, "SymmetricProperty"),
+        transitive=_is(terms, iri, "TransitiveProperty"),
+        asymmetric=_is(terms, iri, "AsymmetricProperty"),
+        irreflexive=_is(terms, iri, "IrreflexiveProperty"),
+        computed_by=terms.graph.text(iri, f"{SKILLC}computedBy"),
+        computed_from=tuple(sorted(map(terms.named, terms.graph.iris(iri, f"{SKILLC}computedFrom")))),
+        comment=terms.graph.text(iri, COMMENT) or "",
+        source=terms.places.position(iri),
+    )
+
+
+def _signatures(terms: Terms, iri: str, inverse: str | None) -> tuple[Signature, ...]:
+    """A relation without domain and range has those of its inverse, turned round."""
+    domains, ranges = _ends(terms, iri, DOMAIN), _ends(terms, iri, RANGE)
+    if inverse and not domains and not ranges:
+        domains, ranges = _ends(terms, inverse, RANGE), _ends(terms, inverse, DOMAIN)
+    return tuple(Signature(domain, range_) for domain in domains or (THING,) for range_ in ranges or (THING,))
+
+
+def _ends(terms: Terms, iri: str, predicate: str) -> tuple[str, ...]:
+    """Return the classes in a domain or range, sorted; none where it is everything.
+
+    Of several that stand for themselves each holds: those above others among them add nothing.
+    """
+    found = {terms.named(cls) for cls in alternatives(terms.graph, iri, predicate)}
+    named = {terms.named(cls) for cls in terms.graph.iris(iri, predicate)}
+    wider = {cls for cls in named for other in named if cls != other and cls in terms.ancestors(other)}
+    kept = {cls for cls in found - wider if not cls.startswith(BUILT_IN)}
+    return tuple(sorted(kept))
+
+
+def _is(terms: Terms, iri: str, characteristic: str) -> bool:
+    return f"{OWL}{characteristic}" in terms.graph.iris(iri, TYPE)

@@ -1,0 +1,238 @@
+"""The terms a library speaks of: classes, relations, properties and functions, with what follows from their axioms."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Literal, TypeAlias
+
+import msgspec
+
+from skillc_rdf.vocabulary.closure import RelationClosure, reachable, relation_closure
+
+THING = "http://www.w3.org/2002/07/owl#Thing"
+CHARACTERISTICS = ("functional", "inverse_functional", "symmetric", "transitive", "asymmetric", "irreflexive")
+"""What may be stated of a relation alone, in the order in which it is told."""
+
+
+class Position(msgspec.Struct, frozen=True, order=True):
+    """Where something is written: path relative to the library (or `std/..`), line and column from 1."""
+
+    path: str
+    line: int
+    column: int
+
+    def __str__(self) -> str:
+        return f"{self.path}:{self.line}"
+
+
+class ClassType(msgspec.Struct, frozen=True, tag="class"):
+    """An individual of an ontology class, given by IRI."""
+
+    iri: str
+
+
+class NumberType(msgspec.Struct, frozen=True, tag="number"):
+    """A number in SI units; `dimension` is a name of the language (`Force`), `Number` where there is none."""
+
+    dimension: str
+
+
+class VectorType(msgspec.Struct, frozen=True, tag="vector"):
+    """Three numbers of one dimension in the world frame; `Number` where they are pure numbers."""
+
+    dimension: str
+
+
+class DirectionType(msgspec.Struct, frozen=True, tag="direction"):
+    """A vector of pure numbers in the world frame whose length is 1."""
+
+
+class PlainType(msgspec.Struct, frozen=True, tag="plain"):
+    """`Bool`, `Int`, `Text` or `Pose`."""
+
+    name: Literal["Bool", "Int", "Text", "Pose"]
+
+
+class ListType(msgspec.Struct, frozen=True, tag="list"):
+    """`[T]`"""
+
+    element: ValueType
+
+
+ValueType: TypeAlias = ClassType | NumberType | VectorType | DirectionType | PlainType | ListType
+
+
+class ClassTerm(msgspec.Struct, frozen=True, kw_only=True):
+    """An ontology class. `required` are the relations and properties that each of its individuals must state."""
+
+    iri: str
+    parents: tuple[str, ...] = ()
+    disjoint: tuple[str, ...] = ()
+    required: tuple[str, ...] = ()
+    comment: str = ""
+    source: Position | None = None
+
+
+class Signature(msgspec.Struct, frozen=True):
+    """One domain and range of a relation; a relation with several is overloaded."""
+
+    domain: str
+    range: str
+
+
+class RelationTerm(msgspec.Struct, frozen=True, kw_only=True):
+    """An object property with its axioms.
+
+    `computed_by` names a Python class "module:class" that tells from other facts whether the relation holds; nothing
+    else follows from it or makes it true. `computed_from` are the relations and properties that decide it: no plan may
+    read it where skills change one of them. Of an empty one it is not known what decides.
+    """
+
+    iri: str
+    signatures: tuple[Signature, ...]
+    parents: tuple[str, ...] = ()
+    inverse: str | None = None
+    functional: bool = False
+    inverse_functional: bool = False
+    symmetric: bool = False
+    transitive: bool = False
+    asymmetric: bool = False
+    irreflexive: bool = False
+    computed_by: str | None = None
+    computed_from: tuple[str, ...] = ()
+    comment: str = ""
+    source: Position | None = None
+
+    @property
+    def characteristics(self) -> tuple[str, ...]:
+        """The axioms about the relation alone, by their names in OWL's words, as `inverse functional`."""
+        return tuple(name.replace("_", " ") for name in CHARACTERISTICS if getattr(self, name))
+
+
+class Bounds(msgspec.Struct, frozen=True, kw_only=True):
+    """Which numbers there may be: `least` and `greatest` belong to them, `above` and `below` do not."""
+
+    least: float | None = None
+    above: float | None = None
+    greatest: float | None = None
+    below: float | None = None
+
+    def hold(self, number: float) -> bool:
+        """Whether there may be a number."""
+        return (
+            (self.least is None or number >= self.least)
+            and (self.above is None or number > self.above)
+            and (self.greatest is None or number <= self.greatest)
+            and (self.below is None or number < self.below)
+        )
+
+    def __str__(self) -> str:
+        ends = (("at least", self.least), ("above", self.above), ("at most", self.greatest), ("below", self.below))
+        return " and ".join(f"{word} {end:g}" for word, end in ends if end is not None)
+
+
+class PropertyTerm(msgspec.Struct, frozen=True, kw_only=True):
+    """A data property.
+
+    `values` is the finite set of a text property that has one, `bounds` say which numbers another has. `computed_by`
+    names a Python function
+    "module:function" (world state, individual) -> value that derives it from other facts.
+    """
+
+    iri: str
+    domains: tuple[str, ...]
+    type: ValueType
+    values: tuple[str, ...] = ()
+    bounds: Bounds | None = None
+    functional: bool = True
+    computed_by: str | None = None
+    comment: str = ""
+    source: Position | None = None
+
+
+class FunctionTerm(msgspec.Struct, frozen=True, kw_only=True):
+    """A function in Python, "module:function", called as f(world state, *arguments); numbers in SI units."""
+
+    name: str
+    parameters: tuple[tuple[str, ValueType], ...]
+    result: ValueType
+    python: str
+    comment: str = ""
+    source: Position | None = None
+
+
+class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
+    """All terms by IRI (functions by name), the prefixes that shorten IRIs, and accepted other names of terms.
+
+    `deprecated` holds, for terms that should not be used any more, what to use instead, "" where nothing is named.
+    """
+
+    prefixes: dict[str, str] = {}
+    aliases: dict[str, str] = {}
+    deprecated: dict[str, str] = {}
+    classes: dict[str, ClassTerm] = {}
+    relations: dict[str, RelationTerm] = {}
+    properties: dict[str, PropertyTerm] = {}
+    functions: dict[str, FunctionTerm] = {}
+
+    @cached_property
+    def ancestors(self) -> dict[str, frozenset[str]]:
+        """Each class with all its superclasses, itself and `owl:Thing` included."""
+        parents = {iri: (*term.parents, THING) for iri, term in self.classes.items()}
+        return {iri: _ancestors(iri, parents) for iri in (*self.classes, THING)}
+
+    @cached_property
+    def super_relations(self) -> dict[str, frozenset[str]]:
+        """Each relation with all its super-relations, itself included."""
+        parents = {iri: term.parents for iri, term in self.relations.items()}
+        return {iri: _ancestors(iri, parents) for iri in self.relations}
+
+    @cached_property
+    def closure(self) -> RelationClosure:
+        """What follows from relations by sub-relations, inverses and symmetry."""
+        return relation_closure(self.relations)
+
+    @cached_property
+    def namespaces(self) -> dict[str, str]:
+        """The prefixes of vocabularies, which have terms; other prefixes are shorthand for anything."""
+        iris = (*self.classes, *self.relations, *self.properties)
+        bases = {iri.removesuffix(local_name(iri)) for iri in iris}
+        return {prefix: base for prefix, base in self.prefixes.items() if base in bases}
+
+    def is_a(self, cls: str, ancestor: str) -> bool:
+        """Whether every individual of `cls` is one of `ancestor`; an unknown class is only itself and a Thing."""
+        return ancestor in self.ancestors.get(cls, (cls, THING))
+
+    def is_computed(self, term: str) -> bool:
+        """Whether a relation or property follows from other facts by a computation."""
+        known = self.relations.get(term) or self.properties.get(term)
+        return known is not None and known.computed_by is not None
+
+    def disjoint(self, one: str, other: str) -> bool:
+        """Whether no individual can be of both classes."""
+        ours, theirs = self.ancestors.get(one, frozenset()), self.ancestors.get(other, frozenset())
+        return any(not theirs.isdisjoint(self.classes[a].disjoint) for a in ours if a in self.classes) or any(
+            not ours.isdisjoint(self.classes[a].disjoint) for a in theirs if a in self.classes
+        )
+
+    def short(self, iri: str) -> str:
+        """Return `prefix:name` where a prefix fits (the longest does), else the IRI."""
+        fitting = [(len(base), prefix, base) for prefix, base in self.prefixes.items() if iri.startswith(base)]
+        if not fitting:
+            return iri
+        _, prefix, base = max(fitting)
+        return f"{prefix}:{iri[len(base) :]}"
+
+    def expand(self, name: str) -> str:
+        """Return the IRI of `prefix:name`; KeyError names an unknown prefix."""
+        prefix, _, local = name.partition(":")
+        return self.prefixes[prefix] + local
+
+
+def local_name(iri: str) -> str:
+    """Return the part of an IRI after its last `#` or `/`."""
+    return iri.rsplit("#", 1)[-1].rsplit("/", 1)[-1]
+
+
+def _ancestors(iri: str, parents: dict[str, tuple[str, ...]]) -> frozenset[str]:
+    return frozenset(reachable([iri], lambda each: parents.get(each, ())))

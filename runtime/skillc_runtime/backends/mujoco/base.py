@@ -1,0 +1,118 @@
+"""A mobile base in the simulation: it turns, goes straight and turns again, each with trapezoidal speed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from skillc_runtime.backends.mujoco.names import base_body
+from skillc_runtime.backends.mujoco.scene_spec import BaseSpec
+from skillc_runtime.motion.pose import Array, Pose, exp, quaternion_of
+from skillc_runtime.motion.profile import Profile, trapezoid
+
+NEAR_M = 1e-3
+"""Shorter ways, in m or rad, are not driven."""
+
+
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """One part of a drive: `profile` along `direction` (3,) of the world, or of a turn about the vertical by `sign`.
+
+    A leg either goes straight, its sign being 0, or turns.
+    """
+
+    start: Pose
+    profile: Profile
+    direction: Array
+    sign: float
+
+    def at(self, time: float) -> Pose:
+        """Return the base's pose `time` s after the leg's start."""
+        way = self.profile.at(time)[0]
+        if not self.sign:
+            return Pose(self.start.position + way * self.direction, self.start.rotation)
+        return Pose(self.start.position, exp(np.array([0.0, 0.0, self.sign * way])) @ self.start.rotation)
+
+    @property
+    def end(self) -> Pose:
+        """The base's pose at the end of the leg."""
+        return self.at(self.profile.duration)
+
+
+class SimulatedBase:
+    """One mobile base of a simulated cell, implementing `MobileBase`."""
+
+    def __init__(self, facts: BaseSpec, name: str, model: Any, data: Any) -> None:
+        self._facts, self._data = facts, data
+        self._mocap = int(model.body_mocapid[model.body(base_body(name)).id])
+        self._pose, self._time = facts.pose, 0.0
+        self._done, self._stopped = True, False
+        self._legs: list[Leg] = []
+
+    @property
+    def pose(self) -> Pose:
+        """Where the base is."""
+        return self._pose
+
+    @property
+    def done(self) -> bool:
+        """Whether the base stands at the last goal."""
+        return self._done
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether the base stands, at a goal or anywhere else."""
+        return not self._legs
+
+    def drive_to(self, goal: Pose) -> None:
+        """Begin to drive: brake if the base moves, turn towards the goal, go straight, turn into its heading."""
+        self.stop()
+        start = self._legs[0].end if self._legs else self._pose
+        way = (goal.position - start.position) * [1.0, 1.0, 0.0]
+        distance = float(np.linalg.norm(way))
+        heading = math.atan2(way[1], way[0]) if distance > NEAR_M else _heading(goal)
+        first = self._turn(start, heading)
+        straight = self._straight(first.end, way, distance)
+        last = self._turn(straight.end, _heading(goal))
+        self._legs += [leg for leg in (first, straight, last) if leg.profile.length > NEAR_M]
+        self._stopped, self._done = False, not self._legs
+
+    def stop(self) -> None:
+        """Brake on the present leg and drop the others."""
+        self._stopped, self._done = True, False
+        if self._legs and self._legs[0].profile.length > 0:
+            leg = self._legs[0]
+            way, speed, _ = leg.profile.at(self._time)
+            peak, brake = leg.profile.peak, leg.profile.deceleration
+            self._legs = [replace(leg, profile=trapezoid(way + speed * speed / (2 * brake), peak, brake))]
+
+    def step(self, period_s: float) -> Pose | None:
+        """Advance by one step; return the motion in the world (new = motion @ old), None when at rest."""
+        if not self._legs:
+            return None
+        self._time += period_s
+        leg, before = self._legs[0], self._pose
+        self._pose = leg.at(self._time)
+        if self._time >= leg.profile.duration:
+            self._legs, self._time = self._legs[1:], 0.0
+            self._done = not self._legs and not self._stopped
+        self._data.mocap_pos[self._mocap] = self._pose.position
+        self._data.mocap_quat[self._mocap] = quaternion_of(self._pose.rotation)
+        return self._pose @ before.inverse()
+
+    def _turn(self, start: Pose, heading: float) -> Leg:
+        angle = math.remainder(heading - _heading(start), math.tau)
+        profile = trapezoid(abs(angle), self._facts.turn_speed, self._facts.turn_acceleration)
+        return Leg(start, profile, np.zeros(3), math.copysign(1.0, angle))
+
+    def _straight(self, start: Pose, way: Array, distance: float) -> Leg:
+        profile = trapezoid(distance, self._facts.speed, self._facts.acceleration)
+        return Leg(start, profile, way / max(distance, NEAR_M), 0.0)
+
+
+def _heading(pose: Pose) -> float:
+    """Return the direction of a pose's x axis on the floor, in rad."""
+    return math.atan2(pose.rotation[1, 0], pose.rotation[0, 0])

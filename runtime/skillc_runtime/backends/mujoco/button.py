@@ -1,0 +1,52 @@
+"""Buttons in the simulation: whether they have switched, and what really pressed on them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from skillc_runtime.backends.mujoco.fixture_spec import FixtureSpec
+from skillc_runtime.backends.mujoco.fixture_variation import FixtureVariation
+from skillc_runtime.backends.mujoco.names import part
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.world.state.data_sheet import SheetError
+
+
+class SimulatedButton:
+    """A button of a simulated cell, implementing `Button`; its model has the sensors `travel` in m and `force` in N."""
+
+    def __init__(self, name: str, switches_at_m: float, data: Any) -> None:
+        try:
+            self._travel, self._force = (data.sensor(part(name, what)).data for what in ("travel", "force"))
+        except KeyError as error:
+            raise SheetError(f"the model of {name}, a button, needs the sensors `travel` and `force`") from error
+        self._switches_at, self._pressed = switches_at_m, list[tuple[float, float, float]]()
+
+    @property
+    def switched(self) -> bool:
+        """Whether the cap is in far enough."""
+        return bool(self._travel[0] >= self._switches_at)
+
+    @property
+    def pressing(self) -> Array:
+        """Every step (n, 3) in which something pressed: when in s, with how much in N, 1 where it had switched."""
+        return np.array(self._pressed).reshape(-1, 3)
+
+    def sample(self, now: float) -> None:
+        """Take in one step that began at `now` s."""
+        force = float(self._force[0])
+        if force > 0.0:
+            self._pressed.append((now, force, float(self.switched)))
+
+
+def buttons(
+    fixtures: Sequence[FixtureSpec], variations: Sequence[FixtureVariation], names: Mapping[str, str], data: Any
+) -> dict[str, SimulatedButton]:
+    """Return those of the fixtures that are buttons, by IRI."""
+    return {
+        each.individual: SimulatedButton(names[each.individual], each.switch_travel_m + true.switch_m, data)
+        for each, true in zip(fixtures, variations, strict=True)
+        if each.switch_travel_m is not None
+    }

@@ -1,0 +1,223 @@
+"""A robot cell in simulation: devices, controllers and physics in one lock-step loop."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import mujoco
+
+from skillc_runtime.backends.mujoco.arm import SimulatedArm
+from skillc_runtime.backends.mujoco.base import SimulatedBase
+from skillc_runtime.backends.mujoco.button import SimulatedButton, buttons
+from skillc_runtime.backends.mujoco.coverage import CoverageMap
+from skillc_runtime.backends.mujoco.driver_factory import driver
+from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
+from skillc_runtime.backends.mujoco.ground_truth import SimulatedTruth
+from skillc_runtime.backends.mujoco.inspection import SimulatedCamera
+from skillc_runtime.backends.mujoco.model_builder import build_model
+from skillc_runtime.backends.mujoco.observer import ToolObserver
+from skillc_runtime.backends.mujoco.person import make_people
+from skillc_runtime.backends.mujoco.physics_warnings import print_warnings
+from skillc_runtime.backends.mujoco.scene_spec import SceneSpec, read_scene_spec
+from skillc_runtime.backends.mujoco.variation import Variation, draw
+from skillc_runtime.control.driver import CompliantArmDriver
+from skillc_runtime.control.watchdog import HeartbeatWatchdog
+from skillc_runtime.devices.gripper import working_face
+from skillc_runtime.devices.ground_truth import GroundTruth
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.world.space.frames import placed, size
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import DEVICE_STATE
+
+
+class SimulatedCell:
+    """A cell built from the facts of a world model, implementing `Cell`; `variation` is how reality differs from them.
+
+    The same facts and the same seed give the same run, bit for bit. Between calls of `advance` all measurements are of
+    the present instant. The world model knows which arms can be controlled: all at the start, one that is broken never
+    again.
+    """
+
+    def __init__(
+        self,
+        world: WorldModel,
+        seed: int = 0,
+        timestep_s: float = 0.001,
+        steps_per_command: int = 1,
+        reality: Callable[[SceneSpec, int], Variation] = draw,
+    ) -> None:
+        """Build the cell; controllers run every `steps_per_command` steps, `reality` draws how it differs from facts.
+
+        SheetError or FrameError when facts are missing or contradict the models.
+        """
+        print_warnings()
+        self._world = world
+        self.facts: SceneSpec = read_scene_spec(world.snapshot())
+        self.variation: Variation = reality(self.facts, seed)
+        self.model: Any = build_model(self.facts, self.variation, timestep_s)
+        self.data: Any = mujoco.MjData(self.model)
+        self._timestep, self._steps_per_command, self._step = timestep_s, steps_per_command, 0
+        self.arms, self._hands = self._make_arms()
+        self._grippers = {a.gripper.individual: self._hands[a.individual] for a in self.facts.arms if a.gripper}
+        names, facts = self.facts.names, self.facts
+        self._bases = {b.individual: SimulatedBase(b, names[b.individual], self.model, self.data) for b in facts.bases}
+        mujoco.mj_forward(self.model, self.data)
+        self._drivers = {a.individual: driver(a, self.arms[a.individual], self.period_s) for a in facts.arms}
+        poses = {s.individual: self.variation.of(s.individual).true_pose(s.pose) for s in facts.surfaces}
+        self.coverage = {s.individual: CoverageMap(poses[s.individual], s.layout, s.least_n) for s in facts.surfaces}
+        self._observers = {
+            tool.individual: ToolObserver(tool, names, self.model, self.data, self.coverage) for tool in facts.tools
+        }
+        self.ground_truth: GroundTruth = SimulatedTruth(self._observers, poses)
+        self._camera = SimulatedCamera(self.coverage)
+        self.watchdog = HeartbeatWatchdog()
+        self._buttons = buttons(facts.fixtures, self.variation.fixtures, names, self.data)
+        self.people = make_people(facts, self.variation, self._drivers, self.data)
+        idle = [SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(self._drivers)]
+        world.commit(idle, "start of the cell", "reported")
+
+    @property
+    def now(self) -> float:
+        """Simulated seconds since the cell started."""
+        return float(self.data.time)
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether nothing moves or pushes any more."""
+        arms = all(arm.at_rest for arm in self._drivers.values())
+        return arms and all(base.at_rest for base in self._bases.values())
+
+    @property
+    def period_s(self) -> float:
+        """The control period."""
+        return self._timestep * self._steps_per_command
+
+    @property
+    def world(self) -> WorldModel:
+        """The world model."""
+        return self._world
+
+    def arm(self, individual: str) -> CompliantArmDriver:
+        """Return an arm's driver; KeyError where the cell has no such arm."""
+        return self._drivers[individual]
+
+    def gripper(self, individual: str) -> SimulatedGripper:
+        """Return a gripper; KeyError where the cell has no such gripper."""
+        return self._grippers[individual]
+
+    def base(self, individual: str) -> SimulatedBase:
+        """Return the mobile base of a robot; KeyError where it has none."""
+        return self._bases[individual]
+
+    def camera(self) -> SimulatedCamera:
+        """Return what inspects surfaces."""
+        return self._camera
+
+    def button(self, individual: str) -> SimulatedButton:
+        """Return a button; KeyError where the cell has no such button."""
+        return self._buttons[individual]
+
+    def advance(self, seconds: float) -> None:
+        """Let time pass: controllers, devices and physics, step by step. ControlError when a controller gives up."""
+        for _ in range(round(seconds / self._timestep)):
+            self._advance_one()
+
+    def secure(self) -> tuple[str, ...]:
+        """Stop everything, push nothing, make stiff what yields; say what was left to do, and why arms had stopped.
+
+        For the end of a run, however it ended; where all went well nothing is left to do.
+        """
+        names, found = self.facts.names, []
+        for individual, arm in self._drivers.items():
+            if (fault := arm.take_fault()) is not None:
+                found.append(f"{names[individual]} had stopped: {fault}")
+            if arm.secure():
+                found.append(f"{names[individual]} was left yielding; it is held stiff again")
+        self._stop_devices()
+        return tuple(found)
+
+    def _stop_all(self, reason: str) -> None:
+        for arm in self._drivers.values():
+            arm.abort(reason)
+        self._stop_devices()
+
+    def _stop_devices(self) -> None:
+        """Stop what moves beside the arms."""
+        for gripper in self._grippers.values():
+            if gripper.moving:
+                gripper.stop()
+        for base in self._bases.values():
+            if not base.at_rest:
+                base.stop()
+
+    def _advance_one(self) -> None:
+        now = self.data.time
+        if self._step % self._steps_per_command == 0:
+            if self.watchdog.expired(now):
+                self._stop_all("the tree is not ticked any more")
+            for individual, one in self._drivers.items():
+                self._control(individual, one, now)
+        for gripper in self._grippers.values():
+            gripper.step(self._timestep)
+        for arm in self.arms.values():
+            arm.before_step()
+        for person in self.people:
+            person.step(now)
+        mujoco.mj_step2(self.model, self.data)
+        for arm in self.arms.values():
+            arm.after_step()
+        self._observe(now)
+        for robot, base in self._bases.items():
+            motion = base.step(self._timestep)
+            if motion is not None:
+                self._carry_along(robot, motion)
+        mujoco.mj_step1(self.model, self.data)
+        self._step += 1
+
+    def _control(self, individual: str, arm: CompliantArmDriver, now: float) -> None:
+        """Do a control period of one arm; note, once, that it is broken."""
+        worked = arm.broken is None
+        try:
+            arm.step(now)
+        finally:
+            if worked and arm.broken is not None:
+                self._world.commit([SetProperty(individual, DEVICE_STATE, "Fault")], arm.broken, "reported")
+
+    def _observe(self, now: float) -> None:
+        for button in self._buttons.values():
+            button.sample(now)
+        for arm, gripper in self._hands.items():
+            if gripper.holding is not None:
+                self._observers[gripper.holding].sample(now, self._drivers[arm])
+                why = gripper.slips(now)
+                if why is not None:
+                    self._lose(arm, gripper, gripper.holding, why)
+
+    def _lose(self, arm: str, gripper: SimulatedGripper, thing: str, why: str) -> None:
+        """Stop an arm whose gripper cannot hold a thing any more, and note where that was."""
+        state, there = self._world.snapshot(), self._drivers[arm].measured.pose
+        left_at = there @ working_face(size(state, thing)).inverse()
+        gripper.lose()
+        self._drivers[arm].abort(why)
+        self._world.commit(placed(thing, left_at), why, "assumed")
+
+    def _carry_along(self, robot: str, motion: Pose) -> None:
+        """Move what the arms of a driving robot hold along with it."""
+        for arm in self.facts.arms:
+            if arm.robot == robot and arm.individual in self._hands:
+                self._hands[arm.individual].follow(motion)
+
+    def _make_arms(self) -> tuple[dict[str, SimulatedArm], dict[str, SimulatedGripper]]:
+        """Return the arms, and the grippers by the arms that carry them."""
+        names, arms, hands = self.facts.names, {}, {}
+        for facts in self.facts.arms:
+            gripper = facts.gripper
+            palm = None if gripper is None else names[gripper.individual]
+            name, steps = names[facts.individual], self._steps_per_command
+            arm = SimulatedArm(facts, name, palm, self.model, self.data, self.variation, steps)
+            arms[facts.individual] = arm
+            if gripper is not None:
+                hands[facts.individual] = SimulatedGripper(gripper, names, self.facts.tools, arm, self.model, self.data)
+        return arms, hands

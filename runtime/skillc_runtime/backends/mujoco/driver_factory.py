@@ -1,0 +1,60 @@
+"""Makes the driver of a simulated arm from what is known about it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import inf
+
+from skillc_runtime.backends.mujoco.arm import SimulatedArm
+from skillc_runtime.backends.mujoco.scene_spec import ArmSpec
+from skillc_runtime.control.driver import CompliantArmDriver
+from skillc_runtime.control.gains import LawGains, UnknownController, read_gains
+from skillc_runtime.control.safety import Box, SafetyLimits
+from skillc_runtime.control.setup import ArmSetup
+from skillc_runtime.control.virtual_arm import virtual_model
+from skillc_runtime.devices.arm import ModeRefused
+from skillc_runtime.world.space.frames import seen_from, size
+from skillc_runtime.world.state.data_sheet import SheetError, number
+from skillc_runtime.world.state.terms import (
+    CONTACT_FORCE_LIMIT,
+    HAS_SENSOR,
+    HAS_WORKSPACE,
+    JERK_LIMIT,
+    TOOL_SPEED_LIMIT,
+)
+
+
+def driver(facts: ArmSpec, arm: SimulatedArm, period_s: float) -> CompliantArmDriver:
+    """Return the driver of an arm with the controller its facts name; SheetError for an unknown one, a missing gain."""
+    jerk_limit = number(facts.sheet.state, facts.sheet.individual, JERK_LIMIT, inf)
+    try:
+        chosen = read_gains(facts.controller, facts.sheet.number)
+    except UnknownController as error:
+        raise SheetError(f"{facts.sheet.state.vocabulary.short(facts.individual)}: {error}") from error
+    chosen = replace(chosen, limits=replace(chosen.limits, jerk_m_s3=jerk_limit))
+    _engage(facts, arm, chosen.law)
+    virtual, limits = virtual_model(facts.model), safety(facts)
+    return CompliantArmDriver(ArmSetup(arm, virtual, chosen, arm.limits, lambda: arm.base, period_s, limits))
+
+
+def _engage(facts: ArmSpec, arm: SimulatedArm, law: LawGains) -> None:
+    """Make the arm take what the law commands; SheetError where it cannot, or does not feel what the law needs."""
+    short = facts.sheet.state.vocabulary.short
+    try:
+        arm.switch(law.mode)
+    except ModeRefused as refusal:
+        raise SheetError(f"{short(facts.individual)} has the controller {facts.controller!r}: {refusal}") from refusal
+    if law.needs_force and not arm.capabilities.feels_force:
+        raise SheetError(
+            f"{short(facts.individual)} has the controller {facts.controller!r}, which needs a force/torque sensor: "
+            f"it has none ({short(HAS_SENSOR)})"
+        )
+
+
+def safety(facts: ArmSpec) -> SafetyLimits:
+    """Return what is known of the limits of an arm: those of its sheet, and its workspace, which goes with its base."""
+    state, sheet = facts.sheet.state, facts.sheet.individual
+    force, speed = (number(state, sheet, limit, inf) for limit in (CONTACT_FORCE_LIMIT, TOOL_SPEED_LIMIT))
+    spaces = sorted(state.objects(facts.individual, HAS_WORKSPACE))
+    space = Box(seen_from(state, facts.individual, spaces[0]), size(state, spaces[0])) if spaces else None
+    return SafetyLimits(force, speed, space)

@@ -1,0 +1,69 @@
+"""How a fixture really is: where it stands, how its parts rub, spring and switch, whether something is in the way."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from skillc_runtime.backends.mujoco.fixture_spec import FixtureSpec
+from skillc_runtime.backends.mujoco.rng import rng_for
+from skillc_runtime.motion.pose import Pose, exp
+
+
+@dataclass(frozen=True, slots=True)
+class FixtureVariation:
+    """One fixture: m beside its believed place along its x and y and along its z, rad about its x and y.
+
+    `friction`: sliding, None for that of the model. `stiffness_share`: how much stiffer its springs are. `switch_m`:
+    how much later a button switches. `present` is false for one that is not there at all; in one that is `blocked`
+    something is in the way.
+    """
+
+    fixture: str
+    place_m: tuple[float, float, float]
+    tilt_rad: tuple[float, float]
+    friction: float | None
+    stiffness_share: float
+    switch_m: float
+    present: bool = True
+    blocked: bool = False
+
+    def true_pose(self, believed: Pose) -> Pose:
+        """Return where the fixture really is."""
+        return believed @ Pose(np.array(self.place_m), exp(np.array([*self.tilt_rad, 0.0])))
+
+    @property
+    def words(self) -> str:
+        """What differs, in words."""
+        x, y, z = (1e3 * each for each in self.place_m)
+        tilt = "" if self.tilt_rad == (0.0, 0.0) else f", tilted {_degrees(self.tilt_rad)} deg"
+        friction = "" if self.friction is None else f", friction {self.friction:.2f}"
+        spring = f", springs {100 * self.stiffness_share:+.0f} %" if self.stiffness_share else ""
+        switch = f", switching {1e3 * self.switch_m:+.1f} mm later" if self.switch_m else ""
+        return f"{np.hypot(x, y):.1f} mm beside and {z:+.1f} mm along its axis{tilt}{friction}{spring}{switch}"
+
+
+def draw_fixture(fixture: FixtureSpec, seed: int) -> FixtureVariation:
+    """Draw the differences: the place on a disc across the axis and along it, the rest within ranges, all evenly."""
+    rng = rng_for(fixture.individual, seed)
+    away = fixture.place_range_m * float(np.sqrt(rng.uniform()))
+    towards, along = float(rng.uniform(0.0, 2 * np.pi)), float(rng.uniform(-1.0, 1.0))
+    tilt_x, tilt_y, stiffness, switch = rng.uniform(-1.0, 1.0, 4).tolist()
+    rubbing = float(rng.uniform())
+    return FixtureVariation(
+        fixture=fixture.individual,
+        place_m=(away * float(np.cos(towards)), away * float(np.sin(towards)), along * fixture.depth_range_m),
+        tilt_rad=(tilt_x * fixture.tilt_range_rad, tilt_y * fixture.tilt_range_rad),
+        friction=None if fixture.friction is None else _between(*fixture.friction, rubbing),
+        stiffness_share=stiffness * fixture.stiffness_range,
+        switch_m=switch * fixture.switch_range_m,
+    )
+
+
+def _between(low: float, high: float, share: float) -> float:
+    return low + (high - low) * share
+
+
+def _degrees(tilt_rad: tuple[float, float]) -> str:
+    return " and ".join(f"{each:+.1f}" for each in np.degrees(tilt_rad))

@@ -1,0 +1,138 @@
+"""What is fixed to an arm's last link, seen from the arm's base, and how it moves with the joints."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector, Vector
+from skillc_runtime.motion.numerics.compiled import compiled, part
+from skillc_runtime.motion.numerics.linear import cross, product, times, transposed_times
+from skillc_runtime.motion.pose import Array, Pose
+
+TOOL = 6
+"""The row of the tool centre point."""
+
+LEVER = 7
+"""The row of what leads from there to the payload's centre of mass."""
+
+Q, SPEED, BIAS, CARRYING = range(4)
+"""Rows of what is measured at the joints; the last are the torques that carry a payload."""
+
+
+class Hand:
+    """Tool centre point, wrist axes and payload of an arm; all arrays are reused.
+
+    tool: the tool centre point; lever (3,): from there to the payload's centre of mass; in the arm's base frame, as of
+    the last call of `see_hand`. `on_link` and `in_base` hold all of it, and the wrist's axes, one vector a row.
+    """
+
+    def __init__(self) -> None:
+        self.on_link, self.in_base = np.zeros((8, 3)), np.zeros((8, 3))
+        self.tool = Pose(self.in_base[TOOL], self.in_base[:3].T)
+        self.lever = self.in_base[LEVER]
+
+    def hold(self, tool: Pose, wrist: Array, payload: Array) -> None:
+        """Take the tool centre point, the wrist's axes (3, 3) and the payload's centre (3,), in the link's frame."""
+        self.on_link[:3], self.on_link[3:6] = tool.rotation.T, wrist.T
+        self.on_link[TOOL], self.on_link[LEVER] = tool.position, payload - tool.position
+
+
+@part
+def carry(
+    bias: OutVector, carrying: OutVector, weight: Vector, base_rotation: Matrix, lever: Vector, J: Matrix
+) -> None:
+    """Add to `bias` (nv,) what carries a payload: J^T [w; r x w], w = -m g, in the world, at r from the tool centre."""
+    load = np.empty(6)
+    transposed_times(base_rotation, weight, load[:3])
+    cross(lever, load[:3], load[3:])
+    transposed_times(J, load, carrying)
+    for j in range(bias.size):
+        bias[j] += carrying[j]
+
+
+@part
+def external_wrench(wrench: OutVector, gain: Matrix, readings: Vector, axes: Matrix) -> None:
+    """wrench (6,) = gain (6, 9) readings (9,), its halves along `axes` (3, 3), one a row."""
+    at_wrist = np.empty(6)
+    times(gain, readings, at_wrist)
+    transposed_times(axes, at_wrist[:3], wrench[:3])
+    transposed_times(axes, at_wrist[3:], wrench[3:])
+
+
+@dataclass(frozen=True, slots=True)
+class ArmSensing:
+    """What `measure` reads and writes for one arm; all arrays are reused or change with the simulation.
+
+    Written, in the arm's base frame. joints (4, nv): Q rad, SPEED rad/s, BIAS and CARRYING N m; in_base (8, 3): see
+    `Hand`; jacobian (6, nv): of the tool centre point, [linear m; angular rad] per rad; wrench (6,): N and N m on the
+    tool, zeros where there is no sensor.
+
+    Read. q, dq, bias (nv,): rad, rad/s and N m, without noise and payload; on_link (8, 3): see `Hand`. In the world:
+    motion_axes (nv, 6), MuJoCo's `cdof`, and centre (3,) m, where they hold; position (3,) m and rotation (3, 3) of
+    last link and base; weight (3,) N of the payload. gain (6, 9) and readings (9,): of the sensor, see `Wrist`.
+    """
+
+    joints: OutMatrix
+    in_base: OutMatrix
+    jacobian: OutMatrix
+    wrench: OutVector
+    q: Vector
+    dq: Vector
+    bias: Vector
+    on_link: Matrix
+    motion_axes: Matrix
+    centre: Vector
+    link: Pose
+    base: Pose
+    weight: Vector
+    gain: Matrix
+    readings: Vector
+
+
+@part
+def see_hand(arm: ArmSensing) -> None:
+    """Compute, in base axes, what is on the link, and the Jacobian (6, nv) of the tool centre point.
+
+    motion_axes: [angular; linear] velocity at `centre` per joint speed. With d = tool - centre and base axes a_i:
+    a_i . (v + w x d) = a_i . v + (d x a_i) . w.
+    """
+    in_world, away, at_tool, axes = np.empty((8, 3)), np.empty(3), np.zeros((6, 6)), arm.base.rotation
+    product(arm.on_link, arm.link.rotation.T, in_world)
+    for i in range(3):
+        in_world[TOOL, i] += arm.link.position[i]
+        away[i] = in_world[TOOL, i] - arm.centre[i]
+        in_world[TOOL, i] -= arm.base.position[i]
+        for j in range(3):
+            at_tool[i, 3 + j] = at_tool[3 + i, j] = axes[j, i]
+    product(in_world, axes, arm.in_base)
+    for i in range(3):
+        cross(away, at_tool[i, 3:], at_tool[i, :3])
+    product(at_tool, arm.motion_axes.T, arm.jacobian)
+
+
+@compiled
+def measure(arm: ArmSensing, noise: Vector) -> None:
+    """Compute what an arm measures: hand and Jacobian; speeds with noise (nv,) rad/s, bias with a payload's; wrench."""
+    joints, J, axes = arm.joints, arm.jacobian, arm.base.rotation
+    see_hand(arm)
+    for j in range(arm.q.size):
+        joints[Q, j], joints[SPEED, j], joints[BIAS, j] = arm.q[j], arm.dq[j] + noise[j], arm.bias[j]
+    carry(joints[BIAS], joints[CARRYING], arm.weight, axes, arm.in_base[LEVER], J)
+    external_wrench(arm.wrench, arm.gain, arm.readings, arm.in_base[3:6])
+
+
+@compiled
+def load_mass(mass: OutMatrix, lever: Vector, J: Matrix, payload_kg: float) -> None:
+    """Add to a mass matrix (nv, nv) that of a payload as a point: m J_c^T J_c with J_c = J_v - lever x J_w."""
+    joints = J.shape[1]
+    at_centre, moved, spun = np.empty((3, joints)), np.empty(3), np.empty((joints, joints))
+    for j in range(joints):
+        cross(J[3:, j], lever, moved)
+        for i in range(3):
+            at_centre[i, j] = J[i, j] + moved[i]
+    product(at_centre.T, at_centre, spun)
+    for i in range(joints):
+        for j in range(joints):
+            mass[i, j] += payload_kg * spun[i, j]

@@ -1,0 +1,149 @@
+"""From the facts of a scene to a MuJoCo model: places, devices, contacts, sensors."""
+
+from __future__ import annotations
+
+from itertools import product
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.backends.mujoco.device_builder import add_arm, add_pressing_sensor, add_tool
+from skillc_runtime.backends.mujoco.fixtures import add_fixture
+from skillc_runtime.backends.mujoco.names import base_body, box_geom, hole, obstacle, part, weld
+from skillc_runtime.backends.mujoco.scene_spec import BaseSpec, SceneSpec, SurfaceSpec
+from skillc_runtime.backends.mujoco.variation import SurfaceVariation, Variation
+from skillc_runtime.motion.layout import Hole
+from skillc_runtime.motion.pose import Array, Pose, quaternion_of
+from skillc_runtime.world.state.data_sheet import SheetError
+
+CARRIES, WORKS = 1, 2
+"""Contact bits of what carries tools and of what works on surfaces; handles and finger pads have 4 and 8."""
+
+MARK_M = 0.0003
+"""How thick the mark of a flat hole is."""
+
+FURNITURE_FRICTION = 0.6
+"""Wood against felt; it only keeps a tool where it lies."""
+
+WELD_SOLREF = (0.004, 1.0)
+WELD_SOLIMP = (0.99, 0.999, 0.0005, 0.5, 2.0)
+"""A grasp as stiff as a 1 ms step allows: a few micrometres at 20 N."""
+
+WOOD, BOARD, STEEL = (0.62, 0.52, 0.4, 1.0), (0.93, 0.94, 0.95, 1.0), (0.4, 0.43, 0.47, 1.0)
+
+
+def build_model(scene: SceneSpec, variation: Variation, timestep_s: float = 0.001) -> mujoco.MjModel:
+    """Build the model of a scene as it really is.
+
+    SheetError when a data sheet's model cannot be read, or lacks a part that the simulation needs.
+    """
+    try:
+        return describe_model(scene, variation, timestep_s).compile()
+    except ValueError as error:
+        raise SheetError(f"the models of the data sheets cannot be used: {error}") from error
+
+
+def describe_model(scene: SceneSpec, variation: Variation, timestep_s: float = 0.001) -> mujoco.MjSpec:
+    """Return the description of a scene as it really is, of which MuJoCo makes a model.
+
+    ValueError when a model cannot be read, or lacks a part.
+    """
+    spec = _empty(timestep_s)
+    for piece in scene.furniture:
+        _add_box(spec, scene.names[piece.individual], piece.pose, piece.size, FURNITURE_FRICTION, WOOD)
+    for surface in scene.surfaces:
+        true = variation.of(surface.individual)
+        if true.present:
+            _add_surface(spec, scene.names[surface.individual], surface, true)
+    for fixture, how in zip(scene.fixtures, variation.fixtures, strict=True):
+        add_fixture(spec, scene.names[fixture.individual], fixture, how)
+    mounts = {base.individual: _add_base(spec, scene, base) for base in scene.bases}
+    for arm in scene.arms:
+        body, frame = mounts.get(arm.robot or "", (spec.worldbody, Pose(np.zeros(3), np.eye(3))))
+        add_arm(spec, scene.names, arm, body, frame.inverse() @ arm.base)
+    for tool in scene.tools:
+        add_tool(spec, scene.names, tool, None if tool.rigid else variation.pad_stiffness(tool))
+    _add_welds(spec, scene)
+    for tool, surface in product(scene.tools, scene.surfaces):
+        if variation.of(surface.individual).present:
+            add_pressing_sensor(spec, scene.names[tool.individual], scene.names[surface.individual])
+    return spec
+
+
+def _empty(timestep_s: float) -> Any:
+    spec = mujoco.MjSpec()
+    spec.option.timestep = timestep_s
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    spec.visual.global_.offwidth, spec.visual.global_.offheight = 1280, 720
+    spec.visual.headlight.ambient = [0.4, 0.4, 0.4]
+    _add_sky(spec)
+    spec.worldbody.add_light(pos=[1.0, -2.0, 4.0], dir=[-0.2, 0.4, -1.0])
+    floor = spec.worldbody.add_geom(name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[10.0, 10.0, 0.1])
+    floor.rgba = [0.82, 0.84, 0.86, 1.0]
+    _carry(floor, FURNITURE_FRICTION)
+    return spec
+
+
+def _add_sky(spec: mujoco.MjSpec) -> None:
+    """Give films a light background."""
+    sky = spec.add_texture(name="sky", type=mujoco.mjtTexture.mjTEXTURE_SKYBOX, width=64, height=384)
+    sky.builtin = mujoco.mjtBuiltin.mjBUILTIN_GRADIENT
+    sky.rgb1, sky.rgb2 = [0.93, 0.95, 0.97], [0.70, 0.75, 0.80]
+
+
+def _carry(geom: Any, friction: float) -> None:
+    """Let tools touch the geom: their own softness counts (solmix 0), the geom's friction is the greater."""
+    geom.contype, geom.conaffinity = CARRIES, WORKS
+    geom.friction = [friction, 0.005, 0.0001]
+    geom.solmix = 0.0
+
+
+def _add_box(spec: Any, name: str, top: Pose, size: Array, friction: float, rgba: tuple[float, ...]) -> None:
+    """Add a fixed box whose top's middle is at `top`."""
+    body = spec.worldbody.add_body(name=name, pos=top.position, quat=quaternion_of(top.rotation))
+    geom = body.add_geom(name=box_geom(name), type=mujoco.mjtGeom.mjGEOM_BOX, size=size / 2)
+    geom.pos, geom.rgba = [0.0, 0.0, -size[2] / 2], list(rgba)
+    _carry(geom, friction)
+
+
+def _add_surface(spec: Any, name: str, surface: SurfaceSpec, true: SurfaceVariation) -> None:
+    """Add a surface where it really is, with what lies on it."""
+    pose = true.true_pose(surface.pose)
+    _add_box(spec, name, pose, surface.size, true.friction, BOARD)
+    for number, each in enumerate(surface.layout.holes):
+        _add_hole(spec, hole(name, number), pose, each, true.friction)
+    if true.obstacle is not None:
+        size = np.array(true.obstacle.size)
+        top = pose @ Pose(np.array([*true.obstacle.place, size[2]]), np.eye(3))
+        _add_box(spec, obstacle(name), top, size, true.friction, STEEL)
+
+
+def _add_hole(spec: Any, name: str, surface: Pose, area: Hole, friction: float) -> None:
+    """Add what stands out of a surface at a hole; one that is flat is shown as a dark mark, which nothing touches."""
+    height = max(area.height, MARK_M)
+    top = surface @ Pose(np.append(area.middle, height), np.eye(3))
+    _add_box(spec, name, top, np.append(area.size, height), friction, STEEL)
+    if area.height == 0:
+        spec.geom(box_geom(name)).contype = spec.geom(box_geom(name)).conaffinity = 0
+
+
+def _add_base(spec: Any, scene: SceneSpec, base: BaseSpec) -> tuple[Any, Pose]:
+    """Add a mobile base, moved as a whole from outside; its frame lies on the floor in its middle."""
+    name = base_body(scene.names[base.individual])
+    body = spec.worldbody.add_body(name=name, mocap=True)
+    body.pos, body.quat = base.pose.position, quaternion_of(base.pose.rotation)
+    geom = body.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=base.size / 2, contype=0, conaffinity=0)
+    geom.pos, geom.rgba = [0.0, 0.0, base.size[2] / 2], list(STEEL)
+    return body, base.pose
+
+
+def _add_welds(spec: Any, scene: SceneSpec) -> None:
+    """Add an inactive weld for every gripper and tool; a grasp switches it on."""
+    grippers = [scene.names[arm.gripper.individual] for arm in scene.arms if arm.gripper is not None]
+    for gripper, tool in product(grippers, (scene.names[tool.individual] for tool in scene.tools)):
+        equality = spec.add_equality(name=weld(gripper, tool), type=mujoco.mjtEq.mjEQ_WELD)
+        equality.objtype = mujoco.mjtObj.mjOBJ_BODY
+        equality.name1, equality.name2 = part(gripper, "palm"), part(tool, "block")
+        equality.solref, equality.solimp, equality.active = WELD_SOLREF, WELD_SOLIMP, False

@@ -1,0 +1,89 @@
+"""Watches one held tool: records what really happens to it and keeps the coverage of surfaces up to date."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import sqrt
+from typing import Any
+
+import numpy as np
+
+from skillc_runtime.backends.mujoco.coverage import CoverageMap
+from skillc_runtime.backends.mujoco.names import contact_sensor, face_sensor, pressing_sensor
+from skillc_runtime.backends.mujoco.recorder import Recorder
+from skillc_runtime.backends.mujoco.scene_spec import ToolSpec
+from skillc_runtime.devices.arm_driver import ArmDriver
+from skillc_runtime.motion.pose import Array, rotation_of
+
+STEPS_PER_UPDATE = 10
+"""Coverage and reference are looked at every so many steps: at 100 Hz with steps of 1 ms."""
+
+
+class ToolObserver:
+    """Looks at one tool once a step, from the sensors at its working face and those of what it presses on."""
+
+    def __init__(
+        self, facts: ToolSpec, names: Mapping[str, str], model: Any, data: Any, coverage: Mapping[str, CoverageMap]
+    ) -> None:
+        name = names[facts.individual]
+        self._extent = facts.size[:2]
+        self._pressing = tuple(_pressing(name, names, model, data, coverage))
+        first = int(model.sensor(face_sensor(name, "touch")).adr[0])
+        self._truth = data.sensordata[first : first + 11]
+        self._reach = float(np.hypot(*self._extent)) / 2
+        self._seconds = STEPS_PER_UPDATE * model.opt.timestep
+        self._steps = 0
+        self.recorder, self.peak_force = Recorder(self._truth), PeakForce(name, model, data)
+
+    def sample(self, time: float, driver: ArmDriver) -> None:
+        """Take in one step that began at `time` s, in which `driver` moved the tool."""
+        self.recorder.sample(time)
+        self.peak_force.sample()
+        if self._steps % STEPS_PER_UPDATE == 0:
+            self.recorder.sample_reference(time, driver.motion.reference, driver.motion.path, self._cover())
+        self._steps += 1
+
+    def _cover(self) -> float:
+        """Count what the tool works on now; return the greatest force in N with which it presses on a surface."""
+        greatest = 0.0
+        for surface, force in self._pressing:
+            force_n = abs(float(surface.normal @ force))
+            greatest = max(greatest, force_n)
+            if force_n >= surface.least_n and surface.near(self._truth[1:4], self._reach):
+                surface.add(self._truth[1:4], rotation_of(self._truth[4:8]), self._extent, self._seconds)
+        return greatest
+
+
+class PeakForce:
+    """The greatest length so far of the sum of contact forces on one tool that is held, N.
+
+    The fingers that hold it are not among them: a weld keeps it, and their contacts do not count meanwhile.
+    """
+
+    def __init__(self, tool: str, model: Any, data: Any) -> None:
+        """Look at a tool of that name in the model."""
+        first = int(model.sensor(contact_sensor(tool)).adr[0])
+        self._force = data.sensordata[first : first + 3]
+        self._square = 0.0
+
+    @property
+    def newton(self) -> float:
+        """The greatest force so far in N."""
+        return sqrt(self._square)
+
+    def sample(self) -> None:
+        """Take in one step."""
+        self._square = max(self._square, float(self._force.dot(self._force)))
+
+
+def _pressing(
+    tool: str, names: Mapping[str, str], model: Any, data: Any, coverage: Mapping[str, CoverageMap]
+) -> list[tuple[CoverageMap, Array]]:
+    """Return the surfaces that are really there, each with the view (3,) of the force of the tool on it."""
+    found = []
+    for individual, surface in coverage.items():
+        sensor = pressing_sensor(tool, names[individual])
+        if any(model.sensor(each).name == sensor for each in range(model.nsensor)):
+            first = int(model.sensor(sensor).adr[0])
+            found.append((surface, data.sensordata[first : first + 3]))
+    return found

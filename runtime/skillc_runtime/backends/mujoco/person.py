@@ -1,0 +1,80 @@
+"""A simulated person who takes a yielding tool by the hand and leads it to where they want it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from skillc_runtime.backends.mujoco.names import part
+from skillc_runtime.backends.mujoco.person_spec import PersonSpec
+from skillc_runtime.backends.mujoco.person_variation import PersonVariation
+from skillc_runtime.backends.mujoco.scene_spec import ArmSpec, SceneSpec
+from skillc_runtime.backends.mujoco.variation import Variation
+from skillc_runtime.devices.arm_driver import ArmDriver
+from skillc_runtime.motion.pose import Array
+
+REACTION_S = 1.0
+"""How long a person takes to notice that the arm yields."""
+
+PULL_N_M, HOLD_N_S_M = 150.0, 40.0
+"""A person pulls the more the farther it is, up to their strength, and lets nothing swing."""
+
+THERE_M, THERE_S = 0.002, 1.0
+"""This near, for that long, is there: the person lets go."""
+
+
+class SimulatedPerson:
+    """Acts on the hand of one arm, every step; `place` (3,) is where they want the tool of `arm`.
+
+    `forces` are the forces in N with which they led it, one a step.
+    """
+
+    def __init__(self, facts: PersonSpec, true: PersonVariation, hand: str, driver: ArmDriver, data: Any) -> None:
+        body = data.body(hand)
+        self.arm = facts.arm
+        self._force, self._centre, self._driver = body.xfrc_applied, body.xipos, driver
+        self.place: Array = facts.place + np.array(true.place_m)
+        self._strength = true.strength_n
+        self._yields_since: float | None = None
+        self._there_since: float | None = None
+        self.forces: list[float] = []
+        self.let_go = False
+
+    def step(self, now: float) -> None:
+        """Pull, or do not."""
+        yields = not self._driver.compliance.commanded_stiffness[:3].any()
+        self._yields_since = None if not yields else now if self._yields_since is None else self._yields_since
+        leading = self._yields_since is not None and now - self._yields_since >= REACTION_S and not self.let_go
+        self._force[:] = 0.0
+        if leading:
+            self._lead(now)
+
+    def _lead(self, now: float) -> None:
+        tool = self._driver.measured.pose.position
+        away = self.place - tool
+        pull = PULL_N_M * away
+        pull *= min(1.0, self._strength / max(float(np.linalg.norm(pull)), 1e-9))
+        self._force[:3] = pull - HOLD_N_S_M * self._driver.measured.velocity[:3]
+        self._force[3:] = np.cross(tool - self._centre, self._force[:3])
+        self.forces.append(float(np.linalg.norm(self._force[:3])))
+        near = float(np.linalg.norm(away)) < THERE_M
+        self._there_since = None if not near else now if self._there_since is None else self._there_since
+        self.let_go = self._there_since is not None and now - self._there_since >= THERE_S
+
+
+def make_people(
+    scene: SceneSpec, variation: Variation, drivers: Mapping[str, ArmDriver], data: Any
+) -> tuple[SimulatedPerson, ...]:
+    """Return those who come and lead an arm that has a gripper to take hold of."""
+    hands = {arm.individual: palm for arm in scene.arms if (palm := _palm(arm, scene.names)) is not None}
+    return tuple(
+        SimulatedPerson(each, true, hands[each.arm], drivers[each.arm], data)
+        for each, true in zip(scene.people, variation.people, strict=True)
+        if true.present and each.arm in hands
+    )
+
+
+def _palm(arm: ArmSpec, names: Mapping[str, str]) -> str | None:
+    return None if arm.gripper is None else part(names[arm.gripper.individual], "palm")

@@ -1,0 +1,257 @@
+"""What the simulation needs to know of a scene, read from the world model into typed values, once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from skillc_runtime.backends.mujoco.fixture_spec import FixtureSpec, read_fixtures
+from skillc_runtime.backends.mujoco.friction import friction
+from skillc_runtime.backends.mujoco.person_spec import PersonSpec, read_people
+from skillc_runtime.devices.arm import Mode
+from skillc_runtime.motion.layout import Layout
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.world.space.frames import pose, size
+from skillc_runtime.world.space.surfaces import LEAST_FORCE_N, layout, least_force_n
+from skillc_runtime.world.state.data_sheet import Sheet, SheetError, number, sheet_of, text
+from skillc_runtime.world.state.terms import (
+    ARM_DEVICE,
+    COMPLIANT_CONTROLLER,
+    FORCE_NOISE,
+    FORCE_TORQUE_SENSOR,
+    FURNITURE,
+    HAS_ARM,
+    HAS_GRIPPER,
+    HAS_SENSOR,
+    JOINT_SPEED_NOISE,
+    MOBILE_ROBOT,
+    OFFSET_RANGE,
+    POSITION_CONTROLLED_ARM,
+    POSTURE_RANGE,
+    RIGID_TOOL_SHEET,
+    STIFFNESS_RANGE,
+    SURFACE,
+    TILT_RANGE,
+    TOOL,
+    TORQUE_CONTROLLED_ARM,
+    TORQUE_NOISE,
+    VELOCITY_CONTROLLED_ARM,
+    WEIGHT,
+)
+from skillc_runtime.world.state.world_state import WorldState
+
+MODES: Final[dict[str, Mode]] = {
+    TORQUE_CONTROLLED_ARM: "torque",
+    POSITION_CONTROLLED_ARM: "position",
+    VELOCITY_CONTROLLED_ARM: "velocity",
+}
+"""What arms of these classes take."""
+
+
+@dataclass(frozen=True, slots=True)
+class GripperSpec:
+    """A gripper: its model, greatest opening m, force N and finger speed m/s."""
+
+    individual: str
+    model: Path
+    max_opening_m: float
+    max_force_n: float
+    finger_speed_m_s: float
+
+    @property
+    def first_opening_m(self) -> float:
+        """How far the fingers stand apart at the start."""
+        return self.max_opening_m / 2
+
+
+@dataclass(frozen=True, slots=True)
+class ArmSpec:
+    """An arm: its base in the world, what it takes, home posture (nv,) rad, its compliant controller, and its sheet.
+
+    Each joint may start `posture_range_rad` off home. Standard deviations of what is measured: joint speed rad/s, force
+    N and torque N m at the wrist.
+    """
+
+    individual: str
+    robot: str | None
+    base: Pose
+    model: Path
+    modes: tuple[Mode, ...]
+    home: Array
+    force_torque: bool
+    controller: str
+    gripper: GripperSpec | None
+    sheet: Sheet
+    posture_range_rad: float = 0.0
+    joint_speed_noise: float = 0.0
+    force_noise_n: float = 0.0
+    torque_noise_n_m: float = 0.0
+
+    @property
+    def has_servos(self) -> bool:
+        """Whether the arm has servos of its own, which take positions or speeds, and no bare motors."""
+        return "torque" not in self.modes
+
+
+@dataclass(frozen=True, slots=True)
+class BaseSpec:
+    """A mobile base: where it stands, its size (3,) m, speed m/s, acceleration m/s^2, turn rate rad/s, rad/s^2."""
+
+    individual: str
+    pose: Pose
+    size: Array
+    speed: float
+    acceleration: float
+    turn_speed: float
+    turn_acceleration: float
+
+
+@dataclass(frozen=True, slots=True)
+class ToolSpec:
+    """A tool: the frame in the middle of its block in the world, size (3,) m of the block, mass kg, its sheet.
+
+    Its working face may be stiffer or softer than its sheet says by the share `stiffness_range`; that of a rigid one
+    does not yield.
+    """
+
+    individual: str
+    model: Path
+    pose: Pose
+    size: Array
+    mass_kg: float
+    sheet: Sheet
+    stiffness_range: float = 0.0
+    rigid: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceSpec:
+    """A surface as it is believed to be, and how far reality may differ: m along the normal, rad, friction.
+
+    `layout` says which of it is to be worked on; a tool pressed with less than `least_n` does nothing to it.
+    """
+
+    individual: str
+    pose: Pose
+    size: Array
+    layout: Layout
+    friction: tuple[float, float]
+    offset_range_m: float
+    tilt_range_rad: float
+    least_n: float = LEAST_FORCE_N
+
+
+@dataclass(frozen=True, slots=True)
+class FurnitureSpec:
+    """A box that carries things: the middle of its top in the world, its size (3,) m."""
+
+    individual: str
+    pose: Pose
+    size: Array
+
+
+@dataclass(frozen=True, slots=True)
+class SceneSpec:
+    """Everything that is built, each kind in order of IRI; `names` are the short names of all individuals."""
+
+    names: dict[str, str]
+    arms: tuple[ArmSpec, ...]
+    bases: tuple[BaseSpec, ...]
+    tools: tuple[ToolSpec, ...]
+    surfaces: tuple[SurfaceSpec, ...]
+    furniture: tuple[FurnitureSpec, ...]
+    fixtures: tuple[FixtureSpec, ...] = ()
+    people: tuple[PersonSpec, ...] = ()
+
+
+def read_scene_spec(state: WorldState) -> SceneSpec:
+    """Read what a simulation needs; SheetError or FrameError name the fact that is missing."""
+    short = state.vocabulary.short
+    return SceneSpec(
+        names={individual: short(individual) for individual in sorted(state.individuals)},
+        arms=tuple(_arm(state, iri) for iri in sorted(state.instances(ARM_DEVICE))),
+        bases=tuple(_base(state, iri) for iri in sorted(state.instances(MOBILE_ROBOT))),
+        tools=tuple(_tool(state, iri) for iri in sorted(state.instances(TOOL))),
+        surfaces=tuple(_surface(state, iri) for iri in sorted(state.instances(SURFACE))),
+        furniture=tuple(
+            FurnitureSpec(iri, pose(state, iri), size(state, iri)) for iri in sorted(state.instances(FURNITURE))
+        ),
+        fixtures=read_fixtures(state),
+        people=read_people(state),
+    )
+
+
+def _arm(state: WorldState, arm: str) -> ArmSpec:
+    sheet = sheet_of(state, arm)
+    robots = sorted(state.subjects(HAS_ARM, arm))
+    sensors = sorted(each for each in state.objects(arm, HAS_SENSOR) if state.is_a(each, FORCE_TORQUE_SENSOR))
+    grippers = sorted(state.objects(arm, HAS_GRIPPER))
+    return ArmSpec(
+        individual=arm,
+        robot=robots[0] if robots else None,
+        base=pose(state, arm),
+        model=sheet.model,
+        modes=_modes(state, arm),
+        home=sheet.posture("home"),
+        force_torque=bool(sensors),
+        controller=text(state, arm, COMPLIANT_CONTROLLER),
+        gripper=_gripper(state, grippers[0]) if grippers else None,
+        sheet=sheet,
+        posture_range_rad=number(state, arm, POSTURE_RANGE, default=0.0),
+        joint_speed_noise=number(state, arm, JOINT_SPEED_NOISE, default=0.0),
+        force_noise_n=number(state, sensors[0], FORCE_NOISE, default=0.0) if sensors else 0.0,
+        torque_noise_n_m=number(state, sensors[0], TORQUE_NOISE, default=0.0) if sensors else 0.0,
+    )
+
+
+def _modes(state: WorldState, arm: str) -> tuple[Mode, ...]:
+    modes = tuple(mode for cls, mode in MODES.items() if state.is_a(arm, cls))
+    if modes:
+        return modes
+    kinds = " nor a ".join(map(state.vocabulary.short, MODES))
+    raise SheetError(f"nothing tells what {state.vocabulary.short(arm)} takes: it is neither a {kinds}")
+
+
+def _gripper(state: WorldState, gripper: str) -> GripperSpec:
+    sheet = sheet_of(state, gripper)
+    return GripperSpec(
+        gripper,
+        sheet.model,
+        sheet.number("maxOpening"),
+        sheet.number("maxForce"),
+        sheet.number("fingerSpeed"),
+    )
+
+
+def _base(state: WorldState, robot: str) -> BaseSpec:
+    sheet = sheet_of(state, robot)
+    limits = (sheet.number(name) for name in ("driveSpeed", "driveAcceleration", "turnSpeed", "turnAcceleration"))
+    return BaseSpec(robot, pose(state, robot), size(state, robot), *limits)
+
+
+def _tool(state: WorldState, tool: str) -> ToolSpec:
+    sheet = sheet_of(state, tool)
+    return ToolSpec(
+        individual=tool,
+        model=sheet.model,
+        pose=pose(state, tool),
+        size=size(state, tool),
+        mass_kg=number(state, tool, WEIGHT),
+        sheet=sheet,
+        stiffness_range=number(state, tool, STIFFNESS_RANGE, default=0.0),
+        rigid=state.is_a(sheet.individual, RIGID_TOOL_SHEET),
+    )
+
+
+def _surface(state: WorldState, surface: str) -> SurfaceSpec:
+    return SurfaceSpec(
+        individual=surface,
+        pose=pose(state, surface),
+        size=size(state, surface),
+        layout=layout(state, surface),
+        friction=friction(state, surface),
+        offset_range_m=number(state, surface, OFFSET_RANGE, default=0.0),
+        tilt_range_rad=number(state, surface, TILT_RANGE, default=0.0),
+        least_n=least_force_n(state, surface),
+    )

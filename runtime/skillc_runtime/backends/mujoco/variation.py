@@ -1,0 +1,130 @@
+"""How reality differs from what the world model believes: drawn once from the ranges in the facts and a seed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from skillc_runtime.backends.mujoco.fixture_variation import FixtureVariation, draw_fixture
+from skillc_runtime.backends.mujoco.person_variation import PersonVariation, draw_person
+from skillc_runtime.backends.mujoco.rng import rng_for
+from skillc_runtime.backends.mujoco.scene_spec import ArmSpec, SceneSpec, SurfaceSpec, ToolSpec
+from skillc_runtime.backends.mujoco.start_postures import draw_start
+from skillc_runtime.motion.pose import Array, Pose, exp
+
+OBSTACLE_M = (0.03, 0.03, 0.012)
+"""A magnet that somebody left on a surface."""
+
+OBSTACLE_SHARE = 0.5
+"""An obstacle lies within this share of the surface, in the middle."""
+
+
+@dataclass(frozen=True, slots=True)
+class Obstacle:
+    """A box on a surface: its place (2,) m along the surface's x and y, and its size (3,) m."""
+
+    place: tuple[float, float]
+    size: tuple[float, float, float] = OBSTACLE_M
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceVariation:
+    """One surface: m along its believed normal, rad about its believed x and y, sliding friction.
+
+    `present` is false for one that is not there at all; `obstacle` is what lies on it unknown to the world model.
+    """
+
+    surface: str
+    offset_m: float
+    tilt_rad: tuple[float, float]
+    friction: float
+    present: bool = True
+    obstacle: Obstacle | None = None
+
+    def true_pose(self, believed: Pose) -> Pose:
+        """Return where the surface really is."""
+        tilt = exp(np.array([*self.tilt_rad, 0.0]))
+        return believed @ Pose(np.array([0.0, 0.0, self.offset_m]), tilt)
+
+
+@dataclass(frozen=True, slots=True)
+class Variation:
+    """All differences of one simulated run.
+
+    `start_rad`: how far each joint of an arm is from its home at the start; `pad_share`: how much stiffer or softer the
+    working face of a tool is than its sheet says; both by IRI. `fixtures` and `people` are in the order of the facts.
+    """
+
+    seed: int
+    surfaces: tuple[SurfaceVariation, ...]
+    start_rad: Mapping[str, tuple[float, ...]]
+    pad_share: Mapping[str, float]
+    fixtures: tuple[FixtureVariation, ...] = ()
+    people: tuple[PersonVariation, ...] = ()
+
+    def of(self, surface: str) -> SurfaceVariation:
+        """Return the difference of one surface; KeyError when it has none."""
+        for one in self.surfaces:
+            if one.surface == surface:
+                return one
+        raise KeyError(surface)
+
+    def start(self, arm: ArmSpec) -> Array:
+        """Return the joints (nv,) rad in which an arm starts."""
+        return np.asarray(arm.home + self.start_rad[arm.individual], dtype=np.float64)
+
+    def pad_stiffness(self, tool: ToolSpec) -> float:
+        """Return how stiff the working face of a tool really is, N/m."""
+        return tool.sheet.number("padStiffness") * (1.0 + self.pad_share[tool.individual])
+
+
+def draw(scene: SceneSpec, seed: int) -> Variation:
+    """Draw the differences, uniform within the ranges of the facts; no thing's draw depends on the others."""
+    return Variation(
+        seed,
+        tuple(_draw(surface, seed) for surface in scene.surfaces),
+        {arm.individual: draw_start(arm, seed) for arm in scene.arms},
+        {tool.individual: _pad(tool, seed) for tool in scene.tools},
+        tuple(draw_fixture(fixture, seed) for fixture in scene.fixtures),
+        tuple(draw_person(person, seed) for person in scene.people),
+    )
+
+
+def deserted(variation: Variation) -> Variation:
+    """Return the same reality, where nothing is there to work on and nobody to work with."""
+    return replace(
+        variation,
+        surfaces=tuple(replace(each, present=False) for each in variation.surfaces),
+        fixtures=tuple(replace(each, present=False) for each in variation.fixtures),
+        people=tuple(replace(each, present=False) for each in variation.people),
+    )
+
+
+def with_obstacles(variation: Variation, scene: SceneSpec) -> Variation:
+    """Return the same reality, with an obstacle somewhere on each surface, and one in each fixture."""
+    littered = (replace(variation.of(s.individual), obstacle=_obstacle(s, variation.seed)) for s in scene.surfaces)
+    blocked = (replace(each, blocked=True) for each in variation.fixtures)
+    return replace(variation, surfaces=tuple(littered), fixtures=tuple(blocked))
+
+
+def _draw(surface: SurfaceSpec, seed: int) -> SurfaceVariation:
+    rng = rng_for(surface.individual, seed)
+    offset, tilt_x, tilt_y = rng.uniform(-1.0, 1.0, 3)
+    return SurfaceVariation(
+        surface=surface.individual,
+        offset_m=float(offset) * surface.offset_range_m,
+        tilt_rad=(float(tilt_x) * surface.tilt_range_rad, float(tilt_y) * surface.tilt_range_rad),
+        friction=float(rng.uniform(*surface.friction)),
+    )
+
+
+def _pad(tool: ToolSpec, seed: int) -> float:
+    return float(rng_for(tool.individual, seed).uniform(-1.0, 1.0)) * tool.stiffness_range
+
+
+def _obstacle(surface: SurfaceSpec, seed: int) -> Obstacle:
+    share = rng_for(surface.individual, seed, 1).uniform(-OBSTACLE_SHARE / 2, OBSTACLE_SHARE / 2, 2)
+    x, y = (share * surface.size[:2]).tolist()
+    return Obstacle((x, y))

@@ -1,0 +1,71 @@
+"""The force/torque sensor at a wrist: low-passed, weight and inertia of the hand removed, moved to the tool."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.backends.mujoco.names import part, wrist_sensor
+from skillc_runtime.backends.mujoco.noise import Noise
+from skillc_runtime.motion.arrays import OutVector, Vector
+from skillc_runtime.motion.numerics.compiled import compiled
+from skillc_runtime.motion.pose import Array, Pose, skew
+
+
+class Wrist:
+    """The sensor S between flange and gripper, whose frame is the gripper's root.
+
+    MuJoCo reports what the parent does to the child: a hanging child of 2 kg reads +20 N upwards. An accelerometer
+    beside the sensor reads s = a - g. With masses m at c, relative to the sensor: f_ext = m s - f_S,
+    t_ext = c x m s - t_S, at the tool centre point p: t_ext - p x f_ext. So weight and inertia are removed at once,
+    but for the inertia of turning. All of it is one constant matrix until something is grasped: w = G [f; t; s], along
+    the sensor's axes.
+
+    gain (6, 9): G; readings (9,): [f; t; s], low-passed, zeros before any sample.
+    """
+
+    def __init__(self, model: Any, data: Any, gripper: str, time_constant_s: float, noise: Noise | None = None) -> None:
+        """Find the sensor of a gripper; `noise` is that of force, torque and acceleration (9,)."""
+        first = model.sensor(wrist_sensor(gripper, "force")).adr[0]
+        self._raw = data.sensordata[first : first + 9]
+        self._share = 1.0 - math.exp(-model.opt.timestep / time_constant_s) if time_constant_s > 0 else 1.0
+        self.readings, self._started = np.zeros(9), False
+        self._noise = noise
+        self._hand_mass, self._hand_centre = _hand(model, part(gripper, "palm"))
+        self.gain, self._quiet = np.zeros((6, 9)), np.zeros(9)
+
+    def configure(self, tool: Pose, payload_kg: float, payload_centre: Array) -> None:
+        """Take a tool centre point and a payload with its centre of mass (3,) m, both in the sensor's frame."""
+        mass = self._hand_mass + payload_kg
+        moment = skew(self._hand_mass * self._hand_centre + payload_kg * payload_centre)
+        at_sensor = np.hstack([-np.eye(6), np.vstack([mass * np.eye(3), moment])])
+        to_tool = np.eye(6)
+        to_tool[3:, :3] = -skew(tool.position)
+        self.gain[:] = to_tool @ at_sensor
+
+    def sample(self) -> None:
+        """Take in the reading of one simulation step; the first one fills the filter."""
+        if self._started:
+            noise = self._quiet if self._noise is None else self._noise.row()
+            low_pass(self.readings, self._raw, noise, self._share)
+        else:
+            self.readings[:], self._started = self._raw, True
+
+
+@compiled
+def low_pass(readings: OutVector, raw: Vector, noise: Vector, share: float) -> None:
+    """Let the readings (9,) go a share of the way to the noisy raw ones."""
+    readings += share * (raw + noise - readings)
+
+
+def _hand(model: Any, palm: str) -> tuple[float, Array]:
+    """Return the mass in kg of a gripper and its centre of mass (3,) m in its root's frame, fingers at their zero."""
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    body = model.body(palm).id
+    centre = data.xmat[body].reshape(3, 3).T @ (data.subtree_com[body] - data.xpos[body])
+    return float(model.body_subtreemass[body]), centre

@@ -1,0 +1,75 @@
+"""What an arm consists of as the world model has it: its model, the gripper on it, and what that holds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from skillc_runtime.collision.scenery import Block, place_of
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.world.space.frames import size
+from skillc_runtime.world.state.data_sheet import number, sheet_of
+from skillc_runtime.world.state.terms import (
+    BASE_FRAME_ID,
+    CLEARANCE,
+    CONTAIN,
+    FRAME_ID,
+    HAS_GRIPPER,
+    ORIENTATION,
+    POSITION,
+    SIZE,
+)
+from skillc_runtime.world.state.world_state import WorldState
+
+
+@dataclass(frozen=True, slots=True)
+class Hand:
+    """A gripper: its short name, its MJCF, how far its fingers stand apart in m, what it holds, seen from its `tcp`."""
+
+    name: str
+    model: str
+    opening_m: float
+    held: tuple[Block, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ArmAssembly:
+    """An arm: its short name, its MJCF, its hand, and how far in m it keeps from things."""
+
+    name: str
+    model: str
+    hand: Hand | None
+    clearance_m: float
+
+
+def outfit(state: WorldState, arm: str, opening_m: dict[str, float]) -> ArmAssembly:
+    """Return an arm and what it carries; `opening_m` says how far the fingers of each gripper, by IRI, stand apart.
+
+    SheetError when a data sheet lacks the model.
+    """
+    sheet = sheet_of(state, arm)
+    grippers = sorted(state.objects(arm, HAS_GRIPPER))
+    return ArmAssembly(
+        name=state.vocabulary.short(arm),
+        model=str(sheet.model),
+        hand=_hand(state, grippers[0], opening_m[grippers[0]]) if grippers else None,
+        clearance_m=number(state, sheet.individual, CLEARANCE, default=0.0),
+    )
+
+
+def _hand(state: WorldState, gripper: str, opening_m: float) -> Hand:
+    model = str(sheet_of(state, gripper).model)
+    frame = state.value(gripper, FRAME_ID)
+    inside = sorted(state.objects(gripper, CONTAIN))
+    held = (_held(state, thing) for thing in inside if state.value(thing, BASE_FRAME_ID) == frame)
+    return Hand(state.vocabulary.short(gripper), model, round(opening_m, 3), tuple(one for one in held if one))
+
+
+def _held(state: WorldState, thing: str) -> Block | None:
+    """Return the box of what is in the hand, None when it has no extent."""
+    numbers = [state.value(thing, name) for name in (*POSITION, *ORIENTATION)]
+    if any(state.value(thing, name) is None for name in SIZE) or any(not isinstance(n, float) for n in numbers):
+        return None
+    at = Pose.of(np.array(numbers[:3], float), np.array(numbers[3:], float))
+    return Block(state.vocabulary.short(thing), place_of(at), tuple((size(state, thing) / 2).tolist()))

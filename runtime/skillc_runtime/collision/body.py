@@ -1,0 +1,175 @@
+"""The model in which an arm may touch things: itself, its hand, what that holds, and the scenery, nothing else."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations, product
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.collision.arm_assembly import ArmAssembly, Hand
+from skillc_runtime.collision.scenery import Block, Scenery, place_of
+from skillc_runtime.motion.pose import Array, Pose
+
+MOVES, STANDS = 1, 2
+"""Contact bits of what the arm moves, which touches itself too, and of what stands around."""
+
+ARM, HAND, HELD = "arm/", "hand/", "held/"
+"""What the names of an arm's links, of its gripper's parts and of what that holds begin with."""
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """A compiled model in the arm's base frame; its first `joints` positions are the arm's, `fingers` the rest.
+
+    `names` says of each geom what people call it, `levers` (nv,) m how far from each joint any part of the arm can be;
+    `margin` m is from where on contacts are computed.
+    """
+
+    model: Any
+    names: tuple[str, ...]
+    joints: int
+    fingers: Array
+    levers: Array
+    margin: float
+
+
+@lru_cache(maxsize=8)
+def body(outfit: ArmAssembly, scenery: Scenery) -> Body:
+    """Return the model; ValueError when an arm's model has no site `flange` or a gripper's none called `tcp`."""
+    spec, arm = mujoco.MjSpec(), _bare(outfit.model)
+    spec.option.timestep, spec.option.integrator = arm.option.timestep, arm.option.integrator
+    _add_scenery(spec, scenery)
+    spec.attach(arm, prefix=ARM, frame=spec.worldbody.add_frame())
+    joints = len(spec.joints)
+    if outfit.hand is not None:
+        _add_hand(spec, outfit.hand)
+    _let_pass(spec)
+    model = spec.compile()
+    model.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_OVERRIDE)
+    model.opt.o_margin = outfit.clearance_m
+    names = tuple(_name(model, geom, outfit, scenery) for geom in range(model.ngeom))
+    fingers, levers = _fingers(model, joints, outfit.hand), _levers(model, joints)
+    return Body(model, names, joints, fingers, levers, outfit.clearance_m)
+
+
+def _bare(path: str) -> Any:
+    """Return a model of what moves, without sensors and motors."""
+    model = _passive(path)
+    for geom in model.geoms:
+        geom.contype, geom.conaffinity = MOVES, MOVES | STANDS
+    return model
+
+
+def _passive(path: str) -> Any:
+    model = mujoco.MjSpec.from_file(path)
+    for part in (*model.actuators, *model.sensors, *model.keys):
+        model.delete(part)
+    return model
+
+
+def _add_hand(spec: Any, hand: Hand) -> None:
+    """Put the gripper on the flange; what it holds becomes a part of its palm."""
+    spec.attach(_bare(hand.model), prefix=HAND, site=spec.site(ARM + "flange"))
+    centre = spec.site(HAND + "tcp")
+    for index, block in enumerate(hand.held):
+        at = Pose.of(centre.pos, centre.quat) @ Pose.of(block.place.position, block.place.quaternion)
+        geom = _box(centre.parent, f"{HELD}{index}", Block(block.name, place_of(at), block.half))
+        geom.contype, geom.conaffinity = MOVES, MOVES | STANDS
+
+
+def _let_pass(spec: Any) -> None:
+    """Let pass what always touches: parts of the hand, and the arm's first link and what it stands on."""
+    hand = [body.name for body in spec.bodies if body.name.startswith(HAND)]
+    first = next(body for body in spec.bodies if body.joints and body.name.startswith(ARM))
+    feet = [body.name for body in spec.bodies if body.name.startswith(ARM)]
+    feet = feet[: feet.index(first.name)]
+    for one, other in (*combinations(hand, 2), *product(feet, [first.name])):
+        spec.add_exclude(bodyname1=one, bodyname2=other)
+
+
+def _add_scenery(spec: Any, scenery: Scenery) -> None:
+    floor = spec.worldbody.add_geom(name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[10.0, 10.0, 0.1])
+    floor.pos, floor.quat = scenery.floor.position, scenery.floor.quaternion
+    _let_stand(floor)
+    for index, block in enumerate(scenery.blocks):
+        _let_stand(_box(spec.worldbody, f"block/{index}", block))
+    for index, thing in enumerate(scenery.modelled):
+        model = _passive(thing.model)
+        for joint in model.joints:
+            model.delete(joint)
+        for geom in model.geoms:
+            _let_stand(geom)
+        frame = spec.worldbody.add_frame(pos=thing.place.position, quat=thing.place.quaternion)
+        spec.attach(model, prefix=f"thing/{index}/", frame=frame)
+
+
+def _box(parent: Any, name: str, block: Block) -> Any:
+    geom = parent.add_geom(name=name, type=mujoco.mjtGeom.mjGEOM_BOX, size=block.half)
+    geom.pos, geom.quat = block.place.position, block.place.quaternion
+    return geom
+
+
+def _let_stand(geom: Any) -> None:
+    geom.contype, geom.conaffinity = STANDS, 0
+
+
+def _fingers(model: Any, joints: int, hand: Hand | None) -> Array:
+    """Return where the joints of the fingers are: each takes its share of what stands between them."""
+    fingers = np.zeros(model.nq)
+    if hand is not None:
+        tendon = model.tendon(HAND + "opening").id
+        span = slice(model.tendon_adr[tendon], model.tendon_adr[tendon] + model.tendon_num[tendon])
+        shares = model.wrap_prm[span]
+        fingers[model.jnt_qposadr[model.wrap_objid[span]]] = hand.opening_m / shares.sum()
+    return fingers[joints:]
+
+
+def _levers(model: Any, joints: int) -> Array:
+    """Return how far (joints,) in m a point that a joint moves can be from it: along the links, stretched out."""
+    levers = np.zeros(joints)
+    for geom in np.flatnonzero(model.geom_contype == MOVES).tolist():
+        for joint, far in _joints_of(model, geom):
+            if joint < joints:
+                levers[joint] = max(levers[joint], far)
+    return levers
+
+
+def _joints_of(model: Any, geom: int) -> Iterator[tuple[int, float]]:
+    """Yield each joint that moves a geom, and how far in m any part of the geom can be from it."""
+    far = float(np.linalg.norm(model.geom_pos[geom]) + model.geom_rbound[geom])
+    for link in _chain(model, int(model.geom_bodyid[geom])):
+        first = int(model.body_jntadr[link])
+        for joint in range(first, first + int(model.body_jntnum[link])):
+            yield joint, far + float(np.linalg.norm(model.jnt_pos[joint]))
+        far += float(np.linalg.norm(model.body_pos[link]))
+
+
+def _chain(model: Any, link: int) -> Iterator[int]:
+    """Yield a link and all that carry it, up to but without the world."""
+    while link > 0:
+        yield link
+        link = int(model.body_parentid[link])
+
+
+def _name(model: Any, geom: int, outfit: ArmAssembly, scenery: Scenery) -> str:
+    """Return what people call a geom: a link of the arm, its gripper, what it holds, or what stands around."""
+    own, link = model.geom(geom).name, model.body(model.geom_bodyid[geom]).name
+    kind, _, index = (own if own.startswith(("block/", HELD)) else link).partition("/")
+    match kind:
+        case "arm":
+            return f"{outfit.name} {index}"
+        case "hand" if outfit.hand is not None:
+            return outfit.hand.name
+        case "held" if outfit.hand is not None:
+            return outfit.hand.held[int(index)].name
+        case "block":
+            return scenery.blocks[int(index)].name
+        case "thing":
+            return scenery.modelled[int(index.partition("/")[0])].name
+        case _:
+            return "the floor"

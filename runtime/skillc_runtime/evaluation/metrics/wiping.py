@@ -1,0 +1,153 @@
+"""How well a surface was wiped, judged by what really happened."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from skillc_runtime.backends.mujoco.coverage import CoverageMap
+from skillc_runtime.devices.ground_truth import Recording, join_recordings
+from skillc_runtime.evaluation.metrics.lane_dwell import LaneDwell, lane_dwell
+from skillc_runtime.motion.layout import Layout
+from skillc_runtime.motion.pose import Array, Pose, rotation_of
+
+LOST_N = 0.5
+"""Normal force below which contact counts as lost."""
+
+Stroke: TypeAlias = tuple[float, float]
+"""From when to when, in s, a tool was led over a surface without being lifted."""
+
+VIBRATION_HZ = 15.0
+COVERAGE_PERIOD_S = 0.01
+
+
+@dataclass(frozen=True, slots=True)
+class WipingSetup:
+    """What was wiped, with what: the surface's true frame in the world and layout, the tool's size (2,) m, force N.
+
+    `least_n` is the least force with which a tool does something to the surface.
+    """
+
+    surface: Pose
+    layout: Layout
+    tool: Array
+    force_command_n: float
+    least_n: float
+
+    @property
+    def extent(self) -> Array:
+        """The size (2,) of the surface."""
+        return self.layout.size
+
+
+@dataclass(frozen=True, slots=True)
+class WipingMetrics:
+    """The quality of one wiping, from the first wiping reference to the end of the last lane, at every simulation step.
+
+    coverage: share of the 5 mm cells that count. Forces in N: mean, root mean square about the command, lost contact
+    included, greatest while the tool is put down, before strokes. contact_lost: share of time. Vibration of the tool
+    above 15 Hz, rms in mm/s. Tilt of the tool against the true normal. Tracking: rms distance in the plane from the
+    reference. lane_dwell: time lost at each corner, in the worst stroke, None where the path has none.
+    """
+
+    coverage: float
+    force_command_n: float
+    force_mean_n: float
+    force_rmse_n: float
+    contact_lost: float
+    first_impact_n: float
+    vibration_mm_s: float
+    tilt_rms_deg: float
+    tilt_max_deg: float
+    tracking_mm: float
+    lane_dwell: LaneDwell | None
+    duration_s: float
+
+
+def measure_wiping(recording: Recording, strokes: Sequence[Stroke], wiped: WipingSetup) -> WipingMetrics:
+    """Judge the wiping in all strokes of a recording that begins before the first contact.
+
+    ValueError when nothing was recorded in them.
+    """
+    windows = [window for stroke in strokes if len((window := recording.between(*stroke)).time) > 1]
+    if not windows:
+        times = ", ".join(f"{start:g} to {end:g} s" for start, end in strokes)
+        raise ValueError(f"nothing was recorded from {times}")
+    window, touching = join_recordings(windows), recording.without(strokes)
+    tilt = _tilt_deg(window, wiped.surface)
+    return WipingMetrics(
+        coverage=measure_coverage(window, wiped).fraction,
+        force_command_n=wiped.force_command_n,
+        force_mean_n=float(window.force.mean()),
+        force_rmse_n=_rms(window.force - wiped.force_command_n),
+        contact_lost=float((window.force < LOST_N).mean()),
+        first_impact_n=float(touching.force.max(initial=0.0)),
+        vibration_mm_s=1000 * _vibration(windows),
+        tilt_rms_deg=_rms(tilt),
+        tilt_max_deg=float(tilt.max()),
+        tracking_mm=1000 * _tracking(window, wiped.surface),
+        lane_dwell=max(filter(None, map(lane_dwell, windows)), key=lambda dwell: dwell.seconds, default=None),
+        duration_s=sum(end - start for start, end in strokes),
+    )
+
+
+def measure_coverage(window: Recording, wiped: WipingSetup) -> CoverageMap:
+    """Return the contact time of every cell of the surface, sampled at 100 Hz or more."""
+    result = CoverageMap(wiped.surface, wiped.layout, wiped.least_n)
+    stride = max(1, int(COVERAGE_PERIOD_S / _step(window) + 1e-6))
+    seconds = stride * _step(window)
+    for row in np.flatnonzero(window.on_surface[::stride] >= wiped.least_n) * stride:
+        result.add(window.position[row], rotation_of(window.quaternion[row]), wiped.tool, seconds)
+    return result
+
+
+def _step(window: Recording) -> float:
+    return float(window.time[1] - window.time[0])
+
+
+def _rms(values: Array) -> float:
+    return float(np.sqrt(np.mean(values * values)))
+
+
+def _vibration(windows: Sequence[Recording]) -> float:
+    """Return the rms of the vector of high-passed tool velocity, m/s."""
+    fast = [highpass(window.velocity, VIBRATION_HZ, _step(window)) for window in windows]
+    return _rms(np.linalg.norm(np.concatenate(fast), axis=1))
+
+
+def _tilt_deg(window: Recording, surface: Pose) -> Array:
+    """Return the angle (n,) between the tool's z axis and the surface's -n."""
+    w, x, y, z = window.quaternion.T
+    axis = np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)], axis=1)
+    normal = surface.rotation[:, 2]
+    sine = np.linalg.norm(np.cross(axis, normal), axis=1)
+    return np.asarray(np.degrees(np.arctan2(sine, -axis @ normal)))
+
+
+def _tracking(window: Recording, surface: Pose) -> float:
+    """Return the rms distance in the plane of the surface between tool and reference, m."""
+    in_plane = (window.position - window.reference) @ surface.rotation[:, :2]
+    return _rms(np.linalg.norm(in_plane, axis=1))
+
+
+ORDER = 4
+
+
+def highpass(signal: Array, cutoff_hz: float, step_s: float) -> Array:
+    """Return the columns of `signal` (n, k) without what is slower than the cutoff.
+
+    Running the digital Butterworth filter (bilinear transform) forward and backward multiplies the spectrum by
+    |H|^2 = 1 / (1 + (tan(pi fc h) / tan(pi f h))^2N). The signal is continued antisymmetrically at both ends.
+    """
+    margin = min(len(signal) - 1, int(3 / (cutoff_hz * step_s)))
+    head, tail = 2 * signal[0] - signal[margin:0:-1], 2 * signal[-1] - signal[-2 : -margin - 2 : -1]
+    padded = np.concatenate([head, signal, tail])
+    spectrum = np.fft.rfft(padded, axis=0)
+    half_angle = np.pi * np.fft.rfftfreq(len(padded), step_s) * step_s
+    gain = np.zeros_like(half_angle)
+    gain[1:] = 1 / (1 + (np.tan(np.pi * cutoff_hz * step_s) / np.tan(half_angle[1:])) ** (2 * ORDER))
+    filtered = np.fft.irfft(spectrum * gain[:, None], len(padded), axis=0)
+    return np.asarray(filtered[margin : margin + len(signal)])

@@ -1,0 +1,182 @@
+"""A film of a run, and stills: its postures are kept as they happen, pictures are drawn afterwards."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.mujoco.names import part
+from skillc_runtime.backends.mujoco.scene_spec import ArmSpec
+from skillc_runtime.film.picture_files import FilmError, write_film, write_picture
+from skillc_runtime.film.props import props
+from skillc_runtime.film.rendering import Picture, Quality, Renderer, View
+from skillc_runtime.motion.pose import Array
+
+FILM = "film.mp4"
+FRAMES_PER_S = 12
+SPEED_UP = 4
+"""How much faster than the run the film is."""
+
+WIDTH, HEIGHT = 720, 360
+"""Of what is shown of one arm: a view of it, and one of its hand."""
+
+STILL_WIDTH, STILL_HEIGHT = 960, 720
+AZIMUTH_DEG, ELEVATION_DEG, DISTANCE_M = 50.0, -20.0, 2.0
+"""A camera looks over its robot's right shoulder: the azimuth counts from where the arm's base points."""
+
+AHEAD_M, ABOVE_M = 0.25, 0.25
+"""The camera looks at a point so far before an arm's base and above it."""
+
+CLOSE_DEG, CLOSE_M, CLOSER_M = -28.0, 0.75, 0.6
+"""Elevation of the camera that looks at a hand, and its distance in films and in stills."""
+
+REACH_M = 0.15
+"""How far before its palm a hand works."""
+
+
+@dataclass(frozen=True, slots=True)
+class Watched:
+    """An arm that cameras stay with: the bodies of its base and its hand, and where the base points, in its axes."""
+
+    body: int
+    hand: int
+    forward: Array
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """A moment of a run, s, in which an arm, by IRI, does something to be looked at."""
+
+    title: str
+    time: float
+    arm: str
+
+
+@dataclass(frozen=True, slots=True)
+class Still:
+    """A picture of a moment, by the name of its file."""
+
+    title: str
+    file: str
+
+
+@dataclass(frozen=True, slots=True)
+class Filmed:
+    """The names of the files that were made: a film, and stills of some of its moments."""
+
+    film: str
+    stills: tuple[Still, ...]
+
+
+class Film:
+    """Takes what moves every so often.
+
+    Each arm has a camera that stays with it, and one that stays with its hand; what arms do is shown side by side.
+    """
+
+    def __init__(self, cell: SimulatedCell, drawn: mujoco.MjModel | None = None) -> None:
+        """Watch a cell; `drawn` is what it looks like, a model with the same joints, if not its own."""
+        self._cell, self._drawn = cell, cell.model if drawn is None else drawn
+        self._frames: list[tuple[Array, Array, Array]] = []
+        self._arms = {arm.individual: _watched(cell, arm) for arm in cell.facts.arms}
+        places = ((cell.ground_truth.surface_pose(each.individual), each) for each in cell.facts.surfaces)
+        present = ((pose, each) for pose, each in places if cell.variation.of(each.individual).present)
+        self._props = tuple(prop for pose, each in present for prop in props(pose, each.size))
+
+    def sample(self) -> None:
+        """Take a frame if it is time for one."""
+        if self._cell.now * FRAMES_PER_S / SPEED_UP >= len(self._frames):
+            data = self._cell.data
+            self._frames.append((data.qpos.copy(), data.mocap_pos.copy(), data.mocap_quat.copy()))
+
+    def write(self, directory: Path, moments: Sequence[Moment] = ()) -> Filmed:
+        """Draw all frames as film.mp4, and stills of some moments as PNG; each file is written whole or not at all.
+
+        FilmError or RenderingError where that is not possible, OSError where the folder cannot be written to.
+        """
+        if not self._arms:
+            raise FilmError("there is no arm in the scene for a camera to stay with")
+        if not self._frames:
+            raise FilmError("the run ended before anything moved")
+        write_film(directory / FILM, self.pictures(), WIDTH * len(self._arms), HEIGHT, FRAMES_PER_S)
+        stills = tuple(Still(each.title, f"{number}-{_slug(each.title)}.png") for number, each in enumerate(moments, 1))
+        for still, picture in zip(stills, self.stills(moments), strict=True):
+            write_picture(directory / still.file, picture)
+        return Filmed(FILM, stills)
+
+    def pictures(self) -> Iterator[Picture]:
+        """Draw the frames, one after the other, each (HEIGHT, WIDTH times the number of arms, 3)."""
+        with self._drawing(WIDTH, HEIGHT, "film") as (renderer, data):
+            for frame in self._frames:
+                self._show(data, frame)
+                pictures = [
+                    renderer.picture(data, (_whole(data, arm), _close(data, arm))) for arm in self._arms.values()
+                ]
+                yield np.concatenate(pictures, axis=1)
+
+    def stills(self, moments: Sequence[Moment]) -> Iterator[Picture]:
+        """Draw some moments from nearby, each (STILL_HEIGHT, STILL_WIDTH, 3)."""
+        if not moments:
+            return
+        with self._drawing(STILL_WIDTH, STILL_HEIGHT, "still") as (renderer, data):
+            for moment in moments:
+                at = min(round(moment.time * FRAMES_PER_S / SPEED_UP), len(self._frames) - 1)
+                self._show(data, self._frames[at])
+                yield renderer.picture(data, (_close(data, self._arms[moment.arm], CLOSER_M),))
+
+    @contextmanager
+    def _drawing(self, width: int, height: int, quality: Quality) -> Iterator[tuple[Renderer, Any]]:
+        renderer = Renderer(self._drawn, width, height, self._props, quality)
+        try:
+            yield renderer, mujoco.MjData(self._drawn)
+        finally:
+            renderer.close()
+
+    def _show(self, data: Any, frame: tuple[Array, Array, Array]) -> None:
+        data.qpos[:], data.mocap_pos[:], data.mocap_quat[:] = frame
+        mujoco.mj_forward(self._drawn, data)
+
+
+def _watched(cell: SimulatedCell, arm: ArmSpec) -> Watched:
+    model, own = cell.model, part(cell.facts.names[arm.individual], "")
+    joint = next(each for each in range(model.njnt) if model.joint(each).name.startswith(own))
+    body = int(model.body_parentid[model.jnt_bodyid[joint]])
+    hand = int(model.site(part(cell.facts.names[arm.individual], "flange")).bodyid[0])
+    if arm.gripper is not None:
+        hand = int(model.body(part(cell.facts.names[arm.gripper.individual], "palm")).id)
+    return Watched(body, hand, cell.data.xmat[body].reshape(3, 3).T @ arm.base.rotation[:, 0])
+
+
+def _whole(data: Any, arm: Watched) -> View:
+    """Look at an arm."""
+    forward = _forward(data, arm)
+    focus = data.xpos[arm.body] + AHEAD_M * forward + np.array([0.0, 0.0, ABOVE_M])
+    return View(focus, DISTANCE_M, _heading_deg(forward) + AZIMUTH_DEG, ELEVATION_DEG)
+
+
+def _close(data: Any, arm: Watched, distance: float = CLOSE_M) -> View:
+    """Look at what an arm has in its hand."""
+    focus = data.xpos[arm.hand] + REACH_M * data.xmat[arm.hand].reshape(3, 3)[:, 2]
+    return View(focus, distance, _heading_deg(_forward(data, arm)) + AZIMUTH_DEG, CLOSE_DEG)
+
+
+def _forward(data: Any, arm: Watched) -> Array:
+    return np.asarray(data.xmat[arm.body].reshape(3, 3) @ arm.forward)
+
+
+def _heading_deg(direction: Array) -> float:
+    """Return the angle of a direction (3,) about the vertical, from the world's x axis."""
+    return float(np.degrees(np.arctan2(direction[1], direction[0])))
+
+
+def _slug(title: str) -> str:
+    """Return a title as a part of a file's name."""
+    return re.sub(r"[^A-Za-z0-9]+", "-", title).strip("-").lower()

@@ -1,0 +1,139 @@
+"""Draws devices with the meshes of somebody else's models: a second model of a scene, for pictures only.
+
+The physics never sees it. It has the same joints in the same order, so postures of the one are postures of the other.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.backends.mujoco.names import part
+from skillc_runtime.film.look_cache import model_file
+from skillc_runtime.film.looks import Look, Looks, LooksError
+from skillc_runtime.motion.pose import Pose, exp, log, quaternion_of
+
+FAR_M, FAR_RAD = 0.005, 0.02
+"""How differently from the device's own links those of a look may move: models are rounded."""
+
+HINGE_RAD, SLIDE_M = 0.4, 0.01
+"""How far joints are moved to compare two models."""
+
+
+def dressed(spec: Any, looks: Looks) -> mujoco.MjModel:
+    """Return the model that a scene's description, which is used up, makes with the meshes of its devices' looks.
+
+    LooksError where meshes cannot be had, or move otherwise than the device.
+    """
+    for look in looks.looks:
+        _dress(spec, look, model_file(looks.collection, look.model))
+    return _compiled(spec, looks.collection.name)
+
+
+def _dress(spec: Any, look: Look, file: Path) -> None:
+    """Take a device's own shapes away and add the meshes of its look, each to the link that moves as its own does."""
+    theirs = _read(file)
+    model = _compiled(theirs, look.model)
+    ours = mujoco.MjModel.from_xml_path(str(look.own))
+    turn = _turn(ours, model, look)
+    own = part(look.device, "")
+    for geom in [geom for geom in spec.geoms if geom.parent.name.startswith(own)]:
+        spec.delete(geom)
+    links, data = _links(ours, at_rest=True), _placed(model, at_rest=True)
+    for geom in _meshes_of(model):
+        link = _link_of(model, int(model.geom_bodyid[geom]))
+        body = spec.body(part(look.device, ours.body(_bodies(ours)[link]).name))
+        _add_mesh(spec, body, look, theirs, model, geom, links[link].inverse() @ turn @ _authored(model, data, geom))
+
+
+def _read(file: Path) -> Any:
+    try:
+        return mujoco.MjSpec.from_file(str(file))
+    except ValueError as error:
+        raise LooksError(f"{file} cannot be read: {error}") from error
+
+
+def _compiled(spec: Any, name: str) -> mujoco.MjModel:
+    try:
+        return spec.compile()
+    except ValueError as error:
+        raise LooksError(f"the meshes of {name} cannot be used: {error}") from error
+
+
+def _turn(ours: Any, theirs: Any, look: Look) -> Pose:
+    """Return how a look's base is turned in the device's: by the quarter turn with which its links move alike."""
+    if ours.njnt != theirs.njnt:
+        raise LooksError(f"{look.model} has {theirs.njnt} joints and {look.device} has {ours.njnt}")
+    quarters = [Pose(np.zeros(3), exp(np.array([0.0, 0.0, k * np.pi / 2]))) for k in range(4)]
+    differences = [_difference(ours, theirs, quarter) for quarter in quarters]
+    best = min(range(4), key=lambda k: differences[k])
+    if differences[best] > 1.0:
+        raise LooksError(f"{look.model} does not move as {look.device} does, so its meshes would be in wrong places")
+    return quarters[best]
+
+
+def _difference(ours: Any, theirs: Any, turn: Pose) -> float:
+    """Return how differently the links of two models move when their joints do; up to 1 is allowed."""
+    places = [zip(_links(ours, at_rest), _links(theirs, at_rest), strict=True) for at_rest in (True, False)]
+    rest, bent = ([one.inverse() @ turn @ other for one, other in pairs] for pairs in places)
+    moves = [before.inverse() @ after for before, after in zip(rest, bent, strict=True)]
+    away = max(float(np.linalg.norm(move.position)) for move in moves)
+    turned = max(float(np.linalg.norm(log(move.rotation))) for move in moves)
+    return max(away / FAR_M, turned / FAR_RAD)
+
+
+def _placed(model: Any, at_rest: bool) -> Any:
+    """Return where everything of a model is with its joints at zero, or all of them away from it."""
+    data = mujoco.MjData(model)
+    if not at_rest:
+        data.qpos[:] += np.where(model.jnt_type == mujoco.mjtJoint.mjJNT_SLIDE, SLIDE_M, HINGE_RAD)
+    mujoco.mj_kinematics(model, data)
+    return data
+
+
+def _links(model: Any, at_rest: bool) -> list[Pose]:
+    """Return where the links are, seen from where the model is mounted: the base, then what each joint moves."""
+    data = _placed(model, at_rest)
+    return [Pose(data.xpos[body].copy(), data.xmat[body].reshape(3, 3).copy()) for body in _bodies(model)]
+
+
+def _bodies(model: Any) -> list[int]:
+    first = int(model.jnt_bodyid[0])
+    return [int(model.body_parentid[first]), *map(int, model.jnt_bodyid)]
+
+
+def _link_of(model: Any, body: int) -> int:
+    """Return the number of the link that a body belongs to: of the nearest joint above it, 0 for the base."""
+    while body != 0 and model.body_jntnum[body] == 0:
+        body = int(model.body_parentid[body])
+    return 0 if body == 0 else int(model.body_jntadr[body]) + 1
+
+
+def _meshes_of(model: Any) -> list[int]:
+    """Return the geoms that are there to be seen: meshes that touch nothing."""
+    seen = (model.geom_type == mujoco.mjtGeom.mjGEOM_MESH) & (model.geom_contype == 0) & (model.geom_conaffinity == 0)
+    return [int(geom) for geom in np.flatnonzero(seen)]
+
+
+def _authored(model: Any, data: Any, geom: int) -> Pose:
+    """Return where a mesh's own frame is: MuJoCo moves meshes to their centres and turns them to their main axes."""
+    mesh = int(model.geom_dataid[geom])
+    centred = Pose(data.geom_xpos[geom].copy(), data.geom_xmat[geom].reshape(3, 3).copy())
+    return centred @ Pose.of(model.mesh_pos[mesh], model.mesh_quat[mesh]).inverse()
+
+
+def _add_mesh(spec: Any, body: Any, look: Look, theirs: Any, model: Any, geom: int, pose: Pose) -> None:
+    """Add a mesh of a look to a body of the scene, without mass and touching nothing, in its colour."""
+    mesh = theirs.mesh(model.mesh(int(model.geom_dataid[geom])).name)
+    name = part(look.device, f"look/{mesh.name or Path(mesh.file).stem}")
+    if spec.mesh(name) is None:
+        file = Path(theirs.modelfiledir, theirs.meshdir, mesh.file)
+        added = spec.add_mesh(name=name, file=str(file), scale=mesh.scale, refpos=mesh.refpos, refquat=mesh.refquat)
+        added.inertia, added.smoothnormal = mesh.inertia, mesh.smoothnormal
+    shown = body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, contype=0, conaffinity=0, group=1, mass=0)
+    shown.pos, shown.quat = pose.position, quaternion_of(pose.rotation)
+    material = int(model.geom_matid[geom])
+    shown.rgba = model.mat_rgba[material] if material >= 0 else model.geom_rgba[geom]

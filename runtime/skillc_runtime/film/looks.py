@@ -1,0 +1,75 @@
+"""How devices look in films: which models of which collection may be drawn for them, as the facts say."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from skillc_runtime.backends.mujoco.scene_spec import ArmSpec, GripperSpec, SceneSpec
+from skillc_runtime.world.state.data_sheet import sheet_of, text
+from skillc_runtime.world.state.terms import SKILLC
+from skillc_runtime.world.state.world_state import WorldState
+
+COLLECTION = SKILLC + "Collection"
+COLLECTION_NAME, REPOSITORY, COMMIT = SKILLC + "collectionName", SKILLC + "repository", SKILLC + "commit"
+HAS_LOOK, IN_COLLECTION, LOOK_MODEL = SKILLC + "hasLook", SKILLC + "inCollection", SKILLC + "lookModel"
+
+
+class LooksError(ValueError):
+    """Devices cannot be drawn as wished; the message says why, and what to do."""
+
+
+@dataclass(frozen=True, slots=True)
+class Collection:
+    """Models that somebody publishes as a Git repository, at one commit."""
+
+    name: str
+    repository: str
+    commit: str
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """A device by its name in the simulation, its own model, and what is drawn in its place: a path in a collection."""
+
+    device: str
+    own: Path
+    model: str
+
+
+@dataclass(frozen=True, slots=True)
+class Looks:
+    """What is drawn otherwise than it ships."""
+
+    collection: Collection
+    looks: tuple[Look, ...]
+
+
+def read_looks(state: WorldState, scene: SceneSpec, name: str) -> Looks:
+    """Return how a scene's devices look in a collection.
+
+    LooksError where there is no collection of this name, or none of its models is a device's of this scene.
+    """
+    collections = {text(state, iri, COLLECTION_NAME): iri for iri in sorted(state.instances(COLLECTION))}
+    if name not in collections:
+        raise LooksError(f"there are no looks {name}; there are {', '.join(('primitive', *sorted(collections)))}")
+    found = collections[name]
+    looks = tuple(look for device in _devices(scene) for look in _looks_of(state, scene, device, found))
+    if not looks:
+        raise LooksError(f"{name} has no model of any device in this scene")
+    return Looks(Collection(name, text(state, found, REPOSITORY), text(state, found, COMMIT)), looks)
+
+
+def _devices(scene: SceneSpec) -> list[ArmSpec | GripperSpec]:
+    return [*scene.arms, *(arm.gripper for arm in scene.arms if arm.gripper is not None)]
+
+
+def _looks_of(state: WorldState, scene: SceneSpec, device: ArmSpec | GripperSpec, collection: str) -> list[Look]:
+    """Return how one device looks in a collection: one look, or none."""
+    there = [
+        look
+        for look in sorted(state.objects(sheet_of(state, device.individual).individual, HAS_LOOK))
+        if state.holds(look, IN_COLLECTION, collection)
+    ]
+    name = scene.names[device.individual]
+    return [Look(name, device.model, text(state, look, LOOK_MODEL)) for look in there[:1]]

@@ -1,0 +1,260 @@
+"""Values, facts and changes that explain themselves: IRIs have their short names with them, numbers their units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import isfinite
+from typing import TypeAlias, assert_never, cast
+
+import msgspec
+import numpy as np
+
+from skillc_model.skills import Parameter
+from skillc_model.words import SI_UNITS
+from skillc_rdf.vocabulary.types import ClassType, ListType, NumberType, ValueType, VectorType, Vocabulary
+from skillc_rdf.vocabulary.types import local_name as local
+from skillc_runtime.motion import pose as motion
+from skillc_runtime.world.state.changes import (
+    AddIndividual,
+    AddRelation,
+    Change,
+    ClearProperty,
+    RemoveIndividual,
+    RemoveRelation,
+    SetProperty,
+)
+from skillc_runtime.world.state.facts import Fact, Related, Typed, Valued
+from skillc_runtime.world.state.properties import value_at
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
+
+MILLI = {"mm": 1e3}
+"""How many of a unit for messages make one SI unit."""
+
+
+class Iri(msgspec.Struct, frozen=True, tag="iri"):
+    """An individual, class, relation or property; `label` is what people read, `lab:Arm-1` or `contain`."""
+
+    iri: str
+    label: str
+
+    def __str__(self) -> str:
+        return self.label
+
+
+class Quantity(msgspec.Struct, frozen=True, tag="quantity"):
+    """A number in an SI unit as the language writes it; the unit is empty for a pure number.
+
+    In a message `{depth:.1f mm}` shows it with one digit in mm, `{depth}` with its unit.
+    """
+
+    value: float
+    unit: str = ""
+
+    def __post_init__(self) -> None:
+        msgspec.structs.force_setattr(self, "value", float(self.value))
+
+    def __format__(self, spec: str) -> str:
+        digits, _, unit = spec.partition(" ")
+        return f"{self.value * MILLI.get(unit, 1.0):{digits or 'g'}} {unit or self.unit}".strip()
+
+
+class NotFinite(msgspec.Struct, frozen=True, tag="not-finite"):
+    """What JSON has no number for, as text: `inf N`."""
+
+    text: str
+
+
+class Vector(msgspec.Struct, frozen=True, tag="vector"):
+    """Three numbers of one unit in the world frame."""
+
+    components: tuple[float, float, float]
+    unit: str = ""
+
+    def __format__(self, spec: str) -> str:
+        return f"({', '.join(format(part + 0.0, spec or 'g') for part in self.components)}) {self.unit}".strip()
+
+
+class Pose(msgspec.Struct, frozen=True, tag="pose"):
+    """A position in m and an orientation as unit quaternion (w, x, y, z), in a frame."""
+
+    position_m: tuple[float, float, float]
+    quaternion_wxyz: tuple[float, float, float, float]
+    frame: str = "world"
+
+
+class ValueList(msgspec.Struct, frozen=True, tag="list"):
+    """Several values."""
+
+    values: tuple[LabelledValue, ...]
+
+
+LabelledValue: TypeAlias = bool | int | str | Iri | Quantity | NotFinite | Vector | Pose | ValueList
+"""Truth values, integers and texts are themselves."""
+
+
+class RelationFact(msgspec.Struct, frozen=True, tag="relation", omit_defaults=True):
+    """A relation holds between two individuals, or does not; None stands for anybody."""
+
+    subject: Iri | None
+    relation: Iri
+    object: Iri | None
+    holds: bool = True
+
+
+class PropertyFact(msgspec.Struct, frozen=True, tag="property"):
+    """A property of an individual has a value, or none."""
+
+    individual: Iri
+    property: Iri
+    value: LabelledValue | None
+
+
+class ClassFact(msgspec.Struct, frozen=True, tag="class", omit_defaults=True):
+    """An individual is of a class, or is not."""
+
+    individual: Iri
+    cls: Iri
+    holds: bool = True
+
+
+class IdentityFact(msgspec.Struct, frozen=True, tag="same", omit_defaults=True):
+    """Two names stand for one individual, or do not."""
+
+    one: Iri
+    other: Iri
+    holds: bool = True
+
+
+class IndividualAdded(msgspec.Struct, frozen=True, tag="added"):
+    """An individual exists from now on."""
+
+    individual: Iri
+    classes: tuple[Iri, ...]
+
+
+class IndividualRemoved(msgspec.Struct, frozen=True, tag="removed"):
+    """An individual and all facts about it are gone."""
+
+    individual: Iri
+
+
+LabelledFact: TypeAlias = RelationFact | PropertyFact | ClassFact | IdentityFact
+LabelledChange: TypeAlias = RelationFact | PropertyFact | IndividualAdded | IndividualRemoved
+"""A change of a relation or a property is the fact that holds from then on."""
+
+
+def label(iri: str, vocabulary: Vocabulary) -> Iri:
+    """Return an individual or a class with its short name."""
+    return Iri(iri, vocabulary.short(iri))
+
+
+def label_term(iri: str) -> Iri:
+    """Return a relation or a property with its name, as conditions are written."""
+    return Iri(iri, local(iri))
+
+
+def label_value(value: Value, type_: ValueType | None, vocabulary: Vocabulary) -> LabelledValue:
+    """Return a value with units and short names; `type_` None where it is not known. Numbers in SI units."""
+    match value:
+        case bool():
+            return value
+        case int() | float():
+            return _number(value, type_)
+        case str():
+            return label(value, vocabulary) if isinstance(type_, ClassType) else value
+        case motion.Pose():
+            x, y, z = value.position.tolist()
+            quaternion_w, *quaternion = motion.quaternion_of(value.rotation).tolist()
+            return Pose((x, y, z), (quaternion_w, *quaternion))
+        case np.ndarray():
+            return _vector(value, type_)
+        case tuple() | list():
+            element = type_.element if isinstance(type_, ListType) else type_
+            return ValueList(tuple(label_value(each, element, vocabulary) for each in value))
+        case _:
+            return str(value)
+
+
+def label_bindings(
+    bindings: Mapping[str, Value], parameters: Sequence[Parameter], vocabulary: Vocabulary
+) -> dict[str, LabelledValue]:
+    """Return the value of each bound parameter, in the order of the parameters."""
+    bound = [parameter for parameter in parameters if parameter.name in bindings]
+    return {each.name: label_value(bindings[each.name], each.type, vocabulary) for each in bound}
+
+
+def make_recordable(value: object) -> LabelledValue:
+    """Return a value that somebody else made as one that can be written and read back."""
+    match value:
+        case Quantity(number) if not isfinite(number):
+            return NotFinite(f"{value}")
+        case Iri() | Quantity() | NotFinite() | Vector() | Pose() | ValueList():
+            return value
+        case _:
+            return label_value(cast(Value, value), None, Vocabulary())
+
+
+def label_fact(fact: Fact, state: WorldState) -> LabelledFact:
+    """Return a fact as it is in a state."""
+    vocabulary = state.vocabulary
+    match fact:
+        case Related(subject, relation, object_, holds):
+            return relation_fact(subject, relation, object_, holds, vocabulary)
+        case Valued(individual, property_):
+            return property_fact(individual, property_, value_at(state, individual, property_), vocabulary)
+        case Typed(individual, cls, holds):
+            return ClassFact(label(individual, vocabulary), label(cls, vocabulary), holds)
+        case _:
+            assert_never(fact)
+
+
+def relation_fact(
+    subject: str | None, relation: str, object_: str | None, holds: bool, vocabulary: Vocabulary
+) -> RelationFact:
+    """Return that a relation holds or not, by IRIs; None for anybody."""
+    ends = (None if end is None else label(end, vocabulary) for end in (subject, object_))
+    return RelationFact(next(ends), label_term(relation), next(ends), holds)
+
+
+def property_fact(individual: str, property_: str, value: Value | None, vocabulary: Vocabulary) -> PropertyFact:
+    """Return the value of a property, by IRIs; None and several values of which there are none are no value."""
+    term = vocabulary.properties.get(property_)
+    empty = value is None or (isinstance(value, tuple) and not value)
+    labelled = None if value is None or empty else label_value(value, term.type if term else None, vocabulary)
+    return PropertyFact(label(individual, vocabulary), label_term(property_), labelled)
+
+
+def label_change(change: Change, vocabulary: Vocabulary) -> LabelledChange:
+    """Return a change of the world model."""
+    match change:
+        case AddIndividual(individual, types):
+            return IndividualAdded(label(individual, vocabulary), tuple(label(cls, vocabulary) for cls in types))
+        case RemoveIndividual(individual):
+            return IndividualRemoved(label(individual, vocabulary))
+        case AddRelation(subject, relation, object_) | RemoveRelation(subject, relation, object_):
+            return relation_fact(subject, relation, object_, isinstance(change, AddRelation), vocabulary)
+        case SetProperty(individual, property_, value):
+            return property_fact(individual, property_, value, vocabulary)
+        case ClearProperty(individual, property_):
+            return property_fact(individual, property_, None, vocabulary)
+        case _:
+            assert_never(change)
+
+
+def _number(value: float, type_: ValueType | None) -> LabelledValue:
+    """Return a number with its unit."""
+    if isinstance(value, int) and not isinstance(type_, NumberType):
+        return value
+    unit = SI_UNITS.get(type_.dimension, "") if isinstance(type_, NumberType) else ""
+    return Quantity(float(value), unit) if isfinite(value) else NotFinite(f"{value:g} {unit}".strip())
+
+
+def _vector(value: np.ndarray, type_: ValueType | None) -> LabelledValue:
+    """Return a vector with its unit; an array of another size than (3,) as a list."""
+    unit = SI_UNITS.get(type_.dimension, "") if isinstance(type_, VectorType) else ""
+    match value.ravel().tolist():
+        case [x, y, z]:
+            return Vector((x, y, z), unit)
+        case parts:
+            return ValueList(tuple(Quantity(part, unit) for part in parts))

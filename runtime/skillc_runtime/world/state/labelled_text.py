@@ -1,0 +1,67 @@
+"""Labelled values and facts as text, in the syntax of the language."""
+
+from __future__ import annotations
+
+from typing import assert_never
+
+from skillc_model.format_condition import format_class, format_property, format_relation
+from skillc_runtime.world.state.labelled import (
+    ClassFact,
+    IdentityFact,
+    Iri,
+    LabelledFact,
+    LabelledValue,
+    NotFinite,
+    Pose,
+    PropertyFact,
+    Quantity,
+    RelationFact,
+    ValueList,
+    Vector,
+)
+
+LISTED = 3
+"""Longer lists are shown by their length."""
+
+ANY = "_"
+
+
+def format_value(value: LabelledValue) -> str:
+    """Return a value as an author would write it; of long lists how long they are."""
+    match value:
+        case bool():
+            return "true" if value else "false"
+        case int():
+            return str(value)
+        case str():
+            return f'"{value}"'
+        case Iri(_, name):
+            return name
+        case Quantity() | Vector():
+            return f"{value}"
+        case NotFinite(text):
+            return text
+        case Pose(position_m):
+            return f"pose at {Vector(position_m)}"
+        case ValueList(values) if len(values) > LISTED:
+            return f"{len(values)} values"
+        case ValueList(values):
+            return f"[{', '.join(map(format_value, values))}]"
+        case _:
+            assert_never(value)
+
+
+def format_fact(fact: LabelledFact) -> str:
+    """Return a fact in the words of the language, as `not lab:Gripper-1 contain lab:Eraser-1`."""
+    match fact:
+        case RelationFact(subject, relation, object_, holds):
+            ends = [ANY if end is None else end.label for end in (subject, object_)]
+            return format_relation(ends[0], relation.iri, ends[1], holds)
+        case PropertyFact(individual, property_, value):
+            return format_property(individual.label, property_.iri, None if value is None else format_value(value))
+        case ClassFact(individual, cls, holds):
+            return format_class(individual.label, cls.label, holds)
+        case IdentityFact(one, other, holds):
+            return f"{one.label} {'==' if holds else '!='} {other.label}"
+        case _:
+            assert_never(fact)
