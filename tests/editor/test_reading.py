@@ -26,7 +26,7 @@ HOVERS = [
     (
         "lifted(panel",
         2,
-        ("function lifted(pose: Pose, by: Length) -> Pose", "skillc_runtime.world.space.functions:raised"),
+        ("function lifted(pose: Pose, by: Length) -> Pose", "skillc_runtime.world.places:raised"),
     ),
     ("above)", 2, ("let above = lifted(panel.pose, 5 cm)", "a Pose")),
     ("done\n", 2, ("post  done:  panel.isClean == true",)),

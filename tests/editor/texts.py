@@ -24,7 +24,7 @@ import "compliance.skill"
 class Panel < WipeableSurface
 relation fixedTo(Panel, Location)  functional
 property wear(Panel): Number
-function lifted(pose: Pose, by: Length) -> Pose = python "skillc_runtime.world.space.functions:raised"
+function lifted(pose: Pose, by: Length) -> Pose = python "skillc_runtime.world.places:raised"
 
 ## Press on `panel` with the tool.
 skill Press {

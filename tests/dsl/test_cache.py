@@ -1,11 +1,10 @@
-"""The language and the runtime, which may not know each other, keep what they keep in the same folder."""
+"""The cache folder is where the environment says, else below the home of the user."""
 
 from pathlib import Path
 
 import pytest
 
 from skillc_dsl import cache
-from skillc_dsl.cache import cache_folder
 
 HERE = Path.cwd()
 
@@ -21,14 +20,14 @@ HERE = Path.cwd()
     ],
     ids=["own", "relative", "user's", "home", "no place"],
 )
-def test_all_packages_keep_things_in_one_folder(
+def test_the_environment_names_the_cache_folder(
     environment: dict[str, str], folder: Path | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for name in ("SKILLC_CACHE", "XDG_CACHE_HOME"):
         monkeypatch.delenv(name, raising=False)
     for name, value in environment.items():
         monkeypatch.setenv(name, value)
-    assert cache_folder.cache_folder() == cache.cache_folder() == folder
+    assert cache.cache_folder() == folder
 
 
 def test_without_a_home_nothing_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -38,5 +37,4 @@ def test_without_a_home_nothing_is_kept(monkeypatch: pytest.MonkeyPatch) -> None
     for name in ("SKILLC_CACHE", "XDG_CACHE_HOME"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setattr(Path, "home", homeless)
-    assert cache_folder.cache_folder() is None
     assert cache.cache_folder() is None
