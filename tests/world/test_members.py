@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from skillc_runtime.world.state.members import Members
+from skillc_runtime.world.state.table import Members
 
 NAMES = st.sampled_from([f"x{number}" for number in range(40)])
 

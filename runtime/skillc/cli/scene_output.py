@@ -8,11 +8,11 @@ from typing import Any
 
 from skillc.services.scenes import Individual, OpenScene, SceneDiff
 from skillc_runtime.scene.query import Answer, Cell
-from skillc_runtime.world.state.listing import Entry
+from skillc_runtime.world.state.listing import ListingEntry
 from skillc_runtime.world.state.values import plain, show
 
 
-def format_entries(entries: Iterable[Entry], scene: OpenScene, as_json: bool) -> str:
+def format_entries(entries: Iterable[ListingEntry], scene: OpenScene, as_json: bool) -> str:
     """Return what is written of individuals: as text a paragraph for each, as JSON a list of objects."""
     if as_json:
         return _json([_entry_data(entry, scene) for entry in entries])
@@ -43,7 +43,7 @@ def format_diff(diff: SceneDiff, as_json: bool) -> str:
     return "\n".join(f"{'-+'[sign]} {s} {p} {value}" for s, p, sign, value in sorted(lines)) or "no differences"
 
 
-def _entry_text(entry: Entry, scene: OpenScene) -> str:
+def _entry_text(entry: ListingEntry, scene: OpenScene) -> str:
     """Return what is written of an individual, one statement to a line."""
     short, label = scene.state.vocabulary.short, scene.labels.get(entry.individual)
     called = "" if label is None else f'  "{label}"'
@@ -53,7 +53,7 @@ def _entry_text(entry: Entry, scene: OpenScene) -> str:
     return "\n".join(lines)
 
 
-def _entry_data(entry: Entry, scene: OpenScene) -> dict[str, object]:
+def _entry_data(entry: ListingEntry, scene: OpenScene) -> dict[str, object]:
     short = scene.state.vocabulary.short
     related: dict[str, list[str]] = {}
     for relation, other in entry.relations:

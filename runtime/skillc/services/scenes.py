@@ -26,7 +26,7 @@ from skillc_runtime.scene.load import sheet_documents, world_of
 from skillc_runtime.scene.query import Answer, QueryError, run_query
 from skillc_runtime.store.triples import all_facts
 from skillc_runtime.world.state.elements import search
-from skillc_runtime.world.state.listing import Entry, list_entries
+from skillc_runtime.world.state.listing import ListingEntry, list_entries
 from skillc_runtime.world.state.names import NoSuchName, individual_of
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -50,7 +50,7 @@ class OpenScene:
 class Individual:
     """All that is known of an individual: what is written of it, further classes, what leads to it, what follows."""
 
-    entry: Entry
+    entry: ListingEntry
     classes: tuple[str, ...]
     leading: tuple[tuple[str, str], ...]
     follows: tuple[tuple[str, str], ...]
@@ -93,7 +93,7 @@ def open_scene(
         yield OpenScene(path, compiled.vocabulary, document, state, labels, meant)
 
 
-def find_individuals(scene: OpenScene, words: str | None) -> tuple[Entry, ...]:
+def find_individuals(scene: OpenScene, words: str | None) -> tuple[ListingEntry, ...]:
     """Return what is written of the individuals, or of those in whose names, labels, classes or texts words occur."""
     if words is None:
         return list_entries(scene.state, scene.individuals)
@@ -157,7 +157,7 @@ def _stored_document(place: str, state: WorldState) -> Document:
     return Document(place, "".join(sorted(f"{fact} .\n" for fact in all_facts(state) if fact not in shipped)))
 
 
-def _describe(entry: Entry, state: WorldState) -> Individual:
+def _describe(entry: ListingEntry, state: WorldState) -> Individual:
     one, written = entry.individual, set(entry.relations)
     types = state.types(one)
     implied = ((relation, other) for relation in state.facts for other in state.objects(one, relation))

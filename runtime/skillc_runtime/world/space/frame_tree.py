@@ -13,9 +13,8 @@ import numpy as np
 
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.space.box import Box
-from skillc_runtime.world.state.links import Links
 from skillc_runtime.world.state.python_calls import Unknown
-from skillc_runtime.world.state.table import Table
+from skillc_runtime.world.state.table import Links, Table
 from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
     AT,

@@ -10,9 +10,7 @@ from typing import TypeAlias
 from skillc_rdf.vocabulary.closure import reachable
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.world.state.axioms import Axioms
-from skillc_runtime.world.state.links import NONE, Links
-from skillc_runtime.world.state.members import Members
-from skillc_runtime.world.state.table import Table
+from skillc_runtime.world.state.table import NONE, Links, Members, Table
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Set
 
 from skillc_rdf.vocabulary.closure import reachable
 from skillc_runtime.world.state.axioms import Axioms
-from skillc_runtime.world.state.links import Links, LinksDraft
+from skillc_runtime.world.state.table import Links, LinksDraft
 
 
 class Closure:

@@ -10,7 +10,7 @@ from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class ListingEntry:
     """An individual with its declared classes, the relations written of it and its stored properties, all by IRI."""
 
     individual: str
@@ -19,12 +19,12 @@ class Entry:
     properties: tuple[tuple[str, Value], ...]
 
 
-def list_entries(state: WorldState, individuals: Iterable[str]) -> tuple[Entry, ...]:
+def list_entries(state: WorldState, individuals: Iterable[str]) -> tuple[ListingEntry, ...]:
     """Return an entry for each of the individuals, sorted by IRI."""
     return tuple(_entry(state, individual) for individual in sorted(individuals))
 
 
-def _entry(state: WorldState, individual: str) -> Entry:
+def _entry(state: WorldState, individual: str) -> ListingEntry:
     relations = [
         (relation, object_)
         for relation, links in sorted(state.asserted.items())
@@ -32,4 +32,4 @@ def _entry(state: WorldState, individual: str) -> Entry:
     ]
     values = [(iri, table.get(individual)) for iri, table in sorted(state.stored.items())]
     properties = tuple((iri, value) for iri, value in values if value is not None)
-    return Entry(individual, tuple(sorted(state.types(individual))), tuple(relations), properties)
+    return ListingEntry(individual, tuple(sorted(state.types(individual))), tuple(relations), properties)

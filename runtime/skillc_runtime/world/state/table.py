@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Set
+from dataclasses import dataclass
 from math import isqrt
 from typing import Generic, TypeVar
 
@@ -51,3 +52,106 @@ class Table(Generic[K, V]):
             return Table(self._empty, self._base, recent)
         merged = {**self._base, **recent}
         return Table(self._empty, {key: value for key, value in merged.items() if value is not self._empty})
+
+
+class Members:
+    """An immutable set: a large one, and whether individuals are in it of which that was written since.
+
+    It is put together when somebody asks for all of it, and after about as many writes as the square root of its size.
+    """
+
+    __slots__ = ("_all", "_base", "_recent")
+
+    def __init__(self, base: frozenset[str] = frozenset(), recent: Mapping[str, bool] | None = None) -> None:
+        self._base = base
+        self._recent = recent or {}
+        self._all = None if recent else base
+
+    def all(self) -> frozenset[str]:
+        """Return the members."""
+        if self._all is None:
+            present = {individual for individual, is_in in self._recent.items() if is_in}
+            self._all = self._base.difference(self._recent) | present
+        return self._all
+
+    def updated(self, changes: Mapping[str, bool]) -> Members:
+        """Return the next version with individuals that are in it now, or are not; this one stays as it is."""
+        if self._all is not None:
+            return Members(self._all, changes)
+        recent = {**self._recent, **changes}
+        if len(recent) <= 16 + 2 * isqrt(len(self._base)):
+            return Members(self._base, recent)
+        return Members(Members(self._base, recent).all())
+
+
+NONE: frozenset[str] = frozenset()
+
+
+def _no_entries() -> Table[str, frozenset[str]]:
+    return Table(NONE)
+
+
+@dataclass(frozen=True, slots=True)
+class Links:
+    """An immutable set of pairs (subject, object)."""
+
+    forward: Table[str, frozenset[str]]
+    backward: Table[str, frozenset[str]]
+
+    @staticmethod
+    def empty() -> Links:
+        """Return no pairs."""
+        return Links(_no_entries(), _no_entries())
+
+    def pairs(self) -> Iterator[tuple[str, str]]:
+        """Yield all pairs, in no particular order."""
+        for subject, objects in self.forward.items():
+            for object_ in objects:
+                yield subject, object_
+
+
+class LinksDraft:
+    """Pairs on the way to the next version: only the entries that are written are copied."""
+
+    def __init__(self, links: Links) -> None:
+        self._links = links
+        self._forward: dict[str, set[str]] = {}
+        self._backward: dict[str, set[str]] = {}
+
+    def objects(self, subject: str) -> Set[str]:
+        """Return the objects of a subject as they are now."""
+        return self._forward[subject] if subject in self._forward else self._links.forward.get(subject)
+
+    def subjects(self, object_: str) -> Set[str]:
+        """Return the subjects of an object as they are now."""
+        return self._backward[object_] if object_ in self._backward else self._links.backward.get(object_)
+
+    def add(self, subject: str, object_: str) -> None:
+        """Put a pair in."""
+        if object_ not in self.objects(subject):
+            _writable(self._forward, self._links.forward, subject).add(object_)
+            _writable(self._backward, self._links.backward, object_).add(subject)
+
+    def discard(self, subject: str, object_: str) -> None:
+        """Take a pair out, if it is there."""
+        if object_ in self.objects(subject):
+            _writable(self._forward, self._links.forward, subject).discard(object_)
+            _writable(self._backward, self._links.backward, object_).discard(subject)
+
+    def frozen(self) -> Links:
+        """Return the version written, the former one where nothing was."""
+        if not self._forward:
+            return self._links
+        return Links(
+            self._links.forward.updated(_sets(self._forward)), self._links.backward.updated(_sets(self._backward))
+        )
+
+
+def _writable(written: dict[str, set[str]], table: Table[str, frozenset[str]], key: str) -> set[str]:
+    if key not in written:
+        written[key] = set(table.get(key))
+    return written[key]
+
+
+def _sets(written: dict[str, set[str]]) -> dict[str, frozenset[str]]:
+    return {key: frozenset(members) if members else NONE for key, members in written.items()}

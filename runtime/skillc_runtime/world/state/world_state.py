@@ -18,9 +18,7 @@ from skillc_runtime.world.state.changes import (
     SetProperty,
 )
 from skillc_runtime.world.state.closure import Closure
-from skillc_runtime.world.state.links import NONE, Links
-from skillc_runtime.world.state.members import Members
-from skillc_runtime.world.state.table import Table
+from skillc_runtime.world.state.table import NONE, Links, Members, Table
 from skillc_runtime.world.state.values import Value, has
 
 
