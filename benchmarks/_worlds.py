@@ -21,12 +21,12 @@ from skillc_model.conditions import Condition, HasProperty, Holds, IsA, Variable
 from skillc_model.skills import Parameter, Requirement
 from skillc_rdf.vocabulary.types import ClassType, Position
 from skillc_runtime.scene.documents import Document
-from skillc_runtime.scene.load import load_scene, load_sheets, scene_of, sheet_documents
-from skillc_runtime.scene.saving import save
+from skillc_runtime.scene.load import load_scene, load_sheets, read_documents, sheet_documents
+from skillc_runtime.scene.saving import save_scene
 from skillc_runtime.world.eval.conditions import compile_condition
 from skillc_runtime.world.eval.inference import Found, infer
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, SetProperty
-from skillc_runtime.world.state.elements import element
+from skillc_runtime.world.state.elements import find_element
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -80,10 +80,10 @@ def measured(objects: int) -> dict[str, float]:
         load, state = timed(lambda: load_scene(path, vocabulary))
         found |= {"load s": load, "memory of the world MB": resident() - before}
         found |= reading(state) | writing(WorldModel(state))
-        found["save s"], _ = timed(lambda: save(state, Path(folder, "saved.ttl"), load_sheets(vocabulary)))
+        found["save s"], _ = timed(lambda: save_scene(state, Path(folder, "saved.ttl"), load_sheets(vocabulary)))
         if objects <= CAREFUL_AT_MOST:
             documents = [Document.read(path), *sheet_documents()]
-            found["load, all that is wrong told s"], _ = timed(lambda: scene_of(documents, vocabulary))
+            found["load, all that is wrong told s"], _ = timed(lambda: read_documents(documents, vocabulary))
     found["most memory of the process MB"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     return found
 
@@ -97,7 +97,7 @@ def reading(state: WorldState) -> dict[str, float]:
         found[f"condition `{name}` us"] = microseconds(lambda check=check: check(state, BOUND), 20_000)  # type: ignore[misc]
     assert isinstance(infer(WANTED, LINKED, BOUND, state), Found)
     found["infer two parameters us"] = microseconds(lambda: infer(WANTED, LINKED, BOUND, state), 300)
-    found["see an element us"] = microseconds(lambda: element(state, BOUND["b"]).quantities, 300)
+    found["see an element us"] = microseconds(lambda: find_element(state, BOUND["b"]).quantities, 300)
     return found
 
 

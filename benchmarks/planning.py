@@ -25,7 +25,7 @@ from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.neighbourhood import NARROW
 from skillc_runtime.planning.problem.pose import Posed, pose_problem
 from skillc_runtime.planning.solve import solve
-from skillc_runtime.world.state.bulk import Facts, state_of
+from skillc_runtime.world.state.bulk import FactTables, build_world_state
 from skillc_runtime.world.state.world_state import WorldState
 from world.lab import VOCABULARY, holds, iri, parameter, requirement
 
@@ -81,7 +81,7 @@ def scene(parts: int) -> WorldState:
     related[iri("contain")] += zip(places, products, strict=True)
     valued[iri("weight")] |= dict.fromkeys(products, 0.1)
     types = {**dict.fromkeys(places, (iri("Location"),)), **dict.fromkeys(products, (iri("Product"),))}
-    return state_of(VOCABULARY, Facts({**dict(LAB.direct.items()), **types}, related, valued))
+    return build_world_state(VOCABULARY, FactTables({**dict(LAB.direct.items()), **types}, related, valued))
 
 
 def timed(work: Callable[[], object]) -> float:

@@ -12,7 +12,7 @@ from itertools import cycle
 from pathlib import Path
 from time import process_time
 
-from skillc_runtime.world.space.frames import moved, placed, pose, seen_from
+from skillc_runtime.world.space.frames import move_changes, placement_changes, pose, relative_pose
 from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -49,7 +49,7 @@ def measured(boxes: int) -> dict[str, float]:
     here = lab("rack-0")
     return {
         "pose": microseconds(lambda: pose(state, next(some)[0]), ROUNDS),
-        "seen from another": microseconds(lambda: seen_from(state, here, next(some)[0]), ROUNDS),
+        "seen from another": microseconds(lambda: relative_pose(state, here, next(some)[0]), ROUNDS),
         "restsOn": microseconds(lambda: state.holds(*_asked(next(some), relation)), ROUNDS // 10),
         "pose after a write": microseconds(lambda: pose(_written(state), next(some)[0]), 100),
         "move and look": microseconds(lambda: _moved(state), 100),
@@ -62,11 +62,11 @@ def _asked(pair: tuple[str, str], relation: str) -> tuple[str, str, str]:
 
 def _written(state: WorldState) -> WorldState:
     """Return a version in which a thing has been put elsewhere."""
-    return state.changed(placed(lab("rack-0"), at(0, 1, 0)))
+    return state.changed(placement_changes(lab("rack-0"), at(0, 1, 0)))
 
 
 def _moved(state: WorldState) -> object:
-    after = state.changed(moved(state, lab("box-0"), at(0, 0, 0.06), lab("shelf-0")))
+    after = state.changed(move_changes(state, lab("box-0"), at(0, 0, 0.06), lab("shelf-0")))
     return after.holds(lab("box-0"), skillc("restsOn"), lab("shelf-0"))
 
 

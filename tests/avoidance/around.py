@@ -18,7 +18,7 @@ from skillc_runtime.collision.contacts import Contacts
 from skillc_runtime.collision.path_planning import Known
 from skillc_runtime.collision.scenery import scenery
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.space.frames import placed, pose
+from skillc_runtime.world.space.frames import placement_changes, pose
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.data_sheet import sheet_of
 from skillc_runtime.world.state.model import WorldModel
@@ -63,7 +63,7 @@ def box(name: str, top: Numbers, size: Numbers) -> list[Change]:
     """The changes that put a box into the world, the middle of its top at a place."""
     thing = LAB + name
     sizes = [SetProperty(thing, key, value) for key, value in zip(SIZE, size, strict=True)]
-    return [AddIndividual(thing, (FURNITURE,)), *sizes, *placed(thing, Pose.of(top))]
+    return [AddIndividual(thing, (FURNITURE,)), *sizes, *placement_changes(thing, Pose.of(top))]
 
 
 def posture(scene: str, name: str, q: Sequence[float]) -> list[Change]:

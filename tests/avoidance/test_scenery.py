@@ -9,7 +9,7 @@ from simulation.cells import ARM, ERASER, GRIPPER, LAB, PLACE
 from skillc_runtime.collision.arm_assembly import ArmAssembly, outfit
 from skillc_runtime.collision.scenery import scenery
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.world.space.frames import placed, pose
+from skillc_runtime.world.space.frames import placement_changes, pose
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.terms import CONTAIN, SIZE, WORKSPACE
 
@@ -28,7 +28,7 @@ def taken() -> list[Change]:
     return [
         RemoveRelation(PLACE[SCENE], CONTAIN, ERASER),
         AddRelation(gripper, CONTAIN, ERASER),
-        *placed(ERASER, IN_HAND, "robotiq"),
+        *placement_changes(ERASER, IN_HAND, "robotiq"),
     ]
 
 
@@ -45,7 +45,9 @@ def test_whatever_has_a_place_and_a_size_stands_around() -> None:
 def test_a_workspace_is_nothing_to_touch() -> None:
     room = LAB + "Room"
     sizes = [SetProperty(room, name, 1.0) for name in SIZE]
-    assert "lab:Room" not in names([AddIndividual(room, (WORKSPACE,)), *sizes, *placed(room, Pose.of((0.5, 0.0, 1.0)))])
+    assert "lab:Room" not in names(
+        [AddIndividual(room, (WORKSPACE,)), *sizes, *placement_changes(room, Pose.of((0.5, 0.0, 1.0)))]
+    )
 
 
 def test_boxes_are_seen_from_the_arm_by_their_middle() -> None:

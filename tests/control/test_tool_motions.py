@@ -13,7 +13,7 @@ from skillc_runtime.primitives.move import MoveLinear
 from skillc_runtime.primitives.overlay import OverlayCircle, OverlayLissajous, OverlaySine, OverlaySpiral
 from skillc_runtime.primitives.path import FollowPath
 from skillc_runtime.primitives.primitive import SkillFailure
-from skillc_runtime.world.space.frames import placed
+from skillc_runtime.world.space.frames import placement_changes
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.terms import SIZE
 
@@ -150,7 +150,7 @@ def test_what_does_not_fit_names_the_joint_and_the_place_on_the_surface():
         cell.run(MoveLinear(cell, arm=ARM, target=sideways, speed=0.1))
     assert "the motion does not fit the arm: the joint shoulder_pan would have to be at 0." in str(alone.value)
     assert str(alone.value).endswith(f" {start.position[2]:.3f}) m in the frame 'map'")
-    board = placed(BOARD, Pose(start.position - 0.05 * UP, np.eye(3)))
+    board = placement_changes(BOARD, Pose(start.position - 0.05 * UP, np.eye(3)))
     cell.world.commit([*board, *(SetProperty(BOARD, name, 0.4) for name in SIZE)])
     with pytest.raises(SkillFailure, match=r"m in the frame 'map', which is \(0\.000, 0\.\d+, 0\.050\) m on .*Board"):
         cell.run(MoveLinear(cell, arm=ARM, target=sideways, speed=0.1))

@@ -13,7 +13,7 @@ from docs.pages import ROOT, Reader
 from skillc.services import libraries
 from skillc_ontology import catalogue
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.world.state.data_sheet import Sheet
+from skillc_runtime.world.state.data_sheet import DataSheet
 from skillc_runtime.world.state.terms import SKILLC
 
 PAGE = ROOT / "docs/robots.md"
@@ -31,12 +31,12 @@ def test_the_table_says_what_the_sheets_say() -> None:
     }
     for cls, model, name, limits in rows:
         assert SKILLC + cls in state.vocabulary.classes
-        sheet = Sheet(state, f"{SKILLC}{name.replace('_', '-')}-sheet")
+        sheet = DataSheet(state, f"{SKILLC}{name.replace('_', '-')}-sheet")
         assert sheet.text("model") == model
         assert limits == _limits(sheet, model)
 
 
-def _limits(sheet: Sheet, model: str) -> str:
+def _limits(sheet: DataSheet, model: str) -> str:
     if model.startswith("grippers/"):
         opening, force = sheet.number("maxOpening"), sheet.number("maxForce")
         return f"opens to {1000 * opening:.0f} mm, grasps with up to {force:.0f} N"

@@ -12,7 +12,7 @@ from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.load import load
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document
-from skillc_runtime.scene.load import world_of
+from skillc_runtime.scene.load import load_documents
 from skillc_runtime.world.state.world_state import WorldState
 
 HERE = Path(__file__).parent
@@ -67,4 +67,4 @@ def vocabulary() -> Vocabulary:
 
 def scene(library: SkillLibrary) -> WorldState:
     """Return the world of the cases in the words of a library."""
-    return world_of([Document("scene.ttl", (HERE / "scene.ttl").read_text())], library.vocabulary)
+    return load_documents([Document("scene.ttl", (HERE / "scene.ttl").read_text())], library.vocabulary)

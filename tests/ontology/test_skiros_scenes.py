@@ -11,7 +11,7 @@ from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.load import load
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document, SceneError
-from skillc_runtime.scene.load import world_of
+from skillc_runtime.scene.load import load_documents
 from skillc_runtime.world.state.terms import SKILLC, SKIROS
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
@@ -57,7 +57,7 @@ def vocabulary() -> Vocabulary:
 
 def world(scene: str) -> WorldState:
     sheets = [Document(path, text) for path, text in catalogue.vocabulary_files()]
-    return world_of([*sheets, Document("scene.turtle", PREFIXES + scene)], vocabulary())
+    return load_documents([*sheets, Document("scene.turtle", PREFIXES + scene)], vocabulary())
 
 
 def value(state: WorldState, individual: str, property_: str) -> Value | None:

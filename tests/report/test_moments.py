@@ -10,7 +10,7 @@ from skillc_runtime.evaluation.report.moments import find_moments
 from skillc_runtime.film.film import Moment
 from skillc_runtime.recording.events import Highlight, ImplementationChosen
 from skillc_runtime.recording.outcome import Outcome
-from skillc_runtime.world.state.labelled import Iri
+from skillc_runtime.world.state.labelled import LabelledIri
 
 HERE = Position(path="press.skill", line=1, column=1)
 CELL: Any = SimpleNamespace(
@@ -24,13 +24,13 @@ def call(number: int, status: str, started: float | None, ended: float | None, *
     )
 
 
-def chosen(node: int, what: Iri, *seen: tuple[str, str]) -> ImplementationChosen:
+def chosen(node: int, what: LabelledIri, *seen: tuple[str, str]) -> ImplementationChosen:
     return ImplementationChosen(
         time=0.0,
         node=node,
         skill="Work",
         implementation="x",
-        bindings={"arm": Iri("http://lab#Arm", "lab:Arm"), "what": what},
+        bindings={"arm": LabelledIri("http://lab#Arm", "lab:Arm"), "what": what},
         highlights=tuple(Highlight(when, what, word) for when, word in seen),
         rejected=(),
         source=HERE,
@@ -38,8 +38,8 @@ def chosen(node: int, what: Iri, *seen: tuple[str, str]) -> ImplementationChosen
 
 
 CHOICES = {
-    2: chosen(2, Iri("http://lab#Button", "lab:Button"), ("ends", "pressed")),
-    3: chosen(3, Iri("http://lab#Hole", "lab:Hole"), ("begins", "found"), ("ends", "filled")),
+    2: chosen(2, LabelledIri("http://lab#Button", "lab:Button"), ("ends", "pressed")),
+    3: chosen(3, LabelledIri("http://lab#Hole", "lab:Hole"), ("begins", "found"), ("ends", "filled")),
 }
 
 

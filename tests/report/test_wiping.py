@@ -16,7 +16,7 @@ from skillc_runtime.evaluation.report.choices import Choices
 from skillc_runtime.evaluation.report.wiping import Wiping, find_wipings
 from skillc_runtime.recording.events import ImplementationChosen, NodeEnded, NodeStarted
 from skillc_runtime.recording.outcome import Outcome
-from skillc_runtime.world.state.labelled import Iri, LabelledValue, Quantity
+from skillc_runtime.world.state.labelled import LabelledIri, LabelledValue, Quantity
 from skillc_runtime.world.state.terms import SURFACE, TOOL
 
 HERE = Position("wash.skill", 1, 1)
@@ -25,8 +25,8 @@ STATE = SimpleNamespace(individuals=CLASSES, is_a=lambda individual, cls: CLASSE
 CELL: Any = SimpleNamespace(world=SimpleNamespace(snapshot=lambda: STATE), arms={"http://lab#Arm": None})
 
 
-def iri(name: str) -> Iri:
-    return Iri(f"http://lab#{name}", f"lab:{name}")
+def iri(name: str) -> LabelledIri:
+    return LabelledIri(f"http://lab#{name}", f"lab:{name}")
 
 
 def call(number: int, ended: float, *below: Outcome) -> Outcome:

@@ -15,7 +15,7 @@ from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.move import MoveLinear
 from skillc_runtime.primitives.overlay import OverlayCircle
 from skillc_runtime.primitives.primitive import SkillFailure
-from skillc_runtime.world.space.frames import placed
+from skillc_runtime.world.space.frames import placement_changes
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import FRAME_ID, HAS_SHEET, HAS_WORKSPACE, SIZE, SKILLC, TOOL_SPEED_LIMIT
@@ -125,7 +125,7 @@ def workspace(scene: str, middle: Pose) -> list[Change]:
     box = LAB + "Box"
     sizes = [SetProperty(box, name, 0.06) for name in SIZE]
     kind, frame = AddIndividual(box, (SKILLC + "Workspace",)), SetProperty(box, FRAME_ID, "box")
-    return [kind, frame, *placed(box, middle), *sizes, AddRelation(ARM[scene], HAS_WORKSPACE, box)]
+    return [kind, frame, *placement_changes(box, middle), *sizes, AddRelation(ARM[scene], HAS_WORKSPACE, box)]
 
 
 @pytest.mark.parametrize(("point", "outside"), [((0.9, 1.0, 3.0), 0.0), ((1.2, 1.0, 3.0), 0.1), ((1.4, 2.4, 3.0), 0.5)])

@@ -12,7 +12,7 @@ from skillc.services import libraries
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
 from skillc_runtime.scene.documents import Document
-from skillc_runtime.scene.load import scene_of
+from skillc_runtime.scene.load import read_documents
 
 SEEDS = int(os.environ.get("SCENE_SEEDS", "6"))
 SHEETS = tuple(Document(name, text) for name, text in catalogue.vocabulary_files())
@@ -37,7 +37,7 @@ def test_a_changed_token_is_told_beside_it_and_once() -> None:
         text = catalogue.scene(name).read_text("utf-8")
         meant = graph(text)
         for mutant in mutants(text, range(SEEDS)):
-            problems = scene_of([Document("scene.ttl", mutant.text), *SHEETS], libraries.vocabulary()).problems
+            problems = read_documents([Document("scene.ttl", mutant.text), *SHEETS], libraries.vocabulary()).problems
             said = graph(mutant.text)
             if said is None:
                 assert any(is_near(mutant, problem) for problem in problems), mutant

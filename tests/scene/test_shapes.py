@@ -15,8 +15,8 @@ from rdflib.term import Node
 from skillc.services import libraries
 from skillc_ontology import catalogue
 from skillc_runtime.scene.documents import Document
-from skillc_runtime.scene.load import scene_of
-from skillc_runtime.scene.shapes import shapes
+from skillc_runtime.scene.load import read_documents
+from skillc_runtime.scene.shapes import format_shapes
 
 pytestmark = pytest.mark.reasoner
 
@@ -37,7 +37,7 @@ SHEETS = tuple(Document(name, text) for name, text in catalogue.vocabulary_files
 
 @cache
 def shape_graph() -> Graph:
-    return Graph().parse(data=shapes(libraries.vocabulary()), format="turtle")
+    return Graph().parse(data=format_shapes(libraries.vocabulary()), format="turtle")
 
 
 @cache
@@ -56,7 +56,7 @@ def conforms(scene: Graph) -> bool:
 def names(scene: Graph) -> set[str]:
     """Return the names of the problems that skillc finds."""
     document = Document("scene.ttl", scene.serialize(format="turtle"))
-    return {problem.name for problem in scene_of([document, *SHEETS], libraries.vocabulary()).problems}
+    return {problem.name for problem in read_documents([document, *SHEETS], libraries.vocabulary()).problems}
 
 
 def mutated(graph: Graph, random: Random) -> None:

@@ -19,7 +19,7 @@ from skillc_runtime.execution.assignment import AchieveGoal, Assignment, Prepare
 from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.world.space.frames import placed
+from skillc_runtime.world.space.frames import placement_changes
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import ALONG_AXIS, HAS_HOLE, HAS_PATCH, SIZE, SKILLC
@@ -43,7 +43,7 @@ def area(name: str, x: float, y: float, width: float, height: float) -> list[Cha
     """The facts of a patch of the table."""
     iri = LAB + name
     sizes = [SetProperty(iri, term, value) for term, value in zip(SIZE, (width, height), strict=False)]
-    place = placed(iri, Pose.of((x, y, 0.0)), "table")
+    place = placement_changes(iri, Pose.of((x, y, 0.0)), "table")
     return [AddIndividual(iri, (SKILLC + "Area",)), *place, *sizes, AddRelation(TABLE, HAS_PATCH, iri)]
 
 

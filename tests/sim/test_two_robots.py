@@ -19,7 +19,7 @@ from skillc_runtime.execution.assignment import AchieveGoal, Assignment, Prepare
 from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.world.state.labelled import Iri
+from skillc_runtime.world.state.labelled import LabelledIri
 from skillc_runtime.world.state.model import WorldModel
 
 pytestmark = pytest.mark.sim
@@ -45,7 +45,7 @@ def run(name: str) -> tuple[TaskResult, dict[str, list[Outcome]]]:
     steps: dict[str, list[Outcome]] = {}
     for call in sorted(calls_in(execution.last.tree), key=lambda each: each.started or 0.0):
         arm = choices[call.id].bindings["arm"]
-        assert isinstance(arm, Iri)
+        assert isinstance(arm, LabelledIri)
         steps.setdefault(arm.label, []).append(call)
     return result, steps
 

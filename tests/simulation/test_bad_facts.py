@@ -8,8 +8,8 @@ from cells import vocabulary, world
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.scene.documents import Document, SceneError
-from skillc_runtime.scene.load import sheet_documents, world_of
-from skillc_runtime.world.state.data_sheet import Sheet, SheetError
+from skillc_runtime.scene.load import load_documents, sheet_documents
+from skillc_runtime.world.state.data_sheet import DataSheet, SheetError
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import SKILLC
 
@@ -56,7 +56,7 @@ def changed(scene: str, old: str, new: str, more: str = "") -> Document:
 @pytest.mark.parametrize(("scene", "old", "new", "words"), READ)
 def test_a_wrong_fact_is_told_when_the_scene_is_read(scene: str, old: str, new: str, words: str) -> None:
     with pytest.raises(SceneError) as caught:
-        world_of([changed(scene, old, new), *sheet_documents()], vocabulary())
+        load_documents([changed(scene, old, new), *sheet_documents()], vocabulary())
     assert words in str(caught.value)
 
 
@@ -65,13 +65,13 @@ def test_facts_that_do_not_go_together_are_told_before_anything_moves(
     scene: str, old: str, new: str, words: str, sheet: str
 ) -> None:
     more = sheet.format("skillc:model ") + " .\n" if sheet else ""
-    state = world_of([changed(scene, old, new, more), *sheet_documents()], vocabulary())
+    state = load_documents([changed(scene, old, new, more), *sheet_documents()], vocabulary())
     with pytest.raises(SheetError, match=words):
         SimulatedCell(WorldModel(state))
 
 
 def test_limits_of_joints_are_as_many_as_the_joints() -> None:
-    sheet = Sheet(world("iiwa_table"), f"{SKILLC}iiwa14-sheet")
+    sheet = DataSheet(world("iiwa_table"), f"{SKILLC}iiwa14-sheet")
     assert sheet.limits("jointSpeeds", 7).size == 7
     with pytest.raises(SheetError, match="must be 6 numbers above 0, one for each joint"):
         sheet.limits("jointSpeeds", 6)

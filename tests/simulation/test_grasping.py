@@ -26,7 +26,7 @@ from skillc_runtime.primitives.grasp import Release
 from skillc_runtime.primitives.gripper import ParallelGripper
 from skillc_runtime.primitives.primitive import SkillFailure, Status
 from skillc_runtime.world.space.frame_tree import WORLD_FRAME, FrameError
-from skillc_runtime.world.space.frames import placed, pose
+from skillc_runtime.world.space.frames import placement_changes, pose
 from skillc_runtime.world.state.changes import AddRelation, ClearProperty
 from skillc_runtime.world.state.terms import BASE_FRAME_ID, CONTAIN, FRAME_ID, POSITION, SKILLC
 
@@ -66,7 +66,7 @@ def test_a_held_thing_is_somewhere_in_the_hand() -> None:
         pose(held, ERASER)
     assert held.value(ERASER, BASE_FRAME_ID) == held.value(GRIPPER[scene], FRAME_ID)
     assert [held.value(ERASER, axis) for axis in POSITION] == pytest.approx(in_hand.position)
-    reached = placed(GRIPPER[scene], Pose.of((1.0, 2.0, 3.0)))
+    reached = placement_changes(GRIPPER[scene], Pose.of((1.0, 2.0, 3.0)))
     there.world.commit(reached)
     assert pose(there.world.snapshot(), ERASER).position == pytest.approx(np.array([1.0, 2.0, 3.0]) + in_hand.position)
 

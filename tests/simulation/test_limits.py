@@ -13,7 +13,7 @@ from skillc_ontology import catalogue
 from skillc_runtime.control.kinematics import JOINT_RAMP_S
 from skillc_runtime.motion.joint import joint_motion
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.world.state.data_sheet import Sheet
+from skillc_runtime.world.state.data_sheet import DataSheet
 from skillc_runtime.world.state.terms import SKILLC
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -46,8 +46,8 @@ def state() -> WorldState:
     return load_scene(catalogue.scene("iiwa_table"), vocabulary())
 
 
-def sheet(device: str) -> Sheet:
-    return Sheet(state(), f"{SKILLC}{device.replace('_', '-')}-sheet")
+def sheet(device: str) -> DataSheet:
+    return DataSheet(state(), f"{SKILLC}{device.replace('_', '-')}-sheet")
 
 
 def model(device: str) -> mujoco.MjModel:

@@ -16,7 +16,7 @@ from skillc_runtime.collision.body import body
 from skillc_runtime.collision.contacts import Contacts
 from skillc_runtime.collision.scenery import scenery
 from skillc_runtime.scene.documents import Document
-from skillc_runtime.scene.load import sheet_documents, world_of
+from skillc_runtime.scene.load import load_documents, sheet_documents
 
 SEEDS = range(40)
 
@@ -36,7 +36,7 @@ def arm_in(old: str, new: str) -> ArmSpec:
     text = catalogue.scene("iiwa_table").read_text("utf-8")
     assert text.count(old) == 1
     return read_scene_spec(
-        world_of([Document("scene.ttl", text.replace(old, new)), *sheet_documents()], vocabulary())
+        load_documents([Document("scene.ttl", text.replace(old, new)), *sheet_documents()], vocabulary())
     ).arms[0]
 
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from skillc.services import libraries
 from skillc_runtime.motion.pose import Array, Pose, exp
-from skillc_runtime.world.space.frames import placed
+from skillc_runtime.world.space.frames import placement_changes
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.terms import FRAME_ID, SIZE, SKILLC, SKIROS
 from skillc_runtime.world.state.world_state import WorldState
@@ -32,7 +32,7 @@ def thing(
 ) -> list[Change]:
     """Return what says that there is a thing with a frame of its own name, and where and how large it is."""
     changes: list[Change] = [AddIndividual(lab(name), (cls,)), SetProperty(lab(name), FRAME_ID, name)]
-    changes += placed(lab(name), at, frame) if at is not None else []
+    changes += placement_changes(lab(name), at, frame) if at is not None else []
     return changes + [SetProperty(lab(name), axis, float(value)) for axis, value in zip(SIZE, size, strict=False)]
 
 

@@ -28,12 +28,12 @@ from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.scene.load import load_scene, read_scene
-from skillc_runtime.scene.shapes import shapes
+from skillc_runtime.scene.shapes import format_shapes
 from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.deciding_facts import deciding_facts
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.join import solutions
-from skillc_runtime.world.eval.support import deciding_facts
-from skillc_runtime.world.space.frames import placed
+from skillc_runtime.world.space.frames import placement_changes
 from skillc_runtime.world.state.labelled_text import format_fact
 from skillc_runtime.world.state.model import WorldError, WorldModel
 from skillc_runtime.world.state.python_calls import EvaluationError
@@ -75,7 +75,7 @@ def test_conditions_read_it(condition: Condition, true: bool) -> None:
 
 def test_moving_a_thing_changes_it_in_the_next_version_alone() -> None:
     there = Holds(i("Cup"), ON, i("Bench"))
-    moved = ROOM.changed(placed(lab("Cup"), at(3, 0, 0.45)))
+    moved = ROOM.changed(placement_changes(lab("Cup"), at(3, 0, 0.45)))
     assert evaluate(there, moved, {}) and not evaluate(there, ROOM, {})
 
 
@@ -90,7 +90,7 @@ def test_why_it_does_not_hold_is_told_with_numbers_and_what_decided_is_told_as_a
     assert told.endswith("restsOn " + lab("Table") + f"` does not hold: {lab('Lamp')} is 1.200 m above {lab('Table')}")
     decided = deciding_facts([condition], ROOM, {})
     assert tuple(map(format_fact, decided)) == (f"not {lab('Lamp')} restsOn {lab('Table')}",)
-    lost = ROOM.changed(placed(lab("Lamp"), at(0, 0, 0), "Lamp"))
+    lost = ROOM.changed(placement_changes(lab("Lamp"), at(0, 0, 0), "Lamp"))
     assert deciding_facts([condition], lost, {}) == ()
     with pytest.raises(EvaluationError, match="form a circle"):
         evaluate(condition, lost, {})
@@ -99,7 +99,7 @@ def test_why_it_does_not_hold_is_told_with_numbers_and_what_decided_is_told_as_a
 def test_nobody_states_it() -> None:
     with pytest.raises(WorldError, match="the relation is computed from other facts and cannot be stated"):
         WorldModel(ROOM).commit([linked("Lamp", ON, "Table")])
-    assert "restsOn" not in shapes(ROOM.vocabulary)
+    assert "restsOn" not in format_shapes(ROOM.vocabulary)
 
 
 def test_a_scene_that_states_it_is_told_where(tmp_path: object) -> None:
@@ -163,7 +163,7 @@ def test_plans_read_what_no_skill_changes_and_say_by_how_much_it_fails() -> None
     result = planned(BOARD, CLEAN)
     assert isinstance(result, Solved) and [step.skill for step in result.plan.steps] == ["Polish"]
     assert result.plan.steps[0].arguments["arm"] == lab("Ur5e-1")
-    far = BOARD.changed(placed(lab("Whiteboard-1"), at(5, 5, 1)))
+    far = BOARD.changed(placement_changes(lab("Whiteboard-1"), at(5, 5, 1)))
     result = planned(far, CLEAN)
     assert isinstance(result, Unsolvable)
     assert "Polish needs arm canReach surface" in result.why and "lab:Ur5e-1 reaches 0.85 m" in result.why

@@ -12,7 +12,14 @@ from hypothesis import strategies as st
 
 from skillc_runtime.motion.pose import Array, Pose, quaternion_of, rotation_of
 from skillc_runtime.world.space.frame_tree import FrameError, MissingFact, Unplaced, frame_tree_of
-from skillc_runtime.world.space.frames import carried_by, moved, placed, pose, seen_from, size
+from skillc_runtime.world.space.frames import (
+    attachment_changes,
+    move_changes,
+    placement_changes,
+    pose,
+    relative_pose,
+    size,
+)
 from skillc_runtime.world.state.changes import ClearProperty, SetProperty
 from skillc_runtime.world.state.terms import (
     AT,
@@ -67,9 +74,9 @@ def test_what_is_seen_from_another_thing_composes_and_inverts(
 ) -> None:
     a, b, c = map(lab, (one, two, three))
     state = drawn[0]
-    assert same(seen_from(state, a, b) @ seen_from(state, b, c), seen_from(state, a, c))
-    assert same(seen_from(state, a, b).inverse(), seen_from(state, b, a))
-    assert same(seen_from(state, a, a), at(0, 0, 0))
+    assert same(relative_pose(state, a, b) @ relative_pose(state, b, c), relative_pose(state, a, c))
+    assert same(relative_pose(state, a, b).inverse(), relative_pose(state, b, a))
+    assert same(relative_pose(state, a, a), at(0, 0, 0))
 
 
 @settings(max_examples=30, deadline=None)
@@ -78,8 +85,8 @@ def test_a_thing_put_somewhere_is_there_and_all_else_keeps_its_own_pose(
     drawn: tuple[WorldState, dict[str, tuple[str, Pose]]], name: str, viewer: str, goal: Pose
 ) -> None:
     state, placings = drawn
-    after = state.changed(moved(state, lab(name), goal, lab(viewer)))
-    assert same(seen_from(after, lab(viewer), lab(name)), goal)
+    after = state.changed(move_changes(state, lab(name), goal, lab(viewer)))
+    assert same(relative_pose(after, lab(viewer), lab(name)), goal)
     assert after.value(lab(name), BASE_FRAME_ID) == placings[name][0]
     assert same(pose(after, lab(viewer)), pose(state, lab(viewer)))
 
@@ -90,10 +97,10 @@ def test_what_is_carried_stays_where_it_is_and_then_moves_along(
     drawn: tuple[WorldState, object], name: str, carrier: str, goal: Pose
 ) -> None:
     state = drawn[0]
-    carried = state.changed(carried_by(state, lab(name), lab(carrier)))
+    carried = state.changed(attachment_changes(state, lab(name), lab(carrier)))
     assert same(pose(carried, lab(name)), pose(state, lab(name)))
-    held = seen_from(carried, lab(carrier), lab(name))
-    driven = carried.changed(placed(lab(carrier), goal))
+    held = relative_pose(carried, lab(carrier), lab(name))
+    driven = carried.changed(placement_changes(lab(carrier), goal))
     assert same(pose(driven, lab(name)), goal @ held)
 
 
@@ -105,7 +112,7 @@ def test_a_thing_without_a_pose_of_its_own_is_where_that_is_which_carries_it() -
     assert same(pose(state, lab("Robot")), TURNED)
     assert same(pose(state, lab("Box")), TURNED)
     assert np.allclose(pose(state, lab("Arm")).position, (0, 2, 0))
-    held = state.changed([linked("Station", CONTAIN, "Box"), *placed(lab("Robot"), at(9, 9, 9))])
+    held = state.changed([linked("Station", CONTAIN, "Box"), *placement_changes(lab("Robot"), at(9, 9, 9))])
     assert same(pose(held, lab("Box")), TURNED), "what contains a thing says where it is before what it is a part of"
 
 
@@ -113,7 +120,7 @@ def test_what_an_arm_carries_is_nowhere_unless_something_says_so() -> None:
     state = world(thing("Arm", at(0, 0, 1), cls=skillc("Ur5e")), thing("Hand")).changed([linked("Arm", HAS_A, "Hand")])
     with pytest.raises(Unplaced, match=r"does not say where .*Hand is: .*Arm carries it"):
         pose(state, lab("Hand"))
-    told = state.changed(placed(lab("Hand"), at(0, 0, 0.5), "Arm"))
+    told = state.changed(placement_changes(lab("Hand"), at(0, 0, 0.5), "Arm"))
     assert np.allclose(pose(told, lab("Hand")).position, (0, 0, 1.5))
 
 
@@ -155,12 +162,12 @@ def test_a_missing_number_is_named() -> None:
 def test_what_moves_with_a_thing_cannot_carry_it_or_say_where_it_is() -> None:
     state = world(thing("a", at(0, 0, 0)), thing("b", at(0, 0, 1), "a"), thing("c", at(0, 0, 1), "b"))
     with pytest.raises(FrameError, match=r"c moves with .*a, so it cannot carry it"):
-        carried_by(state, lab("a"), lab("c"))
+        attachment_changes(state, lab("a"), lab("c"))
     with pytest.raises(FrameError, match=r"c moves with .*a, so its place cannot say where that is"):
-        moved(state, lab("a"), at(0, 0, 0), lab("c"))
+        move_changes(state, lab("a"), at(0, 0, 0), lab("c"))
     nameless = state.changed([ClearProperty(lab("c"), FRAME_ID), *thing("d", at(1, 0, 0))])
     with pytest.raises(FrameError, match="c has no FrameId, so nothing can be placed in its frame"):
-        carried_by(nameless, lab("d"), lab("c"))
+        attachment_changes(nameless, lab("d"), lab("c"))
 
 
 def test_versions_that_agree_about_space_share_its_tree_and_no_version_is_kept_for_it() -> None:
@@ -168,7 +175,7 @@ def test_versions_that_agree_about_space_share_its_tree_and_no_version_is_kept_f
     pose(state, lab("b"))
     told = state.changed([SetProperty(lab("a"), SKIROS + "Weight", 1.0)])
     assert frame_tree_of(told) is frame_tree_of(state)
-    lifted = state.changed(placed(lab("a"), at(0, 0, 5)))
+    lifted = state.changed(placement_changes(lab("a"), at(0, 0, 5)))
     assert frame_tree_of(lifted) is not frame_tree_of(state)
     assert np.allclose(pose(lifted, lab("b")).position, (0, 0, 6))
     assert np.allclose(pose(state, lab("b")).position, (0, 0, 1))

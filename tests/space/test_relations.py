@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from skillc_ontology import catalogue
 from skillc_runtime.motion.pose import Array, Pose, exp
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.world.space.boxes import TOUCH_M, box
-from skillc_runtime.world.space.frames import placed, pose
+from skillc_runtime.world.space.bounding_boxes import TOUCH_M, bounding_box
+from skillc_runtime.world.space.frames import placement_changes, pose
 from skillc_runtime.world.state.changes import ClearProperty, RemoveIndividual, RemoveRelation
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.terms import AT, BASE_FRAME_ID, CONTAIN, FURNITURE, HAS_SHEET, SIZE, WORKSTATION
@@ -82,7 +82,7 @@ def test_where_too_little_is_known_nothing_holds_and_what_is_missing_is_told() -
 
 
 def test_what_is_wrong_with_a_frame_is_no_answer() -> None:
-    state = on_a_table(0, 0, 0.8).changed(placed(lab("Cube"), at(0, 0, 0), "Cube"))
+    state = on_a_table(0, 0, 0.8).changed(placement_changes(lab("Cube"), at(0, 0, 0), "Cube"))
     with pytest.raises(EvaluationError, match=r"isInside\(Cube, Table\) failed: .* form a circle"):
         holds(state, INSIDE, "Cube", "Table")
 
@@ -112,7 +112,7 @@ def test_above_means_that_what_is_straight_below_is_lower_than_all_of_it(
     over = Pose(other.position + offset + np.array([0, 0, 1.0]), np.eye(3))
     state = world(thing("A", over, size=small), thing("B", other, size=large))
     x, y, z = over.position
-    below = box(state, lab("B"))
+    below = bounding_box(state, lab("B"))
     top = below.height_at(x, y)
     if top is None:
         assert not holds(state, ABOVE, "A", "B")
@@ -129,7 +129,7 @@ def rigid(state: WorldState, by: Pose) -> WorldState:
     """Return the world in which everything that is placed in the map has been moved."""
     roots = [each for each in sorted(state.individuals) if state.value(each, BASE_FRAME_ID) == "map"]
     assert roots
-    return state.changed([change for each in roots for change in placed(each, by @ pose(state, each))])
+    return state.changed([change for each in roots for change in placement_changes(each, by @ pose(state, each))])
 
 
 SCENES = [load_scene(catalogue.scene(name), EMPTY.vocabulary) for name in ("ur5e_whiteboard.ttl", "iiwa_table.ttl")]
@@ -169,7 +169,7 @@ def board_at(distance_m: float, station: str = "BoardStation") -> WorldState:
     """Return the whiteboard scene with the board so far in front of the arm once the robot stands at its station."""
     state = SCENES[0]
     board = Pose(np.array([3.2 + distance_m, 0.4, 1.05]), pose(state, lab("Whiteboard-1")).rotation)
-    return state.changed([*placed(lab("Whiteboard-1"), board), linked(station, CONTAIN, "Whiteboard-1")])
+    return state.changed([*placement_changes(lab("Whiteboard-1"), board), linked(station, CONTAIN, "Whiteboard-1")])
 
 
 def test_an_arm_reaches_as_far_as_its_data_sheet_says() -> None:
@@ -190,7 +190,7 @@ def test_a_robot_that_drives_works_from_the_station_of_the_surface_and_from_any_
     assert holds(free, CAN_REACH, "Ur5e-1", "Whiteboard-1")
     nowhere = free.changed([RemoveIndividual(each) for each in free.instances(WORKSTATION) - {lab("Dock")}])
     assert why(nowhere, CAN_REACH, "Ur5e-1", "Whiteboard-1").startswith("at lab:Dock: ")
-    there = nowhere.changed([*placed(lab("Heron-1"), at(3, 0.4, 0)), RemoveIndividual(lab("Dock"))])
+    there = nowhere.changed([*placement_changes(lab("Heron-1"), at(3, 0.4, 0)), RemoveIndividual(lab("Dock"))])
     assert why(there, CAN_REACH, "Ur5e-1", "Whiteboard-1") == (
         "there is no workstation at which lab:Heron-1 could stand"
     )

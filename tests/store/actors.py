@@ -9,9 +9,9 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from random import Random
 
-from skillc_runtime.store.contents import world_of
 from skillc_runtime.store.disk import JOURNAL, DiskStore
 from skillc_runtime.store.opening import open_store
+from skillc_runtime.store.world_from_triples import build_world
 from skillc_runtime.world.state.model import WorldError, WorldModel
 from skillc_runtime.world.state.transactions import StoreError
 from store.worlds import facts_of, model_of, random_write
@@ -22,7 +22,7 @@ def write(tell: Connection, place: str, seed: int, count: int, name: str) -> Non
     """Make so many random writes, whatever others do meanwhile; tell the origin of each."""
     store = open_store(place)
     kept = store.read()
-    model = WorldModel(world_of(kept.triples, VOCABULARY, place), store, kept.sequence)
+    model = WorldModel(build_world(kept.triples, VOCABULARY, place), store, kept.sequence)
     chance, made = Random(seed), 0
     while made < count:
         try:

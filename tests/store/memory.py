@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from skillc_runtime.store.store import StoredWorld
-from skillc_runtime.store.triples import all_facts
+from skillc_runtime.store.triples import all_triples
 from skillc_runtime.world.state.transactions import ChangeEvent, StoreError, Transaction
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -20,7 +20,7 @@ class MemoryStore:
         self.broken = False
 
     def read(self) -> StoredWorld:
-        triples = () if self.state is None else tuple(all_facts(self.state))
+        triples = () if self.state is None else tuple(all_triples(self.state))
         return StoredWorld(len(self.written), self.written[0].origin if self.written else "", triples)
 
     def append(self, event: ChangeEvent, after: int) -> bool:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pyoxigraph as ox
 import pytest
 
-from skillc_runtime.store import base
+from skillc_runtime.store import facts_folder as base
 from skillc_runtime.store.disk import FACTS, FORMAT, JOURNAL, MARK, DiskStore
 from skillc_runtime.store.opening import open_store
 from skillc_runtime.world.state.transactions import StoreError

@@ -14,8 +14,7 @@ import pytest
 from skillc.services.stores import StoreChoice
 from skillc_runtime.store import http
 from skillc_runtime.store.address import Address
-from skillc_runtime.store.finding import find_endpoint
-from skillc_runtime.store.http import Garbled, HttpEndpoint, Refused, Unreachable
+from skillc_runtime.store.http import HttpEndpoint, InvalidAnswer, RequestRefused, ServerUnreachable, find_endpoint
 from skillc_runtime.store.opening import open_store
 from skillc_runtime.store.sparql import SparqlStore
 from skillc_runtime.world.state.transactions import ChangeEvent, StoreError
@@ -75,7 +74,7 @@ def test_a_lasting_fault_is_told_and_over_when_it_is_over(server: str, proxy: Pr
     before, heard = model.snapshot(), list[str]()
     other.listen(lambda event: heard.append(event.origin))
     proxy.fail(fault, 1000)
-    with pytest.raises(Unreachable, match=WORDS[fault]):
+    with pytest.raises(ServerUnreachable, match=WORDS[fault]):
         model.commit([assign("box", "weight", 8.0)], "first")
     assert model.snapshot() is before
     proxy.fail(fault, 0)
@@ -151,7 +150,7 @@ def test_a_server_of_something_else_is_told(server: str, proxy: Proxy) -> None:
 def test_an_update_that_is_refused_is_not_tried_again(server: str, proxy: Proxy) -> None:
     endpoint = find_endpoint(proxy.address)
     before = proxy.requests
-    with pytest.raises(Refused, match="answers 400 Bad Request"):
+    with pytest.raises(RequestRefused, match="answers 400 Bad Request"):
         endpoint.update("INSERT nonsense")
     assert proxy.requests == before + 1
 
@@ -160,13 +159,13 @@ def test_an_update_that_is_refused_is_not_tried_again(server: str, proxy: Proxy)
 def test_an_answer_that_never_ends_is_given_up(proxy: Proxy, fault: Fault) -> None:
     proxy.fail(fault, 1)
     endpoint = HttpEndpoint(proxy.address, "/query", "/update", 0.05)
-    with pytest.raises(Unreachable, match=r"no answer within 0.05 s, or not a whole one within 0.3 s"):
+    with pytest.raises(ServerUnreachable, match=r"no answer within 0.05 s, or not a whole one within 0.3 s"):
         endpoint.query("ASK {}", "text/csv")
 
 
 def test_an_answer_that_is_too_large_is_not_read(proxy: Proxy, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(http, "LARGEST", 10)
-    with pytest.raises(Garbled, match=r"answers with more than 0 MB, which is no world"):
+    with pytest.raises(InvalidAnswer, match=r"answers with more than 0 MB, which is no world"):
         HttpEndpoint(proxy.address, "/query", "/update").query("ASK {}", "application/sparql-results+json")
 
 
@@ -229,6 +228,6 @@ def test_a_password_is_sent_and_never_shown(proxy: Proxy) -> None:
     endpoint = find_endpoint(address)
     assert proxy.authorization == "Basic YW5uOnNlOmNyZXQ=" and str(endpoint) == proxy.address
     proxy.fail("error 500", 1)
-    with pytest.raises(Unreachable) as caught:
+    with pytest.raises(ServerUnreachable) as caught:
         endpoint.query("ASK {}", "text/csv")
     assert "cret" not in str(caught.value)

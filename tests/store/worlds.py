@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 from random import Random
 
-from skillc_runtime.store.contents import world_of
 from skillc_runtime.store.store import Store
-from skillc_runtime.store.triples import all_facts
+from skillc_runtime.store.triples import all_triples
+from skillc_runtime.store.world_from_triples import build_world
 from skillc_runtime.world.state.changes import (
     AddIndividual,
     AddRelation,
@@ -25,7 +25,7 @@ THINGS = ("eraser", "box", "robot", "gripper", "arm")
 
 def facts_of(state: WorldState) -> frozenset[str]:
     """Return what a version says, comparable over processes."""
-    return frozenset(map(str, all_facts(state)))
+    return frozenset(map(str, all_triples(state)))
 
 
 def filling(state: WorldState = SCENE) -> ChangeEvent:
@@ -40,7 +40,7 @@ def model_of(store: Store) -> WorldModel:
         if store.append(filling(), kept.sequence):
             return WorldModel(SCENE, store, kept.sequence + 1)
         kept = store.read()
-    return WorldModel(world_of(kept.triples, VOCABULARY, "the store"), store, kept.sequence)
+    return WorldModel(build_world(kept.triples, VOCABULARY, "the store"), store, kept.sequence)
 
 
 def random_write(chance: Random) -> tuple[Change, ...]:

@@ -27,18 +27,18 @@ from skillc_runtime.recording.reasons import FailedCallContext
 from skillc_runtime.recording.writer import TraceWriter
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.labelled import (
-    ClassFact,
-    IdentityFact,
     IndividualAdded,
     IndividualRemoved,
-    Iri,
+    LabelledClass,
+    LabelledIdentity,
+    LabelledIri,
+    LabelledPose,
+    LabelledProperty,
+    LabelledRelation,
+    LabelledVector,
     NotFinite,
-    Pose,
-    PropertyFact,
     Quantity,
-    RelationFact,
     ValueList,
-    Vector,
 )
 from tree.stage import FLAGS, ON, Library, Script, Stage, act, call, sel, seq, world
 
@@ -86,7 +86,7 @@ def test_changes_of_the_world_are_told_while_the_run_lasts() -> None:
     cell.world.commit([SetProperty(FLAGS[0], ON, True)])
     changes = [event for event in told if isinstance(event, WorldChanged)]
     assert [(event.origin, event.changes) for event in changes] == [
-        ("Set", (PropertyFact(Iri(FLAGS[0], "stage:flag0"), Iri(ON, "on"), False),))
+        ("Set", (LabelledProperty(LabelledIri(FLAGS[0], "stage:flag0"), LabelledIri(ON, "on"), False),))
     ]
 
 
@@ -129,13 +129,13 @@ def test_every_kind_of_event_survives_the_file(tmp_path: Path) -> None:
 
 
 def test_values_are_read_back_as_they_were_written(tmp_path: Path) -> None:
-    arm, flag = Iri("http://lab#Arm", "lab:Arm"), Iri(FLAGS[0], "stage:flag0")
-    pose = Pose((0.1, 0.2, 0.3), (1.0, 0.0, 0.0, 0.0))
-    values = (True, 3, "text", arm, Quantity(5.0, "N"), Vector((0.0, 0.0, 1.0)), NotFinite("inf N"), pose)
+    arm, flag = LabelledIri("http://lab#Arm", "lab:Arm"), LabelledIri(FLAGS[0], "stage:flag0")
+    pose = LabelledPose((0.1, 0.2, 0.3), (1.0, 0.0, 0.0, 0.0))
+    values = (True, 3, "text", arm, Quantity(5.0, "N"), LabelledVector((0.0, 0.0, 1.0)), NotFinite("inf N"), pose)
     bindings = {str(number): value for number, value in enumerate((*values, ValueList((pose, ValueList(values)))))}
-    facts = (RelationFact(arm, arm, None, False), PropertyFact(arm, arm, None), ClassFact(arm, flag))
+    facts = (LabelledRelation(arm, arm, None, False), LabelledProperty(arm, arm, None), LabelledClass(arm, flag))
     changes = (*facts[:2], IndividualAdded(arm, (flag,)), IndividualRemoved(arm))
-    attempted = FailedCallContext(arguments=bindings, facts=(*facts, IdentityFact(arm, flag, False)))
+    attempted = FailedCallContext(arguments=bindings, facts=(*facts, LabelledIdentity(arm, flag, False)))
     here = Position("a.skill", 1, 2)
     highlights = (Highlight("ends", arm, "pressed"),)
     samples = [
@@ -152,8 +152,8 @@ def test_values_are_read_back_as_they_were_written(tmp_path: Path) -> None:
 
 
 def test_a_failure_has_the_values_that_its_message_names() -> None:
-    hole = Iri("http://lab#Hole", "lab:Hole")
-    values = {"depth": Quantity(0.01234, "m"), "hole": hole, "where": Vector((0.1, 0.0, 0.2), "m"), "count": 3}
+    hole = LabelledIri("http://lab#Hole", "lab:Hole")
+    values = {"depth": Quantity(0.01234, "m"), "hole": hole, "where": LabelledVector((0.1, 0.0, 0.2), "m"), "count": 3}
     failure = SkillFailure("sank {depth:.1f mm} of {depth} into {hole} at {where:.2f}, {count} times", **values)
     assert str(failure) == "sank 12.3 mm of 0.01234 m into lab:Hole at (0.10, 0.00, 0.20) m, 3 times"
     assert failure.values == values

@@ -28,7 +28,7 @@ from skillc_runtime.recording.outcome import Outcome
 from skillc_runtime.recording.record import AttemptRecord, NodeRecords
 from skillc_runtime.recording.story import Call, Story
 from skillc_runtime.world.state.changes import SetProperty
-from skillc_runtime.world.state.labelled import Iri
+from skillc_runtime.world.state.labelled import LabelledIri
 from tree.stage import FLAGS, ON, PERIOD_S, Library, Script, Stage, act, check, here, par, seq, world
 from tree.strategies import Play, plays
 from why.stories import BEGIN, events_of, known, steps_of
@@ -121,7 +121,7 @@ def test_steps_side_by_side_know_of_each_other() -> None:
 
 
 LINE = Position("depot.skill", 5, 1)
-A, B = Iri("http://example.org/lab#a", "lab:a"), Iri("http://example.org/lab#b", "lab:b")
+A, B = LabelledIri("http://example.org/lab#a", "lab:a"), LabelledIri("http://example.org/lab#b", "lab:b")
 GO = PlanStep(skill="Go", arguments={"to": B}, source=LINE)
 STAY = PlanStep(skill="Go", arguments={"to": A}, source=LINE)
 
@@ -140,7 +140,7 @@ def ended(number: int, status: str = "success") -> NodeEnded:
     return NodeEnded(time=1.0, node=number, name="Go", status=status, source=LINE)
 
 
-def chose(number: int, to: Iri) -> ImplementationChosen:
+def chose(number: int, to: LabelledIri) -> ImplementationChosen:
     return ImplementationChosen(
         time=0.0, node=number, skill="Go", implementation="wheels", bindings={"to": to}, source=LINE
     )

@@ -8,7 +8,7 @@ from skillc.services import libraries
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_ontology import catalogue
 from skillc_runtime.scene.documents import Document
-from skillc_runtime.scene.load import scene_in
+from skillc_runtime.scene.load import read_with_sheets
 
 VOCABULARY = libraries.compile_library(find_library(SHIPPED / "wiping")).value.vocabulary
 SCENE = catalogue.scene("iiwa_outlet").read_text(encoding="utf-8")
@@ -23,7 +23,8 @@ def with_outlet(old: str, new: str, relation: str = "skillc:hasHole lab:Outlet-1
     before = before.replace("skillc:hasHole lab:Outlet-1, lab:Label-1", relation)
     text = f"{before}lab:Outlet-1 a skillc:Area{outlet.replace(old, new, 1)}"
     return [
-        f"{each.name}: {each.message} ({each.help})" for each in scene_in(Document("s.ttl", text), VOCABULARY).problems
+        f"{each.name}: {each.message} ({each.help})"
+        for each in read_with_sheets(Document("s.ttl", text), VOCABULARY).problems
     ]
 
 
@@ -83,5 +84,5 @@ def test_the_size_of_a_rim_has_bounds() -> None:
 def test_it_is_told_where_the_area_says_so() -> None:
     text = SCENE.replace("PositionX -0.12", "PositionX 12", 1)
     assert text != SCENE
-    (told,) = scene_in(Document("s.ttl", text), VOCABULARY).problems
+    (told,) = read_with_sheets(Document("s.ttl", text), VOCABULARY).problems
     assert text.splitlines()[told.span.line - 1].lstrip().startswith("skiros:PositionX 12")

@@ -14,8 +14,8 @@ from skillc.services import libraries
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document
-from skillc_runtime.scene.load import load_in_bulk, scene_of
-from skillc_runtime.world.state.bulk import Facts, state_of
+from skillc_runtime.scene.load import load_in_bulk, read_documents
+from skillc_runtime.world.state.bulk import FactTables, build_world_state
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation
 from skillc_runtime.world.state.representatives import satisfies_axioms
 from skillc_runtime.world.state.world_state import WorldState
@@ -46,7 +46,7 @@ def test_a_state_made_at_once_is_that_made_by_changes(
     )
     related = {relation: [(a.subject, a.object) for a in added if a.relation == relation] for relation in NAMES_OF}
     assume({(r, *pair) for r, pairs in related.items() for pair in pairs} == _asserted(one_by_one))
-    assert everything(state_of(vocabulary, Facts(types, related, {}))) == everything(one_by_one)
+    assert everything(build_world_state(vocabulary, FactTables(types, related, {}))) == everything(one_by_one)
 
 
 NAMES_OF = tuple(map(iri, ("p", "q", "r", "s")))
@@ -65,7 +65,7 @@ def shipped() -> Vocabulary:
 def test_shipped_scenes_are_read_quickly_and_alike(name: str, shipped: Vocabulary) -> None:
     documents = [Document.read(catalogue.scene(name)), *SHEETS]
     found = load_in_bulk(documents, shipped)
-    assert found is not None and everything(found) == everything(scene_of(documents, shipped).state)
+    assert found is not None and everything(found) == everything(read_documents(documents, shipped).state)
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -74,7 +74,7 @@ def test_what_is_wrong_with_a_changed_scene_is_never_passed_over(name: str, ship
     wrong = right = 0
     for mutant in mutants(text, range(SEEDS)):
         documents = [Document("scene.ttl", mutant.text), *SHEETS]
-        careful, found = scene_of(documents, shipped), load_in_bulk(documents, shipped)
+        careful, found = read_documents(documents, shipped), load_in_bulk(documents, shipped)
         if careful.problems:
             wrong += 1
             assert found is None, (mutant.kind, mutant.line, mutant.before, mutant.after, careful.problems)
@@ -126,7 +126,7 @@ def random_scene(chance: Random) -> str:
 def test_the_quick_reader_passes_over_nothing(more: str, problems: list[str], shipped: Vocabulary) -> None:
     prefixes = "".join(f"@prefix {name}: <{iri}> .\n" for name, iri in PREFIXES.items())
     documents = [Document("s.ttl", f"{prefixes}lab:A a skiros:Product .\n{more}")]
-    found = scene_of(documents, shipped).problems
+    found = read_documents(documents, shipped).problems
     assert [each.name for each in found] == problems
     assert not problems or load_in_bulk(documents, shipped) is None
 
@@ -135,7 +135,7 @@ def test_random_scenes_are_read_alike() -> None:
     wrong = right = 0
     for seed in range(SEEDS * 20):
         documents = [Document("scene.ttl", random_scene(Random(seed)))]
-        careful, found = scene_of(documents, VOCABULARY), load_in_bulk(documents, VOCABULARY)
+        careful, found = read_documents(documents, VOCABULARY), load_in_bulk(documents, VOCABULARY)
         if careful.problems:
             wrong += 1
             assert found is None, (documents[0].text, careful.problems)

@@ -17,11 +17,11 @@ from skillc_model.conditions import (
     PropertyOf,
     Variable,
 )
-from skillc_runtime.world.eval.grounds import grounds
+from skillc_runtime.world.eval.grounds import find_grounds
 from skillc_runtime.world.state import evidence
 from skillc_runtime.world.state.changes import AddIndividual, ClearProperty, RemoveIndividual, RemoveRelation
 from skillc_runtime.world.state.evidence import Evidence
-from skillc_runtime.world.state.facts import Fact, Related, Typed, Valued
+from skillc_runtime.world.state.facts import ClassFact, Fact, PropertyFact, RelationFact
 from skillc_runtime.world.state.labelled import label_fact
 from skillc_runtime.world.state.labelled_text import format_fact
 from skillc_runtime.world.state.model import WorldModel
@@ -30,8 +30,8 @@ from store.worlds import model_of
 from world.lab import SCENE, assign, fact, individual, iri
 
 
-def related(subject: str, relation: str, object_: str, holds: bool = True) -> Related:
-    return Related(iri(subject), iri(relation), iri(object_), holds)
+def related(subject: str, relation: str, object_: str, holds: bool = True) -> RelationFact:
+    return RelationFact(iri(subject), iri(relation), iri(object_), holds)
 
 
 def known(world: WorldModel, about: Fact) -> Evidence | str | None:
@@ -41,7 +41,7 @@ def known(world: WorldModel, about: Fact) -> Evidence | str | None:
 
 
 def test_the_last_write_decides_also_when_it_changes_nothing() -> None:
-    world, weight = WorldModel(SCENE), Valued(iri("box"), iri("weight"))
+    world, weight = WorldModel(SCENE), PropertyFact(iri("box"), iri("weight"))
     assert known(world, weight) == "given"
     world.commit([assign("box", "weight", 4.0)])
     assert known(world, weight) == "assumed", "who does not say how it is known has not looked"
@@ -94,7 +94,7 @@ def test_a_chain_is_as_weak_as_its_weakest_link() -> None:
 
 
 def test_computed_values_are_known_as_what_changed_them() -> None:
-    world, load = WorldModel(SCENE), Valued(iri("shelf"), iri("load"))
+    world, load = WorldModel(SCENE), PropertyFact(iri("shelf"), iri("load"))
     assert known(world, load) == "given"
     world.commit([fact("shelf", "contain", "eraser")], known="sensed")
     assert known(world, load) == "given", "it was there"
@@ -105,15 +105,15 @@ def test_computed_values_are_known_as_what_changed_them() -> None:
 def test_individuals_come_and_go_with_their_facts() -> None:
     world = WorldModel(SCENE)
     world.commit([AddIndividual(iri("new"), (iri("Eraser"),))], known="sensed")
-    assert known(world, Typed(iri("new"), iri("Product"))) == "sensed"
+    assert known(world, ClassFact(iri("new"), iri("Product"))) == "sensed"
     world.commit([assign("new", "weight", 1.0)], known="sensed")
     world.commit([RemoveIndividual(iri("new"))], known="assumed")
-    assert known(world, Valued(iri("new"), iri("weight"))) == "assumed"
-    assert known(world, Typed(iri("new"), iri("Product"), holds=False)) == "assumed"
+    assert known(world, PropertyFact(iri("new"), iri("weight"))) == "assumed"
+    assert known(world, ClassFact(iri("new"), iri("Product"), holds=False)) == "assumed"
 
 
 def test_what_is_taken_back_is_known_as_before() -> None:
-    world, weight = WorldModel(SCENE), Valued(iri("box"), iri("weight"))
+    world, weight = WorldModel(SCENE), PropertyFact(iri("box"), iri("weight"))
     world.commit([assign("box", "weight", 4.0)], known="sensed")
     world.commit([assign("box", "weight", 5.0)], known="assumed")
     world.undo()
@@ -128,20 +128,20 @@ def test_what_others_write_is_no_claim_of_this_run() -> None:
     one.commit([assign("box", "weight", 4.0)], known="assumed")
     other.commit([assign("box", "weight", 5.0)], known="assumed")
     one.follow()
-    assert known(one, Valued(iri("box"), iri("weight"))) is None
-    assert known(other, Valued(iri("box"), iri("weight"))) == "assumed"
+    assert known(one, PropertyFact(iri("box"), iri("weight"))) is None
+    assert known(other, PropertyFact(iri("box"), iri("weight"))) == "assumed"
 
 
 def test_old_writes_are_taken_together_and_the_weakest_counts(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(evidence, "LIMIT", 3)
-    world, weight = WorldModel(SCENE), Valued(iri("box"), iri("weight"))
+    world, weight = WorldModel(SCENE), PropertyFact(iri("box"), iri("weight"))
     world.commit([assign("box", "weight", 4.0)], "Weigh", "sensed")
     world.commit([assign("board", "isClean", True)], "Guess", "assumed")
     assert known(world, weight) == "sensed"
     for number in range(3):
         world.commit([assign("eraser", "weight", float(number))], known="sensed")
     assert known(world, weight) == "assumed", "rather too weak than too strong"
-    assert known(world, Valued(iri("eraser"), iri("weight"))) == "sensed"
+    assert known(world, PropertyFact(iri("eraser"), iri("weight"))) == "sensed"
 
 
 BOX_HEAVY = Compare(PropertyOf(Individual(iri("box")), iri("weight")), ">", Literal(1.0))
@@ -172,7 +172,7 @@ def test_a_condition_rests_on_the_facts_that_decide_it(condition: Condition, exp
     world.commit([assign("box", "weight", 4.0)], "Weigh", "sensed")
     world.commit([assign("board", "isClean", True)], "Wipe", "assumed")
     world.commit([fact("shelf", "contain", "eraser")], "Place", "assumed")
-    found = grounds(condition, world, {})
+    found = find_grounds(condition, world, {})
     told = {
         format_fact(label_fact(each.fact, world.snapshot())): each.established.evidence
         for each in found

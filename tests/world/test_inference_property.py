@@ -31,7 +31,7 @@ from skillc_model.skills import Parameter, Requirement
 from skillc_rdf.vocabulary.types import THING
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.inference import Ambiguous, Found, NoneFound, infer
-from skillc_runtime.world.eval.nearest import FEW, NearMiss
+from skillc_runtime.world.eval.near_misses import MAX_NEAR_MISSES, NearMiss
 from skillc_runtime.world.state.world_state import WorldState
 from world.lab import SCENE, assign, fact, individual, iri, parameter, requirement
 
@@ -155,7 +155,7 @@ def near_misses(classes_of: dict[str, str], asked: tuple[Requirement, ...], stat
 
 def _few(dropped: Requirement | None, about: tuple[str, ...], answers: list[dict[str, str]]) -> list[Near]:
     different = sorted({tuple(one[name] for name in about) for one in answers}) if about else []
-    return [(dropped, about, each) for each in different] if len(different) <= FEW else []
+    return [(dropped, about, each) for each in different] if len(different) <= MAX_NEAR_MISSES else []
 
 
 def _class_of(each: Parameter) -> str:

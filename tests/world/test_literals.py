@@ -7,7 +7,7 @@ import pytest
 
 from skillc_rdf.turtle.terms import XSD
 from skillc_rdf.vocabulary.types import PlainType, PropertyTerm, VectorType
-from skillc_runtime.store.literals import LiteralError, read
+from skillc_runtime.store.literals import LiteralError, read_literal
 
 
 def literal(text: str, kind: str) -> ox.Literal:
@@ -29,18 +29,18 @@ COUNT = PropertyTerm(iri="t:count", domains=(), type=PlainType("Int"))
     ],
 )
 def test_integers_are_exact(text: str, kind: str, value: int) -> None:
-    assert read(literal(text, kind), COUNT) == value
+    assert read_literal(literal(text, kind), COUNT) == value
 
 
 @pytest.mark.parametrize(("text", "kind"), [(str(2**63), "integer"), ("-1e300", "double"), ("9" * 5000, "integer")])
 def test_an_integer_that_is_too_large_says_so(text: str, kind: str) -> None:
     with pytest.raises(LiteralError, match="this number is too large"):
-        read(literal(text, kind), COUNT)
+        read_literal(literal(text, kind), COUNT)
 
 
 def test_a_vector_with_a_number_that_is_too_large_says_so() -> None:
     term = PropertyTerm(iri="t:offset", domains=(), type=VectorType("Length"))
     with pytest.raises(LiteralError, match="a number of this vector is too large"):
-        read(ox.Literal("0 1e400 0"), term)
+        read_literal(ox.Literal("0 1e400 0"), term)
     with pytest.raises(LiteralError, match="is not three numbers"):
-        read(ox.Literal("0 inf 0"), term)
+        read_literal(ox.Literal("0 inf 0"), term)

@@ -6,25 +6,25 @@ import pytest
 
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_runtime.world.state.changes import AddRelation, RemoveRelation
-from skillc_runtime.world.state.contexts import Context, Contexts
-from skillc_runtime.world.state.elements import Quantity, element, find, search
+from skillc_runtime.world.state.elements import PropertyValue, find_element, find_elements, search_elements
 from skillc_runtime.world.state.names import NoSuchName
+from skillc_runtime.world.state.provenance import FactSource, Provenance
 from skillc_runtime.world.state.world_state import WorldState
 from world.lab import SCENE, VOCABULARY, assign, fact, individual, iri
 
 
 def test_an_element_shows_what_is_known_of_it() -> None:
-    box, robot = element(SCENE, "t:box"), element(SCENE, iri("robot"))
+    box, robot = find_element(SCENE, "t:box"), find_element(SCENE, iri("robot"))
     assert (str(box), box.types, box.is_a("t:Product"), box.is_a("t:Eraser")) == (
         "t:box",
         (iri("Product"),),
         True,
         False,
     )
-    assert box.quantities == (Quantity(iri("label"), ("red", "heavy"), ""), Quantity(iri("weight"), 3, "kg"))
+    assert box.quantities == (PropertyValue(iri("label"), ("red", "heavy"), ""), PropertyValue(iri("weight"), 3, "kg"))
     assert str(box.quantity("t:weight")) == "3 kg" and box.quantity("t:label") == box.quantities[0]
-    assert element(SCENE, "t:arm").quantity("t:isClean") is None
-    assert str(element(SCENE, "t:table").quantity("t:load")) == "1"
+    assert find_element(SCENE, "t:arm").quantity("t:isClean") is None
+    assert str(find_element(SCENE, "t:table").quantity("t:load")) == "1"
     assert [str(each) for each in robot.objects("t:within-it")] == ["t:arm", "t:gripper"]
     assert robot.relations == ((iri("at"), iri("table")), (iri("hasA"), iri("arm")))
     assert [str(each) for each in box.subjects("t:contain")] == ["t:table"]
@@ -35,21 +35,23 @@ def names(found: tuple[object, ...]) -> list[str]:
 
 
 def test_individuals_are_found_by_class_relation_and_value() -> None:
-    assert names(find(SCENE, "t:Location")) == ["t:shelf", "t:table"]
-    assert names(find(SCENE, related={"t:contain": "t:box", "t:beside": "t:shelf"})) == ["t:table"]
-    assert names(find(SCENE, "t:Product", having={"t:weight": 3.0})) == ["t:box"]
-    assert names(find(SCENE, having={"t:label": "red"})) == ["t:box"]
-    assert names(find(SCENE, "t:Location", related={"t:contain": "t:box"}, having={"t:label": "red"})) == []
-    assert names(search(SCENE, "HEAVY product")) == ["t:box"] and names(search(SCENE, "heavy arm")) == []
+    assert names(find_elements(SCENE, "t:Location")) == ["t:shelf", "t:table"]
+    assert names(find_elements(SCENE, related={"t:contain": "t:box", "t:beside": "t:shelf"})) == ["t:table"]
+    assert names(find_elements(SCENE, "t:Product", having={"t:weight": 3.0})) == ["t:box"]
+    assert names(find_elements(SCENE, having={"t:label": "red"})) == ["t:box"]
+    assert names(find_elements(SCENE, "t:Location", related={"t:contain": "t:box"}, having={"t:label": "red"})) == []
+    assert (
+        names(search_elements(SCENE, "HEAVY product")) == ["t:box"] and names(search_elements(SCENE, "heavy arm")) == []
+    )
 
 
 UNKNOWN = [
-    (lambda: element(SCENE, "t:boxx"), "there is no individual t:boxx; did you mean t:box?"),
-    (lambda: element(SCENE, "t:qqq"), "there is t:arm, t:board"),
-    (lambda: find(SCENE, "t:Locatoin"), "there is no term t:Locatoin; did you mean t:Location?"),
-    (lambda: find(SCENE, related={"t:weight": "t:box"}), "t:weight is no relation"),
-    (lambda: find(SCENE, having={"t:contain": 3.0}), "t:contain is no property"),
-    (lambda: element(SCENE, "q:box"), "there is no prefix `q`"),
+    (lambda: find_element(SCENE, "t:boxx"), "there is no individual t:boxx; did you mean t:box?"),
+    (lambda: find_element(SCENE, "t:qqq"), "there is t:arm, t:board"),
+    (lambda: find_elements(SCENE, "t:Locatoin"), "there is no term t:Locatoin; did you mean t:Location?"),
+    (lambda: find_elements(SCENE, related={"t:weight": "t:box"}), "t:weight is no relation"),
+    (lambda: find_elements(SCENE, having={"t:contain": 3.0}), "t:contain is no property"),
+    (lambda: find_element(SCENE, "q:box"), "there is no prefix `q`"),
 ]
 
 
@@ -67,38 +69,38 @@ LATER = SCENE.changed([fact("table", "contain", "eraser"), assign("box", "weight
 
 
 def test_facts_come_from_sheets_scene_run_or_axioms() -> None:
-    contexts = Contexts(SHEETS, SCENE)
+    contexts = Provenance(SHEETS, SCENE)
     facts = {
-        ("arm", "hasGripper", "gripper"): Context.ROBOT,
-        ("shelf", "beside", "table"): Context.SCENE,
-        ("table", "beside", "shelf"): Context.INFERRED,
-        ("table", "contain", "eraser"): Context.RUN,
-        ("robot", "near", "gripper"): Context.INFERRED,
+        ("arm", "hasGripper", "gripper"): FactSource.ROBOT,
+        ("shelf", "beside", "table"): FactSource.SCENE,
+        ("table", "beside", "shelf"): FactSource.INFERRED,
+        ("table", "contain", "eraser"): FactSource.RUN,
+        ("robot", "near", "gripper"): FactSource.INFERRED,
         ("shelf", "contain", "eraser"): None,
     }
     found = {each: contexts.of_relation(LATER, *map(iri, each)) for each in facts}
     assert found == facts
-    classes = {"CompliantArm": Context.SCENE, "Arm": Context.INFERRED, "Product": None}
+    classes = {"CompliantArm": FactSource.SCENE, "Arm": FactSource.INFERRED, "Product": None}
     assert {each: contexts.of_class(LATER, iri("arm"), iri(each)) for each in classes} == classes
-    assert contexts.of_class(LATER, iri("gripper"), iri("WsgGripper")) is Context.ROBOT
-    assert contexts.of_class(LATER, iri("box"), iri("Eraser")) is Context.RUN
-    assert contexts.of_value(LATER, iri("box"), iri("weight"), 5.0) is Context.RUN
+    assert contexts.of_class(LATER, iri("gripper"), iri("WsgGripper")) is FactSource.ROBOT
+    assert contexts.of_class(LATER, iri("box"), iri("Eraser")) is FactSource.RUN
+    assert contexts.of_value(LATER, iri("box"), iri("weight"), 5.0) is FactSource.RUN
     assert contexts.of_value(LATER, iri("box"), iri("weight"), 3) is None
-    assert contexts.of_value(LATER, iri("box"), iri("label"), "red") is Context.SCENE
+    assert contexts.of_value(LATER, iri("box"), iri("label"), "red") is FactSource.SCENE
 
 
 def test_every_fact_comes_from_one_place() -> None:
-    contexts = Contexts(SHEETS, SCENE)
-    by_context = {each: set(contexts.relations(LATER, each)) for each in Context}
+    contexts = Provenance(SHEETS, SCENE)
+    by_context = {each: set(contexts.relations(LATER, each)) for each in FactSource}
     expected = {(s, r, o) for r in LATER.facts for s, o in LATER.pairs(r)}
     expected |= {(one, RDF_TYPE, cls) for one, classes in LATER.classes.items() for cls in classes}
     assert all(by_context.values()) and sum(map(len, by_context.values())) == len(expected)
     assert set().union(*by_context.values()) == expected
-    assert (iri("table"), iri("contain"), iri("eraser")) in by_context[Context.RUN]
+    assert (iri("table"), iri("contain"), iri("eraser")) in by_context[FactSource.RUN]
 
 
 def test_a_fact_of_the_scene_that_comes_back_is_one_of_the_scene() -> None:
     gone = SCENE.changed([RemoveRelation(iri("table"), iri("contain"), iri("box"))])
     back = gone.changed([AddRelation(iri("table"), iri("contain"), iri("box"))])
-    contexts, contain = Contexts(SHEETS, SCENE), (iri("table"), iri("contain"), iri("box"))
-    assert contexts.of_relation(gone, *contain) is None and contexts.of_relation(back, *contain) is Context.SCENE
+    contexts, contain = Provenance(SHEETS, SCENE), (iri("table"), iri("contain"), iri("box"))
+    assert contexts.of_relation(gone, *contain) is None and contexts.of_relation(back, *contain) is FactSource.SCENE

@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from skillc_runtime.world.state.table import Members
+from skillc_runtime.world.state.versioned import VersionedSet
 
 NAMES = st.sampled_from([f"x{number}" for number in range(40)])
 
@@ -13,7 +13,7 @@ NAMES = st.sampled_from([f"x{number}" for number in range(40)])
 @settings(max_examples=50, deadline=None)
 @given(st.frozensets(NAMES), st.lists(st.tuples(st.dictionaries(NAMES, st.booleans()), st.booleans()), max_size=12))
 def test_every_version_has_its_members(base: frozenset[str], writes: list[tuple[dict[str, bool], bool]]) -> None:
-    versions, expected = [Members(base)], [base]
+    versions, expected = [VersionedSet(base)], [base]
     for changes, looked_at in writes:
         if looked_at:
             assert versions[-1].all() == expected[-1]

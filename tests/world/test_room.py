@@ -80,5 +80,5 @@ except SceneError as error:
 
 
 def test_what_is_available_is_told_here() -> None:
-    left = room.available()
+    left = room.available_bytes()
     assert sys.platform != "linux" or (left is not None and left > MEGABYTE)

@@ -14,8 +14,8 @@ from skillc.services import libraries
 from skillc_ontology import catalogue
 from skillc_runtime.scene import saving
 from skillc_runtime.scene.documents import Document
-from skillc_runtime.scene.load import load_in_bulk, load_scene, load_sheets, world_of
-from skillc_runtime.scene.saving import SaveError, save, turtle
+from skillc_runtime.scene.load import load_documents, load_in_bulk, load_scene, load_sheets
+from skillc_runtime.scene.saving import SaveError, format_scene, save_scene
 from skillc_runtime.world.state.changes import AddIndividual
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState
@@ -29,8 +29,8 @@ SEEDS = range(int(os.environ.get("WORLD_SEEDS", "15")))
 
 def again(state: WorldState, source: str | None = None) -> WorldState:
     """Save a world and load it."""
-    text = turtle(state, EMPTY, None if source is None else Document("source.ttl", source))
-    return world_of([Document("saved.ttl", text)], VOCABULARY)
+    text = format_scene(state, EMPTY, None if source is None else Document("source.ttl", source))
+    return load_documents([Document("saved.ttl", text)], VOCABULARY)
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -40,7 +40,7 @@ def test_no_fact_is_lost(seed: int) -> None:
     assert facts_of(found) == facts_of(last.after)
     relations = [(r, set(found.pairs(r)), set(last.after.pairs(r))) for r in VOCABULARY.relations]
     assert relations and all(one == other for _, one, other in relations)
-    assert turtle(found, EMPTY) == turtle(last.after, EMPTY)
+    assert format_scene(found, EMPTY) == format_scene(last.after, EMPTY)
 
 
 @settings(max_examples=int(os.environ.get("SAVED_VALUES", "30")), deadline=None)
@@ -58,11 +58,11 @@ def test_shipped_scenes_come_back_with_labels_and_without_data_sheets(name: str)
     vocabulary = libraries.vocabulary()
     state, sheets = load_scene(catalogue.scene(name), vocabulary), load_sheets(vocabulary)
     source = Document.read(catalogue.scene(name))
-    text = turtle(state, sheets, source)
+    text = format_scene(state, sheets, source)
     found = load_in_bulk([Document("s", text), *(Document(*each) for each in catalogue.vocabulary_files())], vocabulary)
     assert found is not None and everything(found) == everything(state)
     assert text.count("rdfs:label") == source.text.count("rdfs:label") > 0
-    assert "JointValues" not in text and turtle(found, sheets, Document("s", text)) == text
+    assert "JointValues" not in text and format_scene(found, sheets, Document("s", text)) == text
 
 
 SOURCE = """@prefix t: <http://example.org/test#> . @prefix owl: <http://www.w3.org/2002/07/owl#> .
@@ -75,12 +75,12 @@ l:old a t:Mug ; rdfs:label "broken" . l:pattern a skiros:Template, t:Mug ; t:wei
 
 
 def test_what_a_scene_says_beside_its_facts_is_kept_without_what_is_gone() -> None:
-    model = WorldModel(world_of([Document("source.ttl", SOURCE)], VOCABULARY))
+    model = WorldModel(load_documents([Document("source.ttl", SOURCE)], VOCABULARY))
     with model.transaction() as now:
         now.remove("l:old")
         now.set("l:cup", "t:weight", 0.25)
-    text = turtle(model.snapshot(), EMPTY, Document("source.ttl", SOURCE))
-    found = world_of([Document("saved.ttl", text)], VOCABULARY)
+    text = format_scene(model.snapshot(), EMPTY, Document("source.ttl", SOURCE))
+    found = load_documents([Document("saved.ttl", text)], VOCABULARY)
     assert everything(found) | {"vocabulary": 0} == everything(model.snapshot()) | {"vocabulary": 0}
     assert found.is_a("http://lab#cup", iri("Product"))
     for kept in ('"mug"@en', "Jo's cup", "a shop", "skiros:Template", "owl:NamedIndividual", "2.0e-1"):
@@ -91,23 +91,23 @@ def test_what_a_scene_says_beside_its_facts_is_kept_without_what_is_gone() -> No
 
 def test_a_file_is_replaced_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "scene.ttl"
-    save(SCENE, path, EMPTY)
+    save_scene(SCENE, path, EMPTY)
     written = path.read_text("utf-8")
-    assert facts_of(world_of([Document.read(path)], VOCABULARY)) == facts_of(SCENE)
+    assert facts_of(load_documents([Document.read(path)], VOCABULARY)) == facts_of(SCENE)
 
     def full(_file: int) -> None:
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(saving.os, "fsync", full)
     with pytest.raises(OSError, match="No space"):
-        save(EMPTY.changed([individual("box", "Product")]), path, EMPTY)
+        save_scene(EMPTY.changed([individual("box", "Product")]), path, EMPTY)
     assert path.read_text("utf-8") == written and list(tmp_path.iterdir()) == [path]
 
 
 def test_what_no_scene_can_say_is_refused() -> None:
     with pytest.raises(SaveError, match="it is no IRI"):
-        turtle(SCENE.changed([AddIndividual("a b", (iri("Product"),))]), EMPTY)
+        format_scene(SCENE.changed([AddIndividual("a b", (iri("Product"),))]), EMPTY)
     with pytest.raises(SaveError, match="nan is no number"):
-        turtle(SCENE.changed([assign("box", "weight", float("nan"))]), EMPTY)
+        format_scene(SCENE.changed([assign("box", "weight", float("nan"))]), EMPTY)
     with pytest.raises(SaveError, match="cannot take back what data sheets say"):
-        turtle(SCENE.changed([assign("box", "weight", 1.0)]), SCENE)
+        format_scene(SCENE.changed([assign("box", "weight", 1.0)]), SCENE)

@@ -6,7 +6,7 @@ import pytest
 
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document, SceneError
-from skillc_runtime.scene.load import load_scene, world_of
+from skillc_runtime.scene.load import load_documents, load_scene
 from skillc_runtime.world.state.listing import list_entries
 from skillc_runtime.world.state.world_state import WorldState
 from world.lab import NS, VOCABULARY, iri
@@ -21,7 +21,7 @@ LAB = "http://example.org/lab#"
 
 def world(text: str, vocabulary: Vocabulary = VOCABULARY) -> WorldState:
     """Load a scene given as text below the usual prefixes."""
-    return world_of([Document("scene.ttl", PREFIXES + text)], vocabulary)
+    return load_documents([Document("scene.ttl", PREFIXES + text)], vocabulary)
 
 
 GOOD = """lab:Table a t:Location ; rdfs:label "a table; with. marks" ; t:contain lab:Box, lab:Eraser .   # a comment . ;

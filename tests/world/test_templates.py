@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from skillc_runtime.scene.documents import Document, SceneError
-from skillc_runtime.scene.load import world_of
-from skillc_runtime.scene.templates import templates_of
+from skillc_runtime.scene.load import load_documents
+from skillc_runtime.scene.templates import read_templates
 from skillc_runtime.world.state.model import WorldError, WorldModel
 from skillc_runtime.world.state.names import NoSuchName
 from skillc_runtime.world.state.templates import Templates
@@ -24,8 +24,8 @@ lab:Arm a skiros:Template, t:CompliantArm ; t:state "Idle" ; t:near lab:Robot .
 
 def read(text: str) -> tuple[WorldModel, Templates]:
     documents = [Document("scene.ttl", HEAD + text)]
-    model = WorldModel(world_of(documents, VOCABULARY))
-    return model, templates_of(documents, model.snapshot().vocabulary)
+    model = WorldModel(load_documents(documents, VOCABULARY))
+    return model, read_templates(documents, model.snapshot().vocabulary)
 
 
 def test_what_a_template_says_is_true_of_what_is_made_of_it() -> None:
@@ -76,6 +76,6 @@ BAD = [
 @pytest.mark.parametrize(("text", "words"), BAD)
 def test_a_template_that_makes_no_sense_is_told(text: str, words: str) -> None:
     with pytest.raises(SceneError) as caught:
-        templates_of([Document("scene.ttl", HEAD + text)], VOCABULARY)
+        read_templates([Document("scene.ttl", HEAD + text)], VOCABULARY)
     assert any(words in problem.message for problem in caught.value.problems)
     assert all(problem.span.line == HEAD.count("\n") + 1 for problem in caught.value.problems)

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from skillc.services.scenes import Individual, OpenScene, SceneDiff
-from skillc_runtime.scene.query import Answer, Cell
+from skillc_runtime.scene.query import QueryResult, QueryValue
 from skillc_runtime.world.state.listing import ListingEntry
-from skillc_runtime.world.state.values import plain, show
+from skillc_runtime.world.state.values import show, to_json
 
 
 def format_entries(entries: Iterable[ListingEntry], scene: OpenScene, as_json: bool) -> str:
@@ -26,7 +26,7 @@ def format_individuals(individuals: Iterable[Individual], scene: OpenScene, as_j
     return "\n\n".join(_individual_text(each, scene) for each in individuals)
 
 
-def format_answer(answer: Answer, as_json: bool) -> str:
+def format_answer(answer: QueryResult, as_json: bool) -> str:
     """Return the answer of a query, as a table or as a list of objects."""
     if as_json:
         return _json([dict(zip(answer.columns, row, strict=True)) for row in answer.rows])
@@ -63,7 +63,7 @@ def _entry_data(entry: ListingEntry, scene: OpenScene) -> dict[str, object]:
         "label": scene.labels.get(entry.individual),
         "types": [short(each) for each in entry.types],
         "relations": related,
-        "properties": {short(name): plain(value) for name, value in entry.properties},
+        "properties": {short(name): to_json(value) for name, value in entry.properties},
     }
 
 
@@ -90,7 +90,7 @@ def _names(iris: Sequence[str], scene: OpenScene) -> str:
     return ", ".join(map(scene.state.vocabulary.short, iris))
 
 
-def _cell_text(cell: Cell) -> str:
+def _cell_text(cell: QueryValue) -> str:
     if isinstance(cell, bool):
         return show(cell)
     return "" if cell is None else str(cell)

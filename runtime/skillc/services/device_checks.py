@@ -12,7 +12,7 @@ from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean
 from skillc_runtime.control.gains import UnknownController, read_gains
 from skillc_runtime.scene.load import Scene
 from skillc_runtime.scene.statements import iri_of
-from skillc_runtime.world.state.data_sheet import Sheet, SheetError
+from skillc_runtime.world.state.data_sheet import DataSheet, SheetError
 from skillc_runtime.world.state.terms import ARM_DEVICE, COMPLIANT_CONTROLLER, HAS_SHEET, POSTURE_NAME
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -43,7 +43,7 @@ def check_sheets(scene: Scene, path: str) -> Iterator[Diagnostic]:
     for each in scene.said:
         arm = iri_of(each.subject)
         if each.predicate == HAS_SHEET and each.lines.path == path and scene.state.is_a(arm, ARM_DEVICE):
-            sheet = Sheet(scene.state, iri_of(each.object))
+            sheet = DataSheet(scene.state, iri_of(each.object))
             missing = _missing_from(scene.state, arm, sheet)
             if missing is not None:
                 message = f"{scene.state.vocabulary.short(arm)} cannot be run with this sheet: {missing}"
@@ -52,7 +52,7 @@ def check_sheets(scene: Scene, path: str) -> Iterator[Diagnostic]:
                 )
 
 
-def _misspelt_home(scene: Scene, path: str, sheet: Sheet, message: str) -> Diagnostic | None:
+def _misspelt_home(scene: Scene, path: str, sheet: DataSheet, message: str) -> Diagnostic | None:
     """Return what is reported at the name of a posture in this file that is close to the one that is missing."""
     near = get_close_matches(HOME, sheet.posture_names, n=1) if HOME not in sheet.posture_names else []
     for each in scene.said:
@@ -64,7 +64,7 @@ def _misspelt_home(scene: Scene, path: str, sheet: Sheet, message: str) -> Diagn
     return None
 
 
-def _missing_from(state: WorldState, arm: str, sheet: Sheet) -> str | None:
+def _missing_from(state: WorldState, arm: str, sheet: DataSheet) -> str | None:
     """Return what a sheet lacks for an arm; what keeps its controller from being known is told elsewhere."""
     # The simulator takes long to import.
     import mujoco

@@ -18,7 +18,7 @@ from skillc_rdf.turtle.parser import parse
 from skillc_rdf.turtle.statements import Node
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import BASE, WELL_KNOWN, Document
-from skillc_runtime.scene.load import scene_of, sheet_documents
+from skillc_runtime.scene.load import read_documents, sheet_documents
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -45,7 +45,7 @@ def edit_file(scene: Path, state: WorldState, edits: Sequence[str]) -> str:
         _apply(editor, text, _parse(text, prefixes, state.vocabulary), state)
     if editor.text == before:
         return f"{scene} says so already"
-    after = scene_of([Document(str(scene), editor.text), *sheet_documents()], state.vocabulary)
+    after = read_documents([Document(str(scene), editor.text), *sheet_documents()], state.vocabulary)
     if not after.ok:
         raise ServiceError(_errors_after(scene, after.problems))
     rewrite_file(scene, before, editor.text)

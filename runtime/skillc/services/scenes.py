@@ -20,14 +20,14 @@ from skillc.services.stores import StoreChoice, load_world, open_world
 from skillc_compiler.emit.picture import svg
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import Vocabulary
-from skillc_runtime.scene.contents import read_contents
 from skillc_runtime.scene.documents import Document
-from skillc_runtime.scene.load import sheet_documents, world_of
-from skillc_runtime.scene.query import Answer, QueryError, run_query
-from skillc_runtime.store.triples import all_facts
-from skillc_runtime.world.state.elements import search
+from skillc_runtime.scene.load import load_documents, sheet_documents
+from skillc_runtime.scene.query import QueryError, QueryResult, run_query
+from skillc_runtime.scene.statements import read_contents
+from skillc_runtime.store.triples import all_triples
+from skillc_runtime.world.state.elements import search_elements
 from skillc_runtime.world.state.listing import ListingEntry, list_entries
-from skillc_runtime.world.state.names import NoSuchName, individual_of
+from skillc_runtime.world.state.names import NoSuchName, resolve_individual
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -99,7 +99,7 @@ def find_individuals(scene: OpenScene, words: str | None) -> tuple[ListingEntry,
         return list_entries(scene.state, scene.individuals)
     wanted = words.casefold().split()
     labelled = {iri for iri, label in scene.labels.items() if all(word in label.casefold() for word in wanted)}
-    found = ({each.iri for each in search(scene.state, words)} | labelled) & scene.individuals
+    found = ({each.iri for each in search_elements(scene.state, words)} | labelled) & scene.individuals
     if not found:
         raise ServiceError(f"nothing in the scene is called, or of a class called, or says `{words}`")
     return list_entries(scene.state, found)
@@ -108,13 +108,13 @@ def find_individuals(scene: OpenScene, words: str | None) -> tuple[ListingEntry,
 def describe_individuals(scene: OpenScene, names: Sequence[str]) -> list[Individual]:
     """Return all there is to know of individuals. ServiceError for a name of none."""
     try:
-        chosen = [individual_of(name, scene.state) for name in names]
+        chosen = [resolve_individual(name, scene.state) for name in names]
     except NoSuchName as error:
         raise ServiceError(str(error)) from error
     return [_describe(entry, scene.state) for entry in list_entries(scene.state, chosen)]
 
 
-def query_scene(scene: OpenScene, sparql: str) -> Answer:
+def query_scene(scene: OpenScene, sparql: str) -> QueryResult:
     """Answer a query over the scene and the shipped ontology. ServiceError for what is not SPARQL."""
     try:
         return run_query([scene.document, *sheet_documents()], sparql, scene.state.vocabulary)
@@ -125,7 +125,7 @@ def query_scene(scene: OpenScene, sparql: str) -> Answer:
 def compare_scenes(scene: OpenScene, other: Path, reporter: Reporter) -> SceneDiff:
     """Return what the other scene takes away and adds."""
     state = load_world(find_scene(other), scene.vocabulary, reporter)
-    ours, theirs = frozenset(all_facts(scene.state)), frozenset(all_facts(state))
+    ours, theirs = frozenset(all_triples(scene.state)), frozenset(all_triples(state))
     return SceneDiff(_texts(ours - theirs, scene.state.vocabulary), _texts(theirs - ours, state.vocabulary))
 
 
@@ -153,8 +153,8 @@ def _library_beside(scene: Path | None) -> Path | None:
 
 def _stored_document(place: str, state: WorldState) -> Document:
     """Return as a document what the world in a store says beside the shipped ontology."""
-    shipped = frozenset(all_facts(world_of(sheet_documents(), state.vocabulary)))
-    return Document(place, "".join(sorted(f"{fact} .\n" for fact in all_facts(state) if fact not in shipped)))
+    shipped = frozenset(all_triples(load_documents(sheet_documents(), state.vocabulary)))
+    return Document(place, "".join(sorted(f"{fact} .\n" for fact in all_triples(state) if fact not in shipped)))
 
 
 def _describe(entry: ListingEntry, state: WorldState) -> Individual:

@@ -16,9 +16,9 @@ from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import SceneError
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.store.address import without_credentials
-from skillc_runtime.store.contents import world_of
 from skillc_runtime.store.opening import OpenStore, open_store
 from skillc_runtime.store.store import StoredWorld
+from skillc_runtime.store.world_from_triples import build_world
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.transactions import ChangeEvent, StoreError
 from skillc_runtime.world.state.world_state import WorldState
@@ -116,7 +116,7 @@ def _world(store: OpenStore, scene: Path | None, vocabulary: Vocabulary, reporte
             return WorldModel(state, store, stored.sequence + 1)
         stored = store.read()
     _compare(stored, scene, store, reporter)
-    state = world_of(stored.triples, vocabulary, str(store))
+    state = build_world(stored.triples, vocabulary, str(store))
     count = count_of(stored.sequence, "transaction")
     reporter.say(f"{store}: the world after {count}, which began as {_name(stored)}")
     return WorldModel(state, store, stored.sequence)

@@ -17,7 +17,7 @@ from skillc_model.skills import Task
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document, SceneError
-from skillc_runtime.scene.load import Scene, scene_in
+from skillc_runtime.scene.load import Scene, read_with_sheets
 from skillc_runtime.world.state.world_state import WorldState
 
 Individuals: TypeAlias = dict[str, list[str]]
@@ -56,7 +56,7 @@ def read_scene(path: Path, vocabulary: Vocabulary, text: str | None = None) -> O
     """Read a scene file, or a text that stands for it."""
     try:
         document = Document.read(path) if text is None else Document(str(path), text)
-        scene = scene_in(document, vocabulary)
+        scene = read_with_sheets(document, vocabulary)
     except SceneError as error:
         return Outcome(None, tuple(scene_diagnostics.with_shown_paths(error.problems)))
     return Outcome(scene, tuple(scene_diagnostics.with_shown_paths(scene.problems)))

@@ -9,7 +9,7 @@ import numpy as np
 from skillc_runtime.collision.scenery import Block, place_of
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.space.frames import size
-from skillc_runtime.world.state.data_sheet import number, sheet_of
+from skillc_runtime.world.state.data_sheet import number_of, sheet_of
 from skillc_runtime.world.state.terms import (
     BASE_FRAME_ID,
     CLEARANCE,
@@ -54,7 +54,7 @@ def outfit(state: WorldState, arm: str, opening_m: dict[str, float]) -> ArmAssem
         name=state.vocabulary.short(arm),
         model=str(sheet.model),
         hand=_hand(state, grippers[0], opening_m[grippers[0]]) if grippers else None,
-        clearance_m=number(state, sheet.individual, CLEARANCE, default=0.0),
+        clearance_m=number_of(state, sheet.individual, CLEARANCE, default=0.0),
     )
 
 

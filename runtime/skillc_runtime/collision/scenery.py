@@ -10,7 +10,7 @@ from typing import TypeAlias
 import numpy as np
 
 from skillc_runtime.motion.pose import Pose, quaternion_of
-from skillc_runtime.world.space.boxes import solid
+from skillc_runtime.world.space.bounding_boxes import solid_box
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
@@ -79,7 +79,7 @@ def _blocks(state: WorldState, inward: Pose) -> Iterator[Block]:
         if state.is_a(individual, WORKSPACE) or state.is_a(individual, FIXTURE):
             continue
         with suppress(FrameError):
-            box = solid(state, individual)
+            box = solid_box(state, individual)
             middle = inward @ box.middle
             if np.linalg.norm(middle.position) - np.linalg.norm(box.half) < FAR_M:
                 yield Block(state.vocabulary.short(individual), place_of(middle), tuple(box.half.tolist()))

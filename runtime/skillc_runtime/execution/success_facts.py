@@ -8,7 +8,7 @@ from typing import TypeAlias
 from skillc_model.conditions import Condition
 from skillc_runtime.recording.known import KnownFact
 from skillc_runtime.world.eval.conditions import evaluate
-from skillc_runtime.world.eval.grounds import Ground, grounds
+from skillc_runtime.world.eval.grounds import Ground, find_grounds
 from skillc_runtime.world.state.labelled import label_fact
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.values import Value
@@ -25,7 +25,7 @@ def collect_success_facts(claims: Iterable[Claim], world: WorldModel) -> tuple[K
         ground.fact: ground
         for condition, bindings in claims
         if evaluate(condition, state, bindings)
-        for ground in grounds(condition, world, bindings)
+        for ground in find_grounds(condition, world, bindings)
     }
     return tuple(_make_known_fact(ground, state) for ground in found.values())
 

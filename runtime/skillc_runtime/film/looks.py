@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from skillc_runtime.backends.mujoco.scene_spec import ArmSpec, GripperSpec, SceneSpec
-from skillc_runtime.world.state.data_sheet import sheet_of, text
+from skillc_runtime.world.state.data_sheet import sheet_of, text_of
 from skillc_runtime.world.state.terms import SKILLC
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -50,14 +50,14 @@ def read_looks(state: WorldState, scene: SceneSpec, name: str) -> Looks:
 
     LooksError where there is no collection of this name, or none of its models is a device's of this scene.
     """
-    collections = {text(state, iri, COLLECTION_NAME): iri for iri in sorted(state.instances(COLLECTION))}
+    collections = {text_of(state, iri, COLLECTION_NAME): iri for iri in sorted(state.instances(COLLECTION))}
     if name not in collections:
         raise LooksError(f"there are no looks {name}; there are {', '.join(('primitive', *sorted(collections)))}")
     found = collections[name]
     looks = tuple(look for device in _devices(scene) for look in _looks_of(state, scene, device, found))
     if not looks:
         raise LooksError(f"{name} has no model of any device in this scene")
-    return Looks(Collection(name, text(state, found, REPOSITORY), text(state, found, COMMIT)), looks)
+    return Looks(Collection(name, text_of(state, found, REPOSITORY), text_of(state, found, COMMIT)), looks)
 
 
 def _devices(scene: SceneSpec) -> list[ArmSpec | GripperSpec]:
@@ -72,4 +72,4 @@ def _looks_of(state: WorldState, scene: SceneSpec, device: ArmSpec | GripperSpec
         if state.holds(look, IN_COLLECTION, collection)
     ]
     name = scene.names[device.individual]
-    return [Look(name, device.model, text(state, look, LOOK_MODEL)) for look in there[:1]]
+    return [Look(name, device.model, text_of(state, look, LOOK_MODEL)) for look in there[:1]]

@@ -6,7 +6,7 @@ from collections import deque
 from typing import TYPE_CHECKING
 
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.world.space.surfaces import least_contact, least_force_n
+from skillc_runtime.world.space.surfaces import least_contact_share, least_force_n
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.labelled import Quantity, label
 from skillc_runtime.world.state.terms import CONTACT_SHARE
@@ -25,7 +25,7 @@ class KeepContact(Primitive):
         super().__init__(cell)
         self.arm, self._surface, self._over = cell.arm(arm), surface, over
         state = cell.world.snapshot()
-        self._least_n, self._share = least_force_n(state, surface), least_contact(state, surface)
+        self._least_n, self._share = least_force_n(state, surface), least_contact_share(state, surface)
         self._contacts = self._samples = 0
         self._lost: deque[tuple[float, float]] = deque()
         self._lost_s = self._before = 0.0

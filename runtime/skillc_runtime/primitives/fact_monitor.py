@@ -14,9 +14,9 @@ from skillc_runtime.devices.gripper import Gripper
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import RemoveRelation
-from skillc_runtime.world.state.data_sheet import SheetError, number, sheet_of
-from skillc_runtime.world.state.evidence import Established
-from skillc_runtime.world.state.facts import Related
+from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
+from skillc_runtime.world.state.evidence import DecidingWrite
+from skillc_runtime.world.state.facts import RelationFact
 from skillc_runtime.world.state.labelled import label_fact
 from skillc_runtime.world.state.labelled_text import format_fact
 from skillc_runtime.world.state.terms import ARRIVAL_TOLERANCE, AT, CONTAIN, END_EFFECTOR, MOBILE_ROBOT
@@ -36,7 +36,7 @@ class Expected:
     Where `also_given` is false, what the scene says of it is not compared: a place need not be where a base stops.
     """
 
-    fact: Related
+    fact: RelationFact
     reading: Reading
     also_given: bool
 
@@ -61,14 +61,14 @@ class FactMonitor:
                 found.append(self._withdraw(expected.fact, said, state))
         return "; ".join(found) or None
 
-    def _withdraw(self, fact: Related, said: str, state: WorldState) -> str:
+    def _withdraw(self, fact: RelationFact, said: str, state: WorldState) -> str:
         known = self._cell.world.known(fact)
         change = RemoveRelation(fact.subject, fact.relation, fact.object)
         self._cell.world.commit([change], said, "reported")
         return f"{said}, but the world model said `{format_fact(label_fact(fact, state))}` ({describe_evidence(known)})"
 
 
-def describe_evidence(known: Established | None) -> str:
+def describe_evidence(known: DecidingWrite | None) -> str:
     """Return how a fact is known in words, as `assumed by Place`."""
     if known is None or known.evidence is None:
         return "given"
@@ -81,11 +81,13 @@ def _expected(cell: Cell, state: WorldState) -> Iterator[Expected]:
         for thing in sorted(state.objects(gripper, CONTAIN)):
             with suppress(KeyError):
                 reading = partial(_lost, cell.gripper(gripper), thing, state.vocabulary.short(gripper), state)
-                yield Expected(Related(gripper, CONTAIN, thing), reading, also_given=True)
+                yield Expected(RelationFact(gripper, CONTAIN, thing), reading, also_given=True)
     for robot in sorted(state.instances(MOBILE_ROBOT)) if AT in relations else ():
         for place in sorted(state.objects(robot, AT)):
             with suppress(KeyError, FrameError, SheetError):
-                yield Expected(Related(robot, AT, place), base_away_from(cell, robot, place, state), also_given=False)
+                yield Expected(
+                    RelationFact(robot, AT, place), base_away_from(cell, robot, place, state), also_given=False
+                )
 
 
 def _lost(gripper: Gripper, thing: str, name: str, state: WorldState) -> str | None:
@@ -114,4 +116,4 @@ def base_away_from(cell: Cell, robot: str, place: str, state: WorldState) -> Rea
 
 
 def _tolerance_m(state: WorldState, robot: str) -> float:
-    return number(state, sheet_of(state, robot).individual, ARRIVAL_TOLERANCE, default=ARRIVAL_TOLERANCE_M)
+    return number_of(state, sheet_of(state, robot).individual, ARRIVAL_TOLERANCE, default=ARRIVAL_TOLERANCE_M)

@@ -6,7 +6,7 @@ from skillc_runtime.devices.cell import Cell
 from skillc_runtime.devices.gripper import working_face
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.world.space.frames import placed, pose, size
+from skillc_runtime.world.space.frames import placement_changes, pose, size
 from skillc_runtime.world.state.changes import AddRelation, RemoveRelation
 from skillc_runtime.world.state.labelled import Quantity, label
 from skillc_runtime.world.state.terms import CONTAIN, FRAME_ID, GRASP_WIDTH
@@ -52,7 +52,7 @@ class Grasp(Primitive):
     def tick(self) -> Status:
         """Write that the gripper holds the object, and its assumed pose in the hand; return SUCCESS."""
         self.cell.world.commit([AddRelation(self._gripper, CONTAIN, self._object)], "Grasp", "sensed")
-        self.cell.world.commit(placed(self._object, self._in_hand, self._frame), "Grasp", "assumed")
+        self.cell.world.commit(placement_changes(self._object, self._in_hand, self._frame), "Grasp", "assumed")
         return Status.SUCCESS
 
 
@@ -108,5 +108,7 @@ class Release(Primitive):
         world = self.cell.world
         world.commit([RemoveRelation(self._hand, CONTAIN, self._object)], "Release", "sensed")
         world.commit(
-            (*placed(self._object, left_at), AddRelation(self._to, CONTAIN, self._object)), "Release", "assumed"
+            (*placement_changes(self._object, left_at), AddRelation(self._to, CONTAIN, self._object)),
+            "Release",
+            "assumed",
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
-from skillc_runtime.world.state.labelled import Iri, Quantity, label
+from skillc_runtime.world.state.labelled import LabelledIri, Quantity, label
 
 TOLERANCE_M = 0.003
 
@@ -30,7 +30,7 @@ class ParallelGripper(Primitive):
         self._gripper.move(*self.command())
 
     @property
-    def _label(self) -> Iri:
+    def _label(self) -> LabelledIri:
         return label(self._name, self.cell.world.snapshot().vocabulary)
 
     def command(self) -> tuple[float, float]:

@@ -11,7 +11,7 @@ from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import SetProperty
-from skillc_runtime.world.state.data_sheet import SheetError, number
+from skillc_runtime.world.state.data_sheet import SheetError, number_of
 from skillc_runtime.world.state.labelled import Quantity, label
 from skillc_runtime.world.state.terms import DEPTH, INSERTED_DEPTH, IS_SEATED
 
@@ -74,7 +74,7 @@ class Seat(Primitive):
         raise_fault(self.arm)
         state = self.cell.world.snapshot()
         try:
-            self._bottom = number(state, self._socket, DEPTH)
+            self._bottom = number_of(state, self._socket, DEPTH)
         except SheetError as error:
             raise SkillFailure(str(error)) from error
         self._opening = pose(state, self._socket)

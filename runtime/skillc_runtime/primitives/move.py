@@ -15,7 +15,7 @@ from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.collision_free_motion import move_collision_free
 from skillc_runtime.primitives.primitive import SkillFailure
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
-from skillc_runtime.world.state.labelled import Quantity, Vector
+from skillc_runtime.world.state.labelled import LabelledVector, Quantity
 from skillc_runtime.world.state.terms import HAS_POSTURE, HAS_SHEET, POSTURE_NAME
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ class MoveJoints(ArmMotion):
             far = float(np.linalg.norm(self._target.position - self.arm.measured.pose.position))
             raise SkillFailure(
                 "the arm cannot reach {target:.3f} in this orientation, {far:.2f} from where its tool is",
-                target=Vector((x, y, z), "m"),
+                target=LabelledVector((x, y, z), "m"),
                 far=Quantity(far, "m"),
             )
         move_collision_free(self.cell, self._individual, chain([q], self._others(seed)), self._pace)

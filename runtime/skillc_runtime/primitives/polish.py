@@ -5,7 +5,7 @@ from __future__ import annotations
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.world.state.changes import SetProperty
-from skillc_runtime.world.state.data_sheet import SheetError, number
+from skillc_runtime.world.state.data_sheet import SheetError, number_of
 from skillc_runtime.world.state.terms import IS_POLISHED, POLISH_THRESHOLD, POLISH_TIME, POLISHED_SHARE
 
 
@@ -20,7 +20,7 @@ class InspectPolish(Primitive):
         """SkillFailure if the world model has no polishing time or threshold for the surface."""
         state = self.cell.world.snapshot()
         try:
-            self._time, self._threshold = (number(state, self._surface, p) for p in (POLISH_TIME, POLISH_THRESHOLD))
+            self._time, self._threshold = (number_of(state, self._surface, p) for p in (POLISH_TIME, POLISH_THRESHOLD))
         except SheetError as error:
             raise SkillFailure(str(error)) from error
 

@@ -12,7 +12,7 @@ from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known import KnownFact
 from skillc_runtime.recording.reasons import FailedCallContext, ParameterReason, UntriedImplementation
 from skillc_runtime.world.state.evidence import Evidence
-from skillc_runtime.world.state.labelled import Iri, LabelledChange, LabelledValue
+from skillc_runtime.world.state.labelled import LabelledChange, LabelledIri, LabelledValue
 
 FORMAT = 4
 """Raised with every change of what the events mean. A reader takes no other format."""
@@ -86,7 +86,7 @@ class Highlight(msgspec.Struct, frozen=True):
     """What is worth seeing of `what` when a call begins, or ends well: that it is, say, `pressed`."""
 
     when: Literal["begins", "ends"]
-    what: Iri
+    what: LabelledIri
     word: str
 
 
@@ -113,7 +113,7 @@ class ImplementationChosen(_Event, tag="implementation-chosen", frozen=True, kw_
     @property
     def individuals(self) -> tuple[str, ...]:
         """The IRIs of the individuals that the parameters stand for, in the order of the parameters."""
-        return tuple(value.iri for value in self.bindings.values() if isinstance(value, Iri))
+        return tuple(value.iri for value in self.bindings.values() if isinstance(value, LabelledIri))
 
 
 class WorldChanged(_Event, tag="world-changed", frozen=True, kw_only=True):

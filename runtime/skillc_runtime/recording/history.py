@@ -12,7 +12,7 @@ from skillc_runtime.recording.events import Event
 from skillc_runtime.recording.record import AttemptRecord, NodeRecords
 from skillc_runtime.recording.steps import collect_steps, failure_chain
 from skillc_runtime.recording.story import Attempt, Fact, Story
-from skillc_runtime.world.state.labelled import LabelledFact, PropertyFact, RelationFact
+from skillc_runtime.world.state.labelled import LabelledFact, LabelledProperty, LabelledRelation
 
 
 def read_story(recording: Iterable[Event]) -> Story | None:
@@ -91,7 +91,7 @@ class _History:
 
     def _note(self, event: events.WorldChanged) -> None:
         for change in event.changes:
-            if isinstance(change, RelationFact | PropertyFact):
+            if isinstance(change, LabelledRelation | LabelledProperty):
                 written = Fact(fact=change, since=event.time, by=event.origin, known=event.known or "")
                 self._written[_about(change)] = written
 
@@ -104,7 +104,9 @@ class _History:
 
 def _about(fact: LabelledFact) -> LabelledFact:
     """Return what a fact is about, so that of a relation or a property only what was written last is kept."""
-    return structs.replace(fact, value=None) if isinstance(fact, PropertyFact) else structs.replace(fact, holds=True)
+    return (
+        structs.replace(fact, value=None) if isinstance(fact, LabelledProperty) else structs.replace(fact, holds=True)
+    )
 
 
 def _attempt(body: AttemptRecord, count: int) -> Attempt:

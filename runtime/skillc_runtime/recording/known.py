@@ -7,7 +7,13 @@ from typing import Literal, assert_never
 import msgspec
 from msgspec import structs
 
-from skillc_runtime.world.state.labelled import ClassFact, IdentityFact, LabelledFact, PropertyFact, RelationFact
+from skillc_runtime.world.state.labelled import (
+    LabelledClass,
+    LabelledFact,
+    LabelledIdentity,
+    LabelledProperty,
+    LabelledRelation,
+)
 from skillc_runtime.world.state.labelled_text import format_fact
 
 UNVERIFIED = "finished, not verified"
@@ -46,12 +52,12 @@ def what_to_sense(known: KnownFact) -> str:
     """Say what would have to be sensed for a fact to be more than assumed."""
     after = f" after {known.by}" if known.by else ""
     match known.fact:
-        case PropertyFact(individual, property_):
+        case LabelledProperty(individual, property_):
             return f"a device would have to measure {property_.label} of {individual.label}{after}"
-        case ClassFact(individual, cls, holds):
+        case LabelledClass(individual, cls, holds):
             what = "a" if holds else "no"
             return f"a device would have to recognise{after} that {individual.label} is {what} {cls.label}"
-        case RelationFact() | IdentityFact() as fact:
+        case LabelledRelation() | LabelledIdentity() as fact:
             said = format_fact(structs.replace(fact, holds=True))
             return f"a device would have to sense{after} that `{said}` {'holds' if fact.holds else 'does not hold'}"
         case _:

@@ -8,7 +8,7 @@ import msgspec
 
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.recording.failure import Rejection
-from skillc_runtime.world.state.labelled import Iri, LabelledFact, LabelledValue
+from skillc_runtime.world.state.labelled import LabelledFact, LabelledIri, LabelledValue
 
 
 class DecidingCondition(msgspec.Struct, frozen=True, kw_only=True):
@@ -29,7 +29,7 @@ class ParameterReason(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=T
     parameter: str
     how: Literal["passed", "default", "inferred"]
     conditions: tuple[DecidingCondition, ...] = ()
-    others: tuple[Iri, ...] = ()
+    others: tuple[LabelledIri, ...] = ()
 
 
 class UntriedImplementation(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):

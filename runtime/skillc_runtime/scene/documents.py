@@ -76,7 +76,7 @@ def statements_of(document: Document) -> tuple[Statement, ...]:
     return parsed.statements
 
 
-def with_own_terms(statement: Statement, aliases: Mapping[str, str]) -> Statement:
+def with_canonical_terms(statement: Statement, aliases: Mapping[str, str]) -> Statement:
     """Return the statement with terms called by their own names."""
     changed = statement._replace(predicate=aliases.get(statement.predicate, statement.predicate))
     if isinstance(statement.object, ox.NamedNode) and statement.object.value in aliases:

@@ -10,10 +10,10 @@ from typing import Literal, NamedTuple, TypeAlias
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import PropertyTerm, Vocabulary
 from skillc_runtime.scene.statements import NAMED_INDIVIDUAL, FactFilter
-from skillc_runtime.scene.table import Literals, Named, Table
-from skillc_runtime.store.literals import LiteralError, read
-from skillc_runtime.world.state.bulk import Facts
-from skillc_runtime.world.state.values import Value, equal
+from skillc_runtime.scene.table import Literals, Named, StatementTable
+from skillc_runtime.store.literals import LiteralError, read_literal
+from skillc_runtime.world.state.bulk import FactTables
+from skillc_runtime.world.state.values import Value, are_equal
 
 MistakeKind: TypeAlias = Literal[
     "unknown class",
@@ -44,25 +44,25 @@ class Mistake(NamedTuple):
 class Interpretation:
     """The facts that can be true together with the vocabulary, and all rows that cannot."""
 
-    facts: Facts
+    facts: FactTables
     mistakes: list[Mistake]
 
 
-def interpret(table: Table, vocabulary: Vocabulary) -> Interpretation:
+def interpret_table(table: StatementTable, vocabulary: Vocabulary) -> Interpretation:
     """Return what a table says of individuals."""
     interpreter = _Interpreter(table, vocabulary)
     return Interpretation(interpreter.facts(), interpreter.mistakes)
 
 
 class _Interpreter:
-    def __init__(self, table: Table, vocabulary: Vocabulary) -> None:
+    def __init__(self, table: StatementTable, vocabulary: Vocabulary) -> None:
         self._table, self._vocabulary = table, vocabulary
         self._filter = FactFilter(vocabulary, table.named[RDF_TYPE])
         self._classes: dict[str, tuple[str, ...]] = {}
         self._declared: Set[str] = set()
         self.mistakes: list[Mistake] = []
 
-    def facts(self) -> Facts:
+    def facts(self) -> FactTables:
         self._read_classes()
         related: dict[str, Named] = {}
         valued: dict[str, dict[str, Value | None]] = {}
@@ -81,7 +81,7 @@ class _Interpreter:
             else:
                 self._refuse("unknown predicate", predicate, False, named)
                 self._refuse("unknown predicate", predicate, True, literals)
-        return Facts(self._classes, related, valued)
+        return FactTables(self._classes, related, valued)
 
     def _read_classes(self) -> None:
         """Sort out of which classes individuals are; of those of which none is said nothing is known."""
@@ -131,7 +131,7 @@ class _Interpreter:
         functional = term.functional
         for number, (individual, literal) in enumerate(rows):
             try:
-                value = read(literal, term)
+                value = read_literal(literal, term)
             except LiteralError as error:
                 self.mistakes.append(Mistake("wrong literal", predicate, True, number, error))
                 continue
@@ -141,9 +141,9 @@ class _Interpreter:
             if before is None:
                 found[individual] = value if functional else (value,)
             elif isinstance(before, tuple) and not functional:
-                if not any(equal(value, each) for each in before):
+                if not any(are_equal(value, each) for each in before):
                     found[individual] = (*before, value)
-            elif not any(equal(value, each) for each in (before, *rivals[individual])):
+            elif not any(are_equal(value, each) for each in (before, *rivals[individual])):
                 rivals[individual].append(value)
                 self._note("second value", predicate, True, (number,))
         undecided = {one for one, others in rivals.items() if others and not _is_within(found[one], term)}

@@ -18,7 +18,7 @@ class TooLittleMemory(Exception):
     """There is too little memory; the message says how much is needed and how much is free."""
 
 
-def available() -> int | None:
+def available_bytes() -> int | None:
     """Return how many bytes this process may still take of the machine, its container and its limits; None if unknown.
 
     What is known of the first two is what Linux tells.
@@ -29,7 +29,7 @@ def available() -> int | None:
 
 def check_available(needed: int) -> None:
     """TooLittleMemory when so many bytes are not available."""
-    left = available()
+    left = available_bytes()
     if left is not None and needed > left:
         raise TooLittleMemory(f"it takes about {_gigabytes(needed)} of memory, and {_gigabytes(left)} are free")
 
@@ -38,11 +38,11 @@ class MemoryGuard:
     """Compares the memory that a piece of work takes with what is left."""
 
     def __init__(self) -> None:
-        self._first = available()
+        self._first = available_bytes()
 
     def check(self) -> None:
         """TooLittleMemory when less is left than was taken since the guard was made: the work may not be half done."""
-        left = available()
+        left = available_bytes()
         if left is not None and self._first is not None and left < self._first - left:
             taken = _gigabytes(self._first - left)
             raise TooLittleMemory(f"a part of it took {taken} of memory, and {_gigabytes(left)} are free")

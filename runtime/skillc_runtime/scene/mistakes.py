@@ -13,19 +13,19 @@ from skillc_dsl.source import Span
 from skillc_rdf.turtle.statements import SOMETHING, Statement
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import THING, Vocabulary
-from skillc_runtime.scene.interpretation import Interpretation, Mistake, interpret
+from skillc_runtime.scene.interpretation import Interpretation, Mistake, interpret_table
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.scene.suggestions import suggest
-from skillc_runtime.scene.table import table_of
-from skillc_runtime.store.literals import read
+from skillc_runtime.scene.table import tabulate
+from skillc_runtime.store.literals import read_literal
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.values import show
 
-Written: TypeAlias = tuple[Change, Statement]
+LocatedChange: TypeAlias = tuple[Change, Statement]
 """A change and the statement that says so."""
 
 
-class PlacedFacts:
+class LocatedFacts:
     """Statements about individuals with what they mean, and with the places of those that make no sense."""
 
     def __init__(self, said: Sequence[Statement], vocabulary: Vocabulary) -> None:
@@ -33,17 +33,21 @@ class PlacedFacts:
         self._rows: dict[tuple[str, bool], list[int]] = defaultdict(list)
         for position, each in enumerate(said):
             self._rows[each.predicate, isinstance(each.object, ox.Literal)].append(position)
-        self._meaning: Interpretation = interpret(table_of(said), vocabulary)
+        self._meaning: Interpretation = interpret_table(tabulate(said), vocabulary)
         self._classes = self._meaning.facts.types
         self._declared = {iri_of(each.subject): each for each in reversed(said) if each.predicate == RDF_TYPE}
         wrong = (each for each in self._meaning.mistakes if each.kind == "wrong literal")
         self._unreadable = set(map(self._position, wrong))
 
-    def changes(self) -> list[Written]:
+    def changes(self) -> list[LocatedChange]:
         """Return what the statements write, individuals first, then relations in order."""
         facts = self._meaning.facts
         pairs = {relation: set(found) for relation, found in facts.related.items()}
-        individuals, relations, values = list[Written](), list[Written](), dict[tuple[str, str], Written]()
+        individuals, relations, values = (
+            list[LocatedChange](),
+            list[LocatedChange](),
+            dict[tuple[str, str], LocatedChange](),
+        )
         for position, each in enumerate(self._said):
             subject, predicate, object_ = iri_of(each.subject), each.predicate, iri_of(each.object)
             if predicate == RDF_TYPE and object_ in facts.types.get(subject, ()):
@@ -116,7 +120,7 @@ class PlacedFacts:
         term, rows = self._vocabulary.properties[second.predicate], self._rows[second.predicate, True]
         readable = (self._said[position] for position in rows if position not in self._unreadable)
         first = next(each for each in readable if each.subject == second.subject)
-        values = [read(each.object, term) for each in (first, second) if isinstance(each.object, ox.Literal)]
+        values = [read_literal(each.object, term) for each in (first, second) if isinstance(each.object, ox.Literal)]
         both = " and ".join(map(show, values))
         message = f"{self._short(subject)} has two values of {self._short(term.iri)}: {both}"
         notes = (Label(first.object_place, "the other one"),)

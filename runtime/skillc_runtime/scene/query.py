@@ -16,7 +16,7 @@ from skillc_runtime.scene.documents import Document, statements_of
 from skillc_runtime.scene.query_errors import federation_error, syntax_error_message
 from skillc_runtime.store.literals import INTEGERS, NUMBERS
 
-Cell: TypeAlias = bool | int | float | str | None
+QueryValue: TypeAlias = bool | int | float | str | None
 """A value in an answer; individuals are texts, None is a variable without a value."""
 
 WELL_KNOWN = {"rdf": RDF, "rdfs": RDFS, "owl": OWL, "xsd": XSD}
@@ -27,14 +27,14 @@ class QueryError(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class QueryResult:
     """The answer of a query: names of the columns and rows of values, individuals shortened by the prefixes."""
 
     columns: tuple[str, ...]
-    rows: tuple[tuple[Cell, ...], ...]
+    rows: tuple[tuple[QueryValue, ...], ...]
 
 
-def run_query(documents: Iterable[Document], sparql: str, vocabulary: Vocabulary) -> Answer:
+def run_query(documents: Iterable[Document], sparql: str, vocabulary: Vocabulary) -> QueryResult:
     """Return the answer of a query over documents; the vocabulary's prefixes need no declaration.
 
     QueryError for a text that is not SPARQL, an update, a question to another server, a failure of the evaluation;
@@ -64,18 +64,18 @@ def _store(documents: Iterable[Document]) -> ox.Store:
     return store
 
 
-def _answer(result: ox.QuerySolutions | ox.QueryBoolean | ox.QueryTriples, vocabulary: Vocabulary) -> Answer:
+def _answer(result: ox.QuerySolutions | ox.QueryBoolean | ox.QueryTriples, vocabulary: Vocabulary) -> QueryResult:
     """Return the answer in full: solutions are found while they are read."""
     if isinstance(result, ox.QueryBoolean):
-        return Answer(("answer",), ((bool(result),),))
+        return QueryResult(("answer",), ((bool(result),),))
     if isinstance(result, ox.QueryTriples):
         triples = [tuple(_cell(node, vocabulary) for node in triple) for triple in result]
-        return Answer(("subject", "predicate", "object"), tuple(triples))
+        return QueryResult(("subject", "predicate", "object"), tuple(triples))
     columns = tuple(variable.value for variable in result.variables)
-    return Answer(columns, tuple(tuple(_cell(row[name], vocabulary) for name in columns) for row in result))
+    return QueryResult(columns, tuple(tuple(_cell(row[name], vocabulary) for name in columns) for row in result))
 
 
-def _cell(node: object, vocabulary: Vocabulary) -> Cell:
+def _cell(node: object, vocabulary: Vocabulary) -> QueryValue:
     if node is None:
         return None
     if isinstance(node, ox.NamedNode):
@@ -83,7 +83,7 @@ def _cell(node: object, vocabulary: Vocabulary) -> Cell:
     return _value(node) if isinstance(node, ox.Literal) else str(node)
 
 
-def _value(literal: ox.Literal) -> Cell:
+def _value(literal: ox.Literal) -> QueryValue:
     """Return a literal as a value of its datatype; NaN, infinity and what is not of its datatype stay text."""
     kind, text = literal.datatype.value, literal.value
     if kind == XSD + "boolean" and text in ("true", "false", "1", "0"):

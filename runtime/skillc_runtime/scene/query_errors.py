@@ -38,7 +38,7 @@ def federation_error(query: str) -> str | None:
     first = next(asking, None)
     if first is None:
         return None
-    return _complaint(query, first.start, "SERVICE asks another server, and queries do not use the network")
+    return _message_at(query, first.start, "SERVICE asks another server, and queries do not use the network")
 
 
 def syntax_error_message(query: str, parser: str, prefixes: Iterable[str]) -> str:
@@ -52,15 +52,15 @@ def syntax_error_message(query: str, parser: str, prefixes: Iterable[str]) -> st
         prefix = token.text.partition(":")[0]
         if token.kind == "name" and prefix not in known:
             listed = ", ".join(sorted(known - {"_"}))
-            return _complaint(query, token.start, f"there is no prefix `{prefix}:`; there are {listed}")
-    return _complaint(query, _offset(query, parser), f"this is not SPARQL: {_reason(query, parser)}")
+            return _message_at(query, token.start, f"there is no prefix `{prefix}:`; there are {listed}")
+    return _message_at(query, _offset(query, parser), f"this is not SPARQL: {_reason(query, parser)}")
 
 
 def _no_query(query: str, first: _Token | None) -> str:
     start = first.start if first else len(query)
     if first and first.text.upper() in UPDATES:
-        return _complaint(query, start, f"queries only: {first.text.upper()} would change data")
-    return _complaint(query, start, f"this is not SPARQL: a query begins with {', '.join(FORMS[:-1])} or {FORMS[-1]}")
+        return _message_at(query, start, f"queries only: {first.text.upper()} would change data")
+    return _message_at(query, start, f"this is not SPARQL: a query begins with {', '.join(FORMS[:-1])} or {FORMS[-1]}")
 
 
 def _reason(query: str, parser: str) -> str:
@@ -83,7 +83,7 @@ def _offset(query: str, parser: str) -> int:
     return min(starts[min(line, len(starts)) - 1] + column - 1, len(query))
 
 
-def _complaint(query: str, offset: int, sentence: str) -> str:
+def _message_at(query: str, offset: int, sentence: str) -> str:
     """Return the sentence with line and column, from 1, and the line with a caret below it."""
     start = query.rfind("\n", 0, offset) + 1
     line = query[start:].partition("\n")[0]

@@ -13,11 +13,11 @@ import pyoxigraph as ox
 
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import NumberType, Vocabulary
-from skillc_runtime.scene.documents import Document, statements_of, with_own_terms
-from skillc_runtime.scene.statements import facts, iri_of, with_own_classes
+from skillc_runtime.scene.documents import Document, statements_of, with_canonical_terms
+from skillc_runtime.scene.statements import iri_of, select_facts, with_own_classes
 from skillc_runtime.store.triples import CLASS, SUBCLASS, TYPE
-from skillc_runtime.world.state.values import Value, has, show
-from skillc_runtime.world.state.vectors import is_vector, text_of_vector
+from skillc_runtime.world.state.values import Value, has_value, show
+from skillc_runtime.world.state.vectors import format_vector, is_vector
 from skillc_runtime.world.state.world_state import WorldState
 
 _LOCAL = re.compile(r"[A-Za-z_](?:[\w-]*\w)?", re.ASCII)
@@ -29,9 +29,9 @@ class SaveError(ValueError):
     """A world that no scene file can state; the message says which facts are in the way."""
 
 
-def save(state: WorldState, path: Path, without: WorldState, source: Document | None = None) -> None:
+def save_scene(state: WorldState, path: Path, without: WorldState, source: Document | None = None) -> None:
     """Write a scene file, whole or not at all; see `turtle`. OSError when the file cannot be written."""
-    text = turtle(state, without, source)
+    text = format_scene(state, without, source)
     new = path.with_name(f".{path.name}.{os.getpid()}.new")
     try:
         with new.open("x", encoding="utf-8") as file:
@@ -43,7 +43,7 @@ def save(state: WorldState, path: Path, without: WorldState, source: Document | 
         new.unlink(missing_ok=True)
 
 
-def turtle(state: WorldState, without: WorldState, source: Document | None = None) -> str:
+def format_scene(state: WorldState, without: WorldState, source: Document | None = None) -> str:
     """Return a scene in which is said what was written of the world, and not what `without` says, the data sheets.
 
     Of `source`, the scene that the world was loaded from, labels and other remarks, templates and declarations are
@@ -51,15 +51,18 @@ def turtle(state: WorldState, without: WorldState, source: Document | None = Non
     when facts of `without` are true no more, or Turtle has no words for a fact; SceneError for a source that is no
     Turtle.
     """
-    _refuse_lost(state, without)
-    written = _Written(state.vocabulary)
+    _check_nothing_lost(state, without)
+    written = _TurtleWriter(state.vocabulary)
     for subject, predicate, object_ in _links(state):
-        if not _says(without, subject, predicate, object_):
+        if not _is_asserted(without, subject, predicate, object_):
             written.link(subject, predicate, object_)
     for subject, property_, value in _values(state):
-        if not has(without.value(subject, property_), value):
+        if not has_value(without.value(subject, property_), value):
             written.value(subject, property_, value)
-    for triple in (*_classes(state, without.vocabulary), *(_besides(source, state) if source is not None else ())):
+    for triple in (
+        *_classes(state, without.vocabulary),
+        *(_other_statements(source, state) if source is not None else ()),
+    ):
         written.triple(triple)
     return written.text()
 
@@ -79,18 +82,18 @@ def _values(state: WorldState) -> Iterator[tuple[str, str, Value]]:
             yield from ((individual, property_, one) for one in several if one is not None)
 
 
-def _says(state: WorldState, subject: str, predicate: str, object_: str) -> bool:
+def _is_asserted(state: WorldState, subject: str, predicate: str, object_: str) -> bool:
     """Whether a class or relation was written."""
     if predicate == RDF_TYPE:
         return object_ in state.types(subject)
     return object_ in state.asserted[predicate].forward.get(subject)
 
 
-def _refuse_lost(state: WorldState, without: WorldState) -> None:
+def _check_nothing_lost(state: WorldState, without: WorldState) -> None:
     short = state.vocabulary.short
-    lost = [" ".join(map(short, fact)) for fact in _links(without) if not _says(state, *fact)]
+    lost = [" ".join(map(short, fact)) for fact in _links(without) if not _is_asserted(state, *fact)]
     for individual, property_, value in _values(without):
-        if not has(state.value(individual, property_), value):
+        if not has_value(state.value(individual, property_), value):
             lost.append(f"{short(individual)}.{short(property_)} = {show(value)}")
     if lost:
         said = "; ".join(sorted(lost)[:LISTED])
@@ -105,10 +108,10 @@ def _classes(state: WorldState, library: Vocabulary) -> Iterator[ox.Triple]:
             yield ox.Triple(ox.NamedNode(iri), SUBCLASS, ox.NamedNode(parent))
 
 
-def _besides(source: Document, state: WorldState) -> Iterator[ox.Triple]:
+def _other_statements(source: Document, state: WorldState) -> Iterator[ox.Triple]:
     """Yield what a scene says beside its facts."""
-    said = [with_own_terms(each, state.vocabulary.aliases) for each in statements_of(source)]
-    about = facts(said, with_own_classes(state.vocabulary, said))
+    said = [with_canonical_terms(each, state.vocabulary.aliases) for each in statements_of(source)]
+    about = select_facts(said, with_own_classes(state.vocabulary, said))
     gone = {iri_of(each.subject) for each in about} - state.individuals
     told = {(each.subject_at, each.predicate_at, each.object_at) for each in about}
     for each in said:
@@ -116,7 +119,7 @@ def _besides(source: Document, state: WorldState) -> Iterator[ox.Triple]:
             yield ox.Triple(each.subject, ox.NamedNode(each.predicate), each.object)  # type: ignore[arg-type]
 
 
-class _Written:
+class _TurtleWriter:
     """Turtle in the making: what is said, by subject and predicate, in the words of Turtle."""
 
     def __init__(self, vocabulary: Vocabulary) -> None:
@@ -144,7 +147,7 @@ class _Written:
             case str():
                 text = str(ox.Literal(value))
             case _ if is_vector(value):
-                text = f'"{text_of_vector(value)}"'
+                text = f'"{format_vector(value)}"'
             case _:
                 raise SaveError(
                     f"no scene can say <{property_}> of <{individual}>: {show(value)} is no number, text or truth value"

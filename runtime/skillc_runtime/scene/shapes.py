@@ -21,7 +21,7 @@ from skillc_rdf.vocabulary.types import (
     VectorType,
     Vocabulary,
 )
-from skillc_runtime.world.state.axioms import Axioms
+from skillc_runtime.world.state.axioms import RelationAxioms
 
 SHAPES = "https://w3id.org/skillc/shapes#"
 PREFIXES = {"sh": "http://www.w3.org/ns/shacl#", "xsd": "http://www.w3.org/2001/XMLSchema#", "shape": SHAPES}
@@ -32,7 +32,7 @@ VECTOR = rf"^\\s*{NUMBER}\\s+{NUMBER}\\s+{NUMBER}\\s*$"
 """What a vector is like as a text, with the backslashes doubled as Turtle wants them."""
 
 
-def shapes(vocabulary: Vocabulary) -> str:
+def format_shapes(vocabulary: Vocabulary) -> str:
     """Return the shapes in Turtle; the same vocabulary gives the same text."""
     return "\n".join((*_head(vocabulary.prefixes), *_Shapes(vocabulary).all())) + "\n"
 
@@ -47,7 +47,7 @@ def _head(prefixes: Mapping[str, str]) -> Iterator[str]:
 class _Shapes:
     def __init__(self, vocabulary: Vocabulary) -> None:
         self._vocabulary = vocabulary
-        self._sources = Axioms(vocabulary).sources
+        self._sources = RelationAxioms(vocabulary).sources
 
     def all(self) -> Iterator[str]:
         for _, cls in sorted(self._vocabulary.classes.items()):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass
 
 import msgspec
 import pyoxigraph as ox
@@ -11,6 +12,7 @@ import pyoxigraph as ox
 from skillc_rdf.turtle.statements import Node, Parsed, Statement
 from skillc_rdf.turtle.terms import OWL, RDF, RDF_TYPE, RDFS
 from skillc_rdf.vocabulary.types import THING, ClassTerm, Vocabulary
+from skillc_runtime.scene.documents import Document, statements_of
 from skillc_runtime.world.state.terms import HAS_TEMPLATE, TEMPLATE
 
 ABOUT_TERMS = (OWL, RDFS, RDF, "http://purl.org/vocab/vann/")
@@ -50,7 +52,7 @@ class FactFilter:
         return predicate not in self._passed and not is_remark(predicate)
 
 
-def facts(said: Sequence[Statement], vocabulary: Vocabulary) -> tuple[Statement, ...]:
+def select_facts(said: Sequence[Statement], vocabulary: Vocabulary) -> tuple[Statement, ...]:
     """Return what is said of individuals: not of terms, not of templates, no annotations."""
     kept = FactFilter(vocabulary, pairs(said, RDF_TYPE))
     return tuple(
@@ -119,3 +121,24 @@ def iri_of(node: Node) -> str:
 def pairs(said: Iterable[Statement], predicate: str) -> list[tuple[str, str]]:
     """Return subjects and objects of the statements with a predicate; what has no IRI is empty."""
     return [(iri_of(each.subject), iri_of(each.object)) for each in said if each.predicate == predicate]
+
+
+LABEL = f"{RDFS}label"
+
+
+@dataclass(frozen=True, slots=True)
+class Contents:
+    """The IRIs that files make statements about, and the first rdfs:label of those that have one."""
+
+    subjects: frozenset[str]
+    labels: dict[str, str]
+
+
+def read_contents(documents: Iterable[Document]) -> Contents:
+    """Return what the documents speak of; SceneError for one that is not Turtle."""
+    said = [each for document in documents for each in statements_of(document)]
+    labels: dict[str, str] = {}
+    for each in said:
+        if each.predicate == LABEL and isinstance(each.object, ox.Literal):
+            labels.setdefault(iri_of(each.subject), each.object.value)
+    return Contents(frozenset(iri_of(each.subject) for each in said) - {""}, labels)

@@ -28,7 +28,7 @@ Literals: TypeAlias = list[tuple[str, ox.Literal]]
 
 
 @dataclass(slots=True)
-class Table:
+class StatementTable:
     """The rows of each predicate, in the order of the texts: those that lead to something, and those with a literal.
 
     `unusual` says that something in them is understood by more than the rows: it may be misspelt, or have no effect.
@@ -42,9 +42,9 @@ class Table:
     unusual: bool = False
 
 
-def table_of(statements: Iterable[Statement]) -> Table:
+def tabulate(statements: Iterable[Statement]) -> StatementTable:
     """Return the table of statements; `Rows` knows the statement of each row."""
-    table = Table()
+    table = StatementTable()
     for each in statements:
         subject = each.subject.value if isinstance(each.subject, ox.NamedNode) else ""
         if isinstance(each.object, ox.Literal):
@@ -55,9 +55,9 @@ def table_of(statements: Iterable[Statement]) -> Table:
     return table
 
 
-def read_table(documents: Sequence[Document], vocabulary: Vocabulary) -> Table:
+def read_table(documents: Sequence[Document], vocabulary: Vocabulary) -> StatementTable:
     """Return what documents say, the first one a scene; SyntaxError, UnicodeEncodeError, TooLittleMemory."""
-    table, names, guard = Table(), dict[str, str](), MemoryGuard()
+    table, names, guard = StatementTable(), dict[str, str](), MemoryGuard()
     for document in documents:
         parser = ox.parse(document.text.encode(), format=ox.RdfFormat.TURTLE, base_iri=BASE)
         while _add(islice(parser, AT_ONCE), vocabulary.aliases, names, table):
@@ -75,7 +75,7 @@ def read_table(documents: Sequence[Document], vocabulary: Vocabulary) -> Table:
     return table
 
 
-def _add(triples: Iterable[ox.Quad], aliases: dict[str, str], names: dict[str, str], table: Table) -> bool:
+def _add(triples: Iterable[ox.Quad], aliases: dict[str, str], names: dict[str, str], table: StatementTable) -> bool:
     """Add triples, return whether there were any; each IRI is one string, however often it is written."""
     named, literal, known, each = table.named, table.literal, names.setdefault, None
     for each in triples:
@@ -96,7 +96,7 @@ def _add(triples: Iterable[ox.Quad], aliases: dict[str, str], names: dict[str, s
     return each is not None
 
 
-def _is_plain(table: Table, vocabulary: Vocabulary) -> bool:
+def _is_plain(table: StatementTable, vocabulary: Vocabulary) -> bool:
     """Whether a scene has things, each with a name, and says nothing but facts about them and what people read."""
     types = table.named[RDF_TYPE]
     subjects = {subject for rows in table.named.values() for subject, _ in rows}
@@ -111,7 +111,7 @@ def _is_plain(table: Table, vocabulary: Vocabulary) -> bool:
     )
 
 
-def _has_odd_terms(table: Table, vocabulary: Vocabulary) -> bool:
+def _has_odd_terms(table: StatementTable, vocabulary: Vocabulary) -> bool:
     """Whether a term of OWL or RDFS may be misspelt, or something in the world has no name."""
     predicates, types = table.named.keys() | table.literal.keys(), table.named[RDF_TYPE]
     return (

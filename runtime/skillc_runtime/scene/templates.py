@@ -8,14 +8,14 @@ from pathlib import Path
 from skillc_rdf.turtle.statements import Statement
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import Vocabulary
-from skillc_runtime.scene.documents import Document, SceneError, parse, with_own_terms
+from skillc_runtime.scene.documents import Document, SceneError, parse, with_canonical_terms
 from skillc_runtime.scene.load import sheet_documents
-from skillc_runtime.scene.mistakes import PlacedFacts
+from skillc_runtime.scene.mistakes import LocatedFacts
 from skillc_runtime.scene.statements import (
     NAMED_INDIVIDUAL,
-    facts,
     iri_of,
     is_remark,
+    select_facts,
     with_own_classes,
     with_prefixes,
 )
@@ -26,18 +26,18 @@ from skillc_runtime.world.state.terms import HAS_TEMPLATE, TEMPLATE
 
 def load_templates(path: Path, vocabulary: Vocabulary) -> Templates:
     """Return the templates of a scene file, which may speak of the packaged data sheets; SceneError for mistakes."""
-    return templates_of([Document.read(path), *sheet_documents()], vocabulary)
+    return read_templates([Document.read(path), *sheet_documents()], vocabulary)
 
 
-def templates_of(documents: Iterable[Document], vocabulary: Vocabulary) -> Templates:
+def read_templates(documents: Iterable[Document], vocabulary: Vocabulary) -> Templates:
     """Return the templates of Turtle documents; SceneError with what is wrong with them or the documents."""
     parsed = [parse(document, vocabulary.namespaces) for document in documents]
-    said = [with_own_terms(each, vocabulary.aliases) for document in parsed for each in document.statements]
+    said = [with_canonical_terms(each, vocabulary.aliases) for document in parsed for each in document.statements]
     vocabulary = with_own_classes(with_prefixes(vocabulary, parsed), said)
     templates = {
         iri_of(each.subject) for each in said if each.predicate == RDF_TYPE and iri_of(each.object) == TEMPLATE
     }
-    placed = PlacedFacts([*facts(said, vocabulary), *_patterns(said, templates)], vocabulary)
+    placed = LocatedFacts([*select_facts(said, vocabulary), *_patterns(said, templates)], vocabulary)
     patterns: dict[str, list[Change]] = {each: [] for each in sorted(templates)}
     for change, statement in placed.changes():
         patterns.get(iri_of(statement.subject), []).append(change)

@@ -18,7 +18,7 @@ class SceneViolation:
     help: str = ""
 
 
-def stored(state: WorldState, property_: str) -> list[tuple[str, object]]:
+def stored_values(state: WorldState, property_: str) -> list[tuple[str, object]]:
     """Return the individuals that have the property with their values, sorted by IRI."""
     table = state.stored.get(property_)
     found = [(individual, value) for individual, value in table.items() if value is not None] if table else []

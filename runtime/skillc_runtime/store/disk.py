@@ -13,12 +13,12 @@ from pathlib import Path
 
 import pyoxigraph as ox
 
-from skillc_runtime.store import base
-from skillc_runtime.store.journal import Entry, Journal
+from skillc_runtime.store import facts_folder as base
+from skillc_runtime.store.change_json import decode_changes, encode_changes
+from skillc_runtime.store.journal import JournalEntry, TransactionJournal
 from skillc_runtime.store.store import StoredWorld
-from skillc_runtime.store.triples import difference
-from skillc_runtime.store.users import Users
-from skillc_runtime.store.wire import as_text, changes_of
+from skillc_runtime.store.store_lock import StoreLock
+from skillc_runtime.store.triples import triple_difference
 from skillc_runtime.world.state.transactions import ChangeEvent, StoreError, Transaction
 
 FORMAT = "skillc store, format 1\n"
@@ -36,7 +36,7 @@ class DiskStore:
         self._folder, self._facts = folder, folder / FACTS
         try:
             _prepare(folder)
-            self._users, self._journal = Users(folder / LOCK), Journal(folder / JOURNAL)
+            self._users, self._journal = StoreLock(folder / LOCK), TransactionJournal(folder / JOURNAL)
         except OSError as error:
             raise StoreError(f"the store {folder} cannot be opened: {error.strerror}") from error
         try:
@@ -71,16 +71,18 @@ class DiskStore:
 
     def append(self, event: ChangeEvent, after: int) -> bool:
         """Write an event as the transaction that follows `after`, or return False when there is another already."""
-        change = difference(event)
+        change = triple_difference(event)
         if after == 0:
             return self._fill(event.origin, change.added)
         removed, added = _as_text(change.removed), _as_text(change.added)
-        return self._journal.append(Entry(after + 1, event.origin, as_text(event.changes), removed, added))
+        return self._journal.append(
+            JournalEntry(after + 1, event.origin, encode_changes(event.changes), removed, added)
+        )
 
     def since(self, sequence: int) -> tuple[Transaction, ...]:
         """Return the transactions after the one of that number, in order."""
         entries = self._journal.since(sequence)
-        return tuple(Transaction(each.sequence, each.origin, changes_of(each.changes)) for each in entries)
+        return tuple(Transaction(each.sequence, each.origin, decode_changes(each.changes)) for each in entries)
 
     def _enter(self, reset: bool) -> None:
         alone = self._users.alone()
@@ -147,7 +149,7 @@ def _prepare(folder: Path) -> None:
     half.replace(mark)
 
 
-def _net(entries: Iterable[Entry]) -> dict[ox.Triple, bool]:
+def _net(entries: Iterable[JournalEntry]) -> dict[ox.Triple, bool]:
     """Return the triples that entries write, in the end there or not."""
     net: dict[ox.Triple, bool] = {}
     for entry in entries:

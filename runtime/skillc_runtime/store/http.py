@@ -13,24 +13,24 @@ from skillc_runtime.world.state.transactions import StoreError
 
 TIMEOUT_S = 10.0
 """How long a server is waited for to take a connection, and then to send something."""
-TOTAL = 6
+TOTAL_TIMEOUTS = 6
 """So many times that long a whole answer may take."""
-LARGEST = 2**30
+MAX_ANSWER_BYTES = 2**30
 """The greatest number of bytes of an answer: a world of some million facts."""
 QUERY, UPDATE = "application/sparql-query", "application/sparql-update"
 LONGEST_REASON = 200
 """How many characters of a server's own message are shown."""
 
 
-class Unreachable(StoreError):
+class ServerUnreachable(StoreError):
     """A server that did not answer, or not as one does; whether it did what it was asked for is not known."""
 
 
-class Garbled(Unreachable):
+class InvalidAnswer(ServerUnreachable):
     """A server that answered with something that is no answer."""
 
 
-class Refused(StoreError):
+class RequestRefused(StoreError):
     """A server that answered that it does not do what it was asked for; `status` is the HTTP status."""
 
     def __init__(self, message: str, status: int) -> None:
@@ -86,7 +86,7 @@ class HttpEndpoint:
         """Return an answer in the media type `accept`; Unreachable, Refused."""
         answer = self._post(self._query, QUERY, text, accept)
         if not answer.kind.startswith(accept):
-            raise Garbled(f"{self} answers with {answer.kind or 'something'} where {accept} was asked for")
+            raise InvalidAnswer(f"{self} answers with {answer.kind or 'something'} where {accept} was asked for")
         return answer.body
 
     def update(self, text: str) -> None:
@@ -106,18 +106,22 @@ class HttpEndpoint:
             answer = self._exchange(url, kind, text, accept)
         except _TooLarge:
             self.close()
-            raise Garbled(f"{url} answers with more than {LARGEST >> 20} MB, which is no world") from None
+            raise InvalidAnswer(
+                f"{url} answers with more than {MAX_ANSWER_BYTES >> 20} MB, which is no world"
+            ) from None
         except (OSError, http.client.HTTPException) as error:
             self.close()
             if kept and isinstance(error, ConnectionError):
                 return self._post(url, kind, text, accept)
-            raise Unreachable(f"{url} does not answer: {url.without_secrets(_why(error, self._timeout_s))}") from None
+            raise ServerUnreachable(
+                f"{url} does not answer: {url.without_secrets(_describe_failure(error, self._timeout_s))}"
+            ) from None
         if answer.status < 300:
             return answer
         raise _refusal(url, answer)
 
     def _exchange(self, url: Address, kind: str, text: str, accept: str) -> _Answer:
-        deadline = Deadline(TOTAL * self._timeout_s, self._timeout_s)
+        deadline = Deadline(TOTAL_TIMEOUTS * self._timeout_s, self._timeout_s)
         connection = self._connection = self._connection or _connection(url, self._timeout_s)
         timed: Any = connection.sock
         if timed is None:
@@ -137,7 +141,7 @@ def _body(response: http.client.HTTPResponse) -> bytes:
     while part := response.read(2**20):
         parts.append(part)
         size += len(part)
-        if size > LARGEST:
+        if size > MAX_ANSWER_BYTES:
             raise _TooLarge
     if response.length:
         raise http.client.IncompleteRead(b"", response.length)
@@ -152,8 +156,14 @@ def _refusal(url: Address, answer: _Answer) -> StoreError:
     message = f"{url} answers {answer.status} {reason}" + (f": {told}" if told else "")
     if answer.status < 400:
         where = url.without_secrets(answer.elsewhere) or "another address"
-        return Refused(f"{url} answers {answer.status} {reason}: it sends on to {where}; name that one", answer.status)
-    return Unreachable(message) if answer.status >= 500 and answer.status != 501 else Refused(message, answer.status)
+        return RequestRefused(
+            f"{url} answers {answer.status} {reason}: it sends on to {where}; name that one", answer.status
+        )
+    return (
+        ServerUnreachable(message)
+        if answer.status >= 500 and answer.status != 501
+        else RequestRefused(message, answer.status)
+    )
 
 
 def _connection(url: Address, timeout_s: float) -> http.client.HTTPConnection:
@@ -163,10 +173,10 @@ def _connection(url: Address, timeout_s: float) -> http.client.HTTPConnection:
     return http.client.HTTPConnection(url.host, url.port, timeout=timeout_s)
 
 
-def _why(error: Exception, timeout_s: float) -> str:
+def _describe_failure(error: Exception, timeout_s: float) -> str:
     match error:
         case TimeoutError():
-            return f"no answer within {timeout_s:g} s, or not a whole one within {TOTAL * timeout_s:g} s"
+            return f"no answer within {timeout_s:g} s, or not a whole one within {TOTAL_TIMEOUTS * timeout_s:g} s"
         case ConnectionRefusedError():
             return "nobody listens there"
         case ConnectionError() | http.client.RemoteDisconnected():
@@ -175,3 +185,26 @@ def _why(error: Exception, timeout_s: float) -> str:
             return "that is no HTTP"
         case _:
             return getattr(error, "strerror", None) or str(error)
+
+
+FORMS = (("", ""), ("/query", "/update"), ("", "/statements"), ("/sparql", "/update"))
+"""What servers put behind their address for queries and for updates: Fuseki and Virtuoso, Oxigraph, RDF4J, others."""
+NOTHING_ASKED, NOTHING_DONE = "ASK {}", "INSERT DATA {}"
+ROWS = "application/sparql-results+json"
+
+
+def find_endpoint(address: str, timeout_s: float = TIMEOUT_S) -> HttpEndpoint:
+    """Return a server that answers queries and makes updates; StoreError when there is none at the address."""
+    name = Address.of(address)
+    refusals: list[StoreError] = []
+    for query, update in FORMS:
+        endpoint = HttpEndpoint(address, query, update, timeout_s)
+        try:
+            endpoint.query(NOTHING_ASKED, ROWS)
+            endpoint.update(NOTHING_DONE)
+        except (RequestRefused, InvalidAnswer) as error:
+            refusals.append(error)
+        else:
+            return endpoint
+        endpoint.close()
+    raise StoreError(f"no SPARQL 1.1 server takes queries and updates at {name}: {refusals[-1]}")

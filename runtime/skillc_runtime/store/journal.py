@@ -15,7 +15,7 @@ import msgspec
 from skillc_runtime.world.state.transactions import StoreError
 
 
-class Entry(msgspec.Struct, frozen=True, array_like=True):
+class JournalEntry(msgspec.Struct, frozen=True, array_like=True):
     """A transaction as it is written: its changes, and the triples it takes away and adds, in N-Triples."""
 
     sequence: int
@@ -33,7 +33,7 @@ class _Place:
     offset: int
 
 
-class Journal:
+class TransactionJournal:
     """The transactions that follow those which are kept elsewhere.
 
     A line is a checksum, an entry as JSON and the end of the line. It counts once it is complete: what a writer that
@@ -56,7 +56,7 @@ class Journal:
         """Close the file."""
         os.close(self._file)
 
-    def append(self, entry: Entry) -> bool:
+    def append(self, entry: JournalEntry) -> bool:
         """Write an entry to the disk, or return False when another has its number; StoreError when it cannot be kept.
 
         An entry that could not be written in full is taken back.
@@ -75,7 +75,7 @@ class Journal:
                 raise StoreError(f"nothing can be written to {self._path}: {error.strerror}") from error
         return True
 
-    def since(self, sequence: int) -> tuple[Entry, ...]:
+    def since(self, sequence: int) -> tuple[JournalEntry, ...]:
         """Return the entries after the one of that number; StoreError when the file is damaged."""
         if sequence == self._seen.sequence and os.fstat(self._file).st_size <= self._seen.offset:
             return ()
@@ -96,9 +96,9 @@ class Journal:
         finally:
             fcntl.flock(self._file, fcntl.LOCK_UN)
 
-    def _after(self, sequence: int) -> tuple[Entry, ...]:
+    def _after(self, sequence: int) -> tuple[JournalEntry, ...]:
         place = self._seen if self._seen.sequence <= sequence else self._start
-        found: list[Entry] = []
+        found: list[JournalEntry] = []
         for entry, end in self._lines(place):
             self._seen = end
             if entry.sequence > sequence:
@@ -123,7 +123,7 @@ class Journal:
         places = [place for _, place in self._lines(self._seen)]
         return places[-1] if places else self._seen
 
-    def _lines(self, place: _Place) -> Iterator[tuple[Entry, _Place]]:
+    def _lines(self, place: _Place) -> Iterator[tuple[JournalEntry, _Place]]:
         """Yield the complete entries from a place on, each with the place after it."""
         offset, sequence = place.offset, place.sequence
         size = os.fstat(self._file).st_size
@@ -141,17 +141,17 @@ class Journal:
             yield entry, _Place(sequence, offset)
 
 
-def _line(entry: Entry) -> bytes:
+def _line(entry: JournalEntry) -> bytes:
     text = msgspec.json.encode(entry)
     return b"%08x %s\n" % (crc32(text), text)
 
 
-def _entry(line: bytes) -> Entry | None:
+def _entry(line: bytes) -> JournalEntry | None:
     """Return the entry of a line, None when the line is damaged."""
     checksum, _, text = line.partition(b" ")
     if checksum != b"%08x" % crc32(text):
         return None
     try:
-        return msgspec.json.decode(text, type=Entry)
+        return msgspec.json.decode(text, type=JournalEntry)
     except msgspec.DecodeError:
         return None

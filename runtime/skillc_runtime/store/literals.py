@@ -15,7 +15,7 @@ from skillc_rdf.turtle.terms import XSD
 from skillc_rdf.vocabulary.types import DirectionType, NumberType, PlainType, PropertyTerm, VectorType
 from skillc_runtime.world.state.terms import SKILLC
 from skillc_runtime.world.state.values import Value
-from skillc_runtime.world.state.vectors import is_direction, is_too_large, vector_of
+from skillc_runtime.world.state.vectors import is_direction, is_too_large, parse_vector
 
 INTEGERS = frozenset(
     XSD + name
@@ -41,7 +41,7 @@ class LiteralError(ValueError):
         self.help, self.instead = help_, instead
 
 
-def read(literal: ox.Literal, term: PropertyTerm) -> Value:
+def read_literal(literal: ox.Literal, term: PropertyTerm) -> Value:
     """Return the value of a literal: any numeric datatype for a number, compared by value afterwards."""
     kind, text = literal.datatype.value, literal.value
     match term.type:
@@ -81,7 +81,7 @@ def _integer(text: str) -> int:
 
 
 def _vector(text: str, type_: VectorType | DirectionType) -> Value:
-    vector = vector_of(text)
+    vector = parse_vector(text)
     if vector is None and is_too_large(text):
         raise LiteralError("a number of this vector is too large", SMALLER)
     if vector is None:

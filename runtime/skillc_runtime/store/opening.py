@@ -31,7 +31,7 @@ def open_store(place: str, reset: bool = False) -> OpenStore:
 
 
 def _on_server(address: str, reset: bool) -> OpenStore:
-    from skillc_runtime.store.finding import find_endpoint
+    from skillc_runtime.store.http import find_endpoint
     from skillc_runtime.store.sparql import SparqlStore
 
     return SparqlStore(find_endpoint(address), reset)

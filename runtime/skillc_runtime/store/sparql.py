@@ -14,11 +14,11 @@ from typing import TypeVar
 import msgspec
 import pyoxigraph as ox
 
-from skillc_runtime.store import texts
-from skillc_runtime.store.http import Endpoint, Unreachable
+from skillc_runtime.store import sparql_texts as texts
+from skillc_runtime.store.change_json import decode_changes, encode_changes
+from skillc_runtime.store.http import Endpoint, ServerUnreachable
 from skillc_runtime.store.store import StoredWorld
-from skillc_runtime.store.triples import difference
-from skillc_runtime.store.wire import as_text, changes_of
+from skillc_runtime.store.triples import triple_difference
 from skillc_runtime.world.state.transactions import ChangeEvent, StoreError, Transaction
 
 ROWS, TRIPLES = "application/sparql-results+json", "application/n-triples"
@@ -48,9 +48,9 @@ class SparqlStore:
     def __init__(self, endpoint: Endpoint, reset: bool = False, patience_s: float = PATIENCE_S) -> None:
         """Use a server and, with `reset`, forget what it holds of a world; StoreError when it cannot be used."""
         self._endpoint, self._patience_s, self._empty, self._behind = endpoint, patience_s, False, False
-        self._patiently(lambda: endpoint.update(texts.FOUND))
+        self._patiently(lambda: endpoint.update(texts.CREATE))
         if reset:
-            self._patiently(lambda: endpoint.update(texts.FORGET))
+            self._patiently(lambda: endpoint.update(texts.RESET))
 
     def __str__(self) -> str:
         return str(self._endpoint)
@@ -67,10 +67,10 @@ class SparqlStore:
 
     def append(self, event: ChangeEvent, after: int) -> bool:
         """Write an event as the transaction that follows `after`, or return False when there is another already."""
-        change, mark = difference(event), secrets.token_hex(8)
+        change, mark = triple_difference(event), secrets.token_hex(8)
         about = {texts.MARK: mark, texts.ORIGIN: event.origin}
-        about |= {} if self._empty else {texts.CHANGES: as_text(event.changes)}
-        update = texts.write(change, after, about, event.origin if self._empty else None)
+        about |= {} if self._empty else {texts.CHANGES: encode_changes(event.changes)}
+        update = texts.write_update(change, after, about, event.origin if self._empty else None)
         self._empty = False
         made = self._patiently(lambda: self._sent(update, after, mark))
         self._behind = not made
@@ -85,27 +85,27 @@ class SparqlStore:
         return self._patiently(lambda: self._logged(sequence)) if behind else self._logged(sequence)
 
     def _logged(self, sequence: int) -> tuple[Transaction, ...]:
-        rows = sorted(self._rows(texts.logged(sequence), "origin"), key=lambda row: int(row["n"]))
+        rows = sorted(self._rows(texts.log_query(sequence), "origin"), key=lambda row: int(row["n"]))
         if any(int(row["n"]) != n or "changes" not in row for n, row in enumerate(rows, sequence + 1)):
             raise StoreError(f"{self} was filled anew by somebody else; start again to go on with what it holds now")
         try:
-            return tuple(Transaction(int(row["n"]), row["origin"], changes_of(row["changes"])) for row in rows)
+            return tuple(Transaction(int(row["n"]), row["origin"], decode_changes(row["changes"])) for row in rows)
         except ValueError as error:
             raise StoreError(f"the log of {self} is damaged: {error}; fill the store anew with --reset") from error
 
     def _sent(self, update: str, after: int, mark: str) -> bool:
         """Send an update, which does nothing where it was made already, and return whether it was made."""
         self._endpoint.update(update)
-        found = self._one(texts.head(after + 1))
+        found = self._one(texts.head_query(after + 1))
         if int(found["n"]) == after:
-            raise Unreachable(f"{self} took an update and did not make it")
+            raise ServerUnreachable(f"{self} took an update and did not make it")
         return found.get("mark") == mark
 
     def _read(self) -> StoredWorld:
         while True:
-            head = self._one(texts.began(), "beginning")
+            head = self._one(texts.beginning_query(), "beginning")
             triples = self._triples()
-            if self._one(texts.began(), "beginning") == head:
+            if self._one(texts.beginning_query(), "beginning") == head:
                 return StoredWorld(int(head["n"]), head["beginning"], triples)
 
     def _one(self, query: str, *names: str) -> Row:
@@ -120,10 +120,10 @@ class SparqlStore:
         try:
             bindings = msgspec.json.decode(answer, type=_Answer).results.bindings
         except (msgspec.DecodeError, UnicodeDecodeError) as error:
-            raise Unreachable(f"{self} answers a query with something that is no answer") from error
+            raise ServerUnreachable(f"{self} answers a query with something that is no answer") from error
         rows = [{name: term.value for name, term in row.items()} for row in bindings]
         if not all(row.get("n", "").isdecimal() and row.keys() >= {*names} for row in rows):
-            raise Unreachable(f"{self} answers a query with something that is no answer")
+            raise ServerUnreachable(f"{self} answers a query with something that is no answer")
         return rows
 
     def _triples(self) -> tuple[ox.Triple, ...]:
@@ -131,7 +131,7 @@ class SparqlStore:
         try:
             return tuple(quad.triple for quad in ox.parse(answer, format=ox.RdfFormat.N_TRIPLES))
         except (SyntaxError, ValueError) as error:
-            raise Unreachable(f"{self} answers a query with something that is no answer") from error
+            raise ServerUnreachable(f"{self} answers a query with something that is no answer") from error
 
     def _patiently(self, ask: Callable[[], T]) -> T:
         """Ask again, with growing pauses, until there is an answer or patience ends; Unreachable then."""
@@ -139,7 +139,7 @@ class SparqlStore:
         while True:
             try:
                 return ask()
-            except Unreachable:
+            except ServerUnreachable:
                 if time.monotonic() + pause_s > ends:
                     raise
             time.sleep(pause_s)

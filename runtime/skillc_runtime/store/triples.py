@@ -9,10 +9,10 @@ import pyoxigraph as ox
 
 from skillc_rdf.turtle.terms import OWL, RDF_TYPE, RDFS
 from skillc_rdf.vocabulary.types import NumberType, PropertyTerm, Vocabulary
-from skillc_runtime.world.state.changes import about
+from skillc_runtime.world.state.changes import named_individuals
 from skillc_runtime.world.state.transactions import ChangeEvent, StoreError
 from skillc_runtime.world.state.values import Value
-from skillc_runtime.world.state.vectors import is_vector, text_of_vector
+from skillc_runtime.world.state.vectors import format_vector, is_vector
 from skillc_runtime.world.state.world_state import WorldState
 
 TYPE, CLASS = ox.NamedNode(RDF_TYPE), ox.NamedNode(f"{OWL}Class")
@@ -21,27 +21,27 @@ PREFIX = ox.NamedNode("http://purl.org/vocab/vann/preferredNamespacePrefix")
 
 
 @dataclass(frozen=True, slots=True)
-class Difference:
+class TripleDifference:
     """The triples that lead from one version of a world to the next; sorted, so that equal ones look alike."""
 
     removed: tuple[ox.Triple, ...]
     added: tuple[ox.Triple, ...]
 
 
-def difference(event: ChangeEvent) -> Difference:
+def triple_difference(event: ChangeEvent) -> TripleDifference:
     """Return what a write adds and takes away; StoreError for a fact that no triple can state.
 
     Whatever a change retracts beside what it says, it retracts about an individual that it names.
     """
     if not event.before.individuals:
         declared = declarations(event.before.vocabulary, event.after.vocabulary)
-        return Difference((), tuple(sorted({*declared, *all_facts(event.after)}, key=str)))
-    touched = frozenset(individual for change in event.changes for individual in about(change))
+        return TripleDifference((), tuple(sorted({*declared, *all_triples(event.after)}, key=str)))
+    touched = frozenset(individual for change in event.changes for individual in named_individuals(change))
     before, after = set(_facts_about(touched, event.before)), set(_facts_about(touched, event.after))
-    return Difference(tuple(sorted(before - after, key=str)), tuple(sorted(after - before, key=str)))
+    return TripleDifference(tuple(sorted(before - after, key=str)), tuple(sorted(after - before, key=str)))
 
 
-def all_facts(state: WorldState) -> Iterator[ox.Triple]:
+def all_triples(state: WorldState) -> Iterator[ox.Triple]:
     """Yield what was written of all individuals, in no particular order."""
     for individual in state.individuals:
         yield from _types(individual, state)
@@ -87,7 +87,7 @@ def _valued(individual: str, term: PropertyTerm, value: Value | None) -> Iterato
         elif isinstance(one, bool | int | float | str):
             yield ox.Triple(_node(individual), _node(term.iri), ox.Literal(one))
         elif is_vector(one):
-            yield ox.Triple(_node(individual), _node(term.iri), ox.Literal(text_of_vector(one)))
+            yield ox.Triple(_node(individual), _node(term.iri), ox.Literal(format_vector(one)))
         elif one is not None:
             raise StoreError(f"no store can keep <{term.iri}> of <{individual}>: it is no number, text or truth value")
 

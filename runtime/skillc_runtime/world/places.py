@@ -15,7 +15,7 @@ from skillc_runtime.motion.lanes import lanes as lane_pattern
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.strokes import strokes_over
 from skillc_runtime.world.space.frames import normal, pose, size
-from skillc_runtime.world.space.surfaces import direction, layout
+from skillc_runtime.world.space.surfaces import lane_direction, surface_layout
 
 if TYPE_CHECKING:
     from skillc_runtime.world.state.world_state import WorldState
@@ -43,7 +43,7 @@ def last(_state: WorldState, path: list[Pose]) -> Pose:
 
 def centre(state: WorldState, surface: str) -> Pose:
     """Return the tool's pose in the middle of a surface, flush with it."""
-    return pose(state, surface) @ Pose(np.zeros(3), _tool_axes(size(state, surface), direction(state, surface)))
+    return pose(state, surface) @ Pose(np.zeros(3), _tool_axes(size(state, surface), lane_direction(state, surface)))
 
 
 def facing(state: WorldState, target: str) -> Pose:
@@ -68,7 +68,7 @@ def z_axis(_state: WorldState, of: Pose) -> Array:
 
 def lanes(state: WorldState, surface: str, tool: str, overlap: float) -> list[Pose]:
     """Return the tool's poses along lanes that cover a surface; `overlap`: the share neighbours have in common."""
-    frame, along = pose(state, surface), direction(state, surface)
+    frame, along = pose(state, surface), lane_direction(state, surface)
     found = lane_pattern(size(state, surface)[:2], size(state, tool)[:2], overlap, direction=along)
     return [frame @ lane for lane in found]
 
@@ -78,8 +78,10 @@ def strokes(state: WorldState, surface: str, tool: str, overlap: float) -> list[
 
     Between two pieces the tool must be lifted. ValueError where the tool fits nowhere.
     """
-    frame, along = pose(state, surface), direction(state, surface)
-    found = strokes_over(layout(state, surface), size(state, tool)[:2], overlap, Pose(np.zeros(3), np.eye(3)), along)
+    frame, along = pose(state, surface), lane_direction(state, surface)
+    found = strokes_over(
+        surface_layout(state, surface), size(state, tool)[:2], overlap, Pose(np.zeros(3), np.eye(3)), along
+    )
     if not found:
         short = state.vocabulary.short
         raise ValueError(f"{short(tool)} fits nowhere on {short(surface)} beside the holes that it has")
@@ -88,7 +90,9 @@ def strokes(state: WorldState, surface: str, tool: str, overlap: float) -> list[
 
 def lifted(state: WorldState, surface: str, start: Pose, height: float) -> Pose:
     """Return the pose moved out of a surface by a height in m above all that is known to stand out of it."""
-    return Pose(start.position + (height + layout(state, surface).height) * normal(state, surface), start.rotation)
+    return Pose(
+        start.position + (height + surface_layout(state, surface).height) * normal(state, surface), start.rotation
+    )
 
 
 def landing(state: WorldState, surface: str, paths: list[list[Pose]]) -> Pose:
@@ -101,7 +105,7 @@ def landing(state: WorldState, surface: str, paths: list[list[Pose]]) -> Pose:
 
 def across(state: WorldState, surface: str) -> Array:
     """Return the direction (3,) of the world across the lanes of a surface."""
-    along = side(size(state, surface), direction(state, surface))
+    along = side(size(state, surface), lane_direction(state, surface))
     return pose(state, surface).rotation[:, 1 - along].copy()
 
 

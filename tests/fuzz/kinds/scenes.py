@@ -15,11 +15,11 @@ from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.checks.identity import PROPERTY, SOURCE, TARGETS
 from skillc_runtime.scene.documents import BASE, Document, SceneError, parse
-from skillc_runtime.scene.load import Scene, load_in_bulk, scene_of, world_of
-from skillc_runtime.scene.saving import SaveError, turtle
+from skillc_runtime.scene.load import Scene, load_documents, load_in_bulk, read_documents
+from skillc_runtime.scene.saving import SaveError, format_scene
 from skillc_runtime.scene.statements import SUBCLASS, iri_of, is_annotation, is_term_kind
-from skillc_runtime.store.literals import read
-from skillc_runtime.world.state.values import has
+from skillc_runtime.store.literals import read_literal
+from skillc_runtime.world.state.values import has_value
 from skillc_runtime.world.state.world_state import WorldState
 from world.sameness import everything
 
@@ -32,7 +32,7 @@ def run_case(random: Random, folder: Path) -> None:
     text = _text(random)
     (folder / "scene.ttl").write_text(text, encoding="utf-8", errors="surrogatepass", newline="")
     document, vocabulary = Document("scene.ttl", text), _vocabulary()
-    careful, quick = scene_of([document, *SHEETS], vocabulary), load_in_bulk([document, *SHEETS], vocabulary)
+    careful, quick = read_documents([document, *SHEETS], vocabulary), load_in_bulk([document, *SHEETS], vocabulary)
     _check_problems(careful, text)
     assert quick is None or not careful.problems, f"the quick reader passes over: {careful.problems}"
     assert quick is None or everything(quick) == everything(careful.state), "the readers disagree"
@@ -68,7 +68,7 @@ def _scenes() -> tuple[str, ...]:
 
 @cache
 def _shipped() -> WorldState:
-    return world_of(SHEETS, _vocabulary())
+    return load_documents(SHEETS, _vocabulary())
 
 
 def _check_problems(scene: Scene, text: str) -> None:
@@ -112,7 +112,7 @@ def _is_known(state: WorldState, subject: str, predicate: str, object_: str, nod
         return state.holds(subject, predicate, object_)
     if predicate in state.vocabulary.properties:
         term = state.vocabulary.properties[predicate]
-        return isinstance(node, ox.Literal) and has(state.value(subject, predicate), read(node, term))
+        return isinstance(node, ox.Literal) and has_value(state.value(subject, predicate), read_literal(node, term))
     said_of_no_world = predicate.rpartition("#")[2] in ("differentFrom", "sameAs", "hasTemplate")
     denied = predicate in (SOURCE, PROPERTY, *TARGETS)  # a denial that holds; others are told
     return is_annotation(predicate) or said_of_no_world or denied or predicate in _annotations(state)
@@ -130,13 +130,13 @@ def _without_prefixes(state: WorldState) -> dict[str, object]:
 
 def _check_saving(state: WorldState, document: Document, vocabulary: Vocabulary) -> None:
     try:
-        text = turtle(state, _shipped(), document)
+        text = format_scene(state, _shipped(), document)
     except SaveError:
         return
     try:
-        again = world_of([Document("saved.ttl", text), *SHEETS], vocabulary)
+        again = load_documents([Document("saved.ttl", text), *SHEETS], vocabulary)
     except SceneError as error:
         raise AssertionError(f"what was saved cannot be read: {error}\n{text}") from error
     assert _without_prefixes(again) == _without_prefixes(state), "what was saved is another world"
     if "_:" not in text:
-        assert turtle(again, _shipped(), Document("saved.ttl", text)) == text, "saved again it is another text"
+        assert format_scene(again, _shipped(), Document("saved.ttl", text)) == text, "saved again it is another text"

@@ -16,7 +16,7 @@ def command(path: Path | None) -> None:
     """Print the shapes of the vocabulary of the library at PATH, or of the shipped one, in Turtle."""
     from skillc.services.libraries import compile_valid
     from skillc.services.library_files import SHIPPED, find_library
-    from skillc_runtime.scene.shapes import shapes
+    from skillc_runtime.scene.shapes import format_shapes
 
     library = compile_valid(find_library(path or SHIPPED / "wiping"))
-    click.echo(shapes(library.vocabulary), nl=False)
+    click.echo(format_shapes(library.vocabulary), nl=False)

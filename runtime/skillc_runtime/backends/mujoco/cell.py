@@ -26,7 +26,7 @@ from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.devices.gripper import working_face
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.world.space.frames import placed, size
+from skillc_runtime.world.space.frames import placement_changes, size
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import DEVICE_STATE
@@ -201,7 +201,7 @@ class SimulatedCell:
         left_at = there @ working_face(size(state, thing)).inverse()
         gripper.lose()
         self._drivers[arm].abort(why)
-        self._world.commit(placed(thing, left_at), why, "assumed")
+        self._world.commit(placement_changes(thing, left_at), why, "assumed")
 
     def _carry_along(self, robot: str, motion: Pose) -> None:
         """Move what the arms of a driving robot hold along with it."""

@@ -13,8 +13,8 @@ from skillc_runtime.control.safety import Box, SafetyLimits
 from skillc_runtime.control.setup import ArmSetup
 from skillc_runtime.control.virtual_arm import virtual_model
 from skillc_runtime.devices.arm import ModeRefused
-from skillc_runtime.world.space.frames import seen_from, size
-from skillc_runtime.world.state.data_sheet import SheetError, number
+from skillc_runtime.world.space.frames import relative_pose, size
+from skillc_runtime.world.state.data_sheet import SheetError, number_of
 from skillc_runtime.world.state.terms import (
     CONTACT_FORCE_LIMIT,
     HAS_SENSOR,
@@ -26,7 +26,7 @@ from skillc_runtime.world.state.terms import (
 
 def driver(facts: ArmSpec, arm: SimulatedArm, period_s: float) -> CompliantArmDriver:
     """Return the driver of an arm with the controller its facts name; SheetError for an unknown one, a missing gain."""
-    jerk_limit = number(facts.sheet.state, facts.sheet.individual, JERK_LIMIT, inf)
+    jerk_limit = number_of(facts.sheet.state, facts.sheet.individual, JERK_LIMIT, inf)
     try:
         chosen = read_gains(facts.controller, facts.sheet.number)
     except UnknownController as error:
@@ -54,7 +54,7 @@ def _engage(facts: ArmSpec, arm: SimulatedArm, law: LawGains) -> None:
 def safety(facts: ArmSpec) -> SafetyLimits:
     """Return what is known of the limits of an arm: those of its sheet, and its workspace, which goes with its base."""
     state, sheet = facts.sheet.state, facts.sheet.individual
-    force, speed = (number(state, sheet, limit, inf) for limit in (CONTACT_FORCE_LIMIT, TOOL_SPEED_LIMIT))
+    force, speed = (number_of(state, sheet, limit, inf) for limit in (CONTACT_FORCE_LIMIT, TOOL_SPEED_LIMIT))
     spaces = sorted(state.objects(facts.individual, HAS_WORKSPACE))
-    space = Box(seen_from(state, facts.individual, spaces[0]), size(state, spaces[0])) if spaces else None
+    space = Box(relative_pose(state, facts.individual, spaces[0]), size(state, spaces[0])) if spaces else None
     return SafetyLimits(force, speed, space)

@@ -9,7 +9,7 @@ from pathlib import Path
 from skillc_runtime.backends.mujoco.friction import friction, ranges
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.space.frames import pose
-from skillc_runtime.world.state.data_sheet import Sheet, number, range_below, sheet_of
+from skillc_runtime.world.state.data_sheet import DataSheet, number_of, range_below, sheet_of
 from skillc_runtime.world.state.terms import (
     BUTTON,
     DEPTH_RANGE,
@@ -36,7 +36,7 @@ class FixtureSpec:
     individual: str
     pose: Pose
     model: Path
-    sheet: Sheet
+    sheet: DataSheet
     place_range_m: float = 0.0
     depth_range_m: float = 0.0
     tilt_range_rad: float = 0.0
@@ -53,10 +53,10 @@ def read_fixtures(state: WorldState) -> tuple[FixtureSpec, ...]:
 
 def _fixture(state: WorldState, fixture: str) -> FixtureSpec:
     sheet = sheet_of(state, fixture)
-    travel = number(state, sheet.individual, SWITCH_TRAVEL) if state.is_a(fixture, BUTTON) else None
+    travel = number_of(state, sheet.individual, SWITCH_TRAVEL) if state.is_a(fixture, BUTTON) else None
 
     def within(range_of: str) -> float:
-        return number(state, fixture, range_of, default=0.0)
+        return number_of(state, fixture, range_of, default=0.0)
 
     return FixtureSpec(
         individual=fixture,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from skillc_runtime.world.state.data_sheet import SheetError, number
+from skillc_runtime.world.state.data_sheet import SheetError, number_of
 from skillc_runtime.world.state.terms import FRICTION, FRICTION_HIGH, FRICTION_LOW
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -10,9 +10,9 @@ from skillc_runtime.world.state.world_state import WorldState
 def friction(state: WorldState, thing: str) -> tuple[float, float]:
     """Return the least and the greatest friction: the range where one of its ends is given, else the one value."""
     if not ranges(state, thing):
-        believed = number(state, thing, FRICTION)
+        believed = number_of(state, thing, FRICTION)
         return believed, believed
-    low, high = number(state, thing, FRICTION_LOW), number(state, thing, FRICTION_HIGH)
+    low, high = number_of(state, thing, FRICTION_LOW), number_of(state, thing, FRICTION_HIGH)
     if low > high:
         short = state.vocabulary.short
         raise SheetError(f"{short(thing)} has a {short(FRICTION_LOW)} above its {short(FRICTION_HIGH)}")

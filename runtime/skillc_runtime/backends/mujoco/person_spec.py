@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.space.frames import pose
-from skillc_runtime.world.state.data_sheet import number, range_below
+from skillc_runtime.world.state.data_sheet import number_of, range_below
 from skillc_runtime.world.state.terms import LEAD_RANGE, LEADS, PERSON, STRENGTH, STRENGTH_RANGE
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -33,9 +33,9 @@ def read_people(state: WorldState) -> tuple[PersonSpec, ...]:
             individual=each,
             arm=arm,
             place=pose(state, each).position,
-            range_m=number(state, each, LEAD_RANGE, default=0.0),
-            strength_n=number(state, each, STRENGTH),
-            strength_range_n=range_below(state, each, STRENGTH_RANGE, number(state, each, STRENGTH)),
+            range_m=number_of(state, each, LEAD_RANGE, default=0.0),
+            strength_n=number_of(state, each, STRENGTH),
+            strength_range_n=range_below(state, each, STRENGTH_RANGE, number_of(state, each, STRENGTH)),
         )
         for each in sorted(state.instances(PERSON))
         for arm in sorted(state.objects(each, LEADS))

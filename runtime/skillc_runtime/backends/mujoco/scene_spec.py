@@ -13,8 +13,8 @@ from skillc_runtime.devices.arm import Mode
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.frames import pose, size
-from skillc_runtime.world.space.surfaces import LEAST_FORCE_N, layout, least_force_n
-from skillc_runtime.world.state.data_sheet import Sheet, SheetError, number, sheet_of, text
+from skillc_runtime.world.space.surfaces import LEAST_FORCE_N, least_force_n, surface_layout
+from skillc_runtime.world.state.data_sheet import DataSheet, SheetError, number_of, sheet_of, text_of
 from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
     COMPLIANT_CONTROLLER,
@@ -82,7 +82,7 @@ class ArmSpec:
     force_torque: bool
     controller: str
     gripper: GripperSpec | None
-    sheet: Sheet
+    sheet: DataSheet
     posture_range_rad: float = 0.0
     joint_speed_noise: float = 0.0
     force_noise_n: float = 0.0
@@ -120,7 +120,7 @@ class ToolSpec:
     pose: Pose
     size: Array
     mass_kg: float
-    sheet: Sheet
+    sheet: DataSheet
     stiffness_range: float = 0.0
     rigid: bool = False
 
@@ -195,13 +195,13 @@ def _arm(state: WorldState, arm: str) -> ArmSpec:
         modes=_modes(state, arm),
         home=sheet.posture("home"),
         force_torque=bool(sensors),
-        controller=text(state, arm, COMPLIANT_CONTROLLER),
+        controller=text_of(state, arm, COMPLIANT_CONTROLLER),
         gripper=_gripper(state, grippers[0]) if grippers else None,
         sheet=sheet,
-        posture_range_rad=number(state, arm, POSTURE_RANGE, default=0.0),
-        joint_speed_noise=number(state, arm, JOINT_SPEED_NOISE, default=0.0),
-        force_noise_n=number(state, sensors[0], FORCE_NOISE, default=0.0) if sensors else 0.0,
-        torque_noise_n_m=number(state, sensors[0], TORQUE_NOISE, default=0.0) if sensors else 0.0,
+        posture_range_rad=number_of(state, arm, POSTURE_RANGE, default=0.0),
+        joint_speed_noise=number_of(state, arm, JOINT_SPEED_NOISE, default=0.0),
+        force_noise_n=number_of(state, sensors[0], FORCE_NOISE, default=0.0) if sensors else 0.0,
+        torque_noise_n_m=number_of(state, sensors[0], TORQUE_NOISE, default=0.0) if sensors else 0.0,
     )
 
 
@@ -237,9 +237,9 @@ def _tool(state: WorldState, tool: str) -> ToolSpec:
         model=sheet.model,
         pose=pose(state, tool),
         size=size(state, tool),
-        mass_kg=number(state, tool, WEIGHT),
+        mass_kg=number_of(state, tool, WEIGHT),
         sheet=sheet,
-        stiffness_range=number(state, tool, STIFFNESS_RANGE, default=0.0),
+        stiffness_range=number_of(state, tool, STIFFNESS_RANGE, default=0.0),
         rigid=state.is_a(sheet.individual, RIGID_TOOL_SHEET),
     )
 
@@ -249,9 +249,9 @@ def _surface(state: WorldState, surface: str) -> SurfaceSpec:
         individual=surface,
         pose=pose(state, surface),
         size=size(state, surface),
-        layout=layout(state, surface),
+        layout=surface_layout(state, surface),
         friction=friction(state, surface),
-        offset_range_m=number(state, surface, OFFSET_RANGE, default=0.0),
-        tilt_range_rad=number(state, surface, TILT_RANGE, default=0.0),
+        offset_range_m=number_of(state, surface, OFFSET_RANGE, default=0.0),
+        tilt_range_rad=number_of(state, surface, TILT_RANGE, default=0.0),
         least_n=least_force_n(state, surface),
     )

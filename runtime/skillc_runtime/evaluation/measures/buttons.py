@@ -9,7 +9,7 @@ import numpy as np
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import PressingWork, Work
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.state.data_sheet import number
+from skillc_runtime.world.state.data_sheet import number_of
 from skillc_runtime.world.state.terms import PRESS_FORCE
 
 HELD_S = 0.1
@@ -26,7 +26,7 @@ def measure(evidence: RunEvidence) -> Iterator[Work]:
         if len(pressing):
             yield PressingWork(
                 button=cell.facts.names[fixture.individual],
-                asked_n=number(cell.world.snapshot(), fixture.individual, PRESS_FORCE),
+                asked_n=number_of(cell.world.snapshot(), fixture.individual, PRESS_FORCE),
                 held_n=held_force(pressing),
                 greatest_n=float(pressing[:, 1].max()),
                 took=evidence.duration_share(fixture.individual),

@@ -9,7 +9,7 @@ from skillc_runtime.backends.mujoco.fixture_variation import FixtureVariation
 from skillc_runtime.backends.mujoco.names import part
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import InsertingWork, Work
-from skillc_runtime.world.state.data_sheet import number
+from skillc_runtime.world.state.data_sheet import number_of
 from skillc_runtime.world.state.terms import CONTAIN, DEPTH, PEG, SOCKET
 
 
@@ -28,7 +28,7 @@ def _inserted(evidence: RunEvidence, fixture: FixtureSpec, true: FixtureVariatio
     return InsertingWork(
         socket=cell.facts.names[fixture.individual],
         depth_m=-float(true.true_pose(fixture.pose).inverse().at(end)[2]),
-        hole_m=number(cell.world.snapshot(), fixture.individual, DEPTH),
+        hole_m=number_of(cell.world.snapshot(), fixture.individual, DEPTH),
         greatest_n=float(cell.ground_truth.recording(peg).force.max(initial=0.0)),
         took=evidence.duration_share(fixture.individual),
     )

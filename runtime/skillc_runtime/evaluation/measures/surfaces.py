@@ -12,7 +12,7 @@ from skillc_runtime.evaluation.measures.work import PolishingWork, WipingWork, W
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.report.wiping import Wiping
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.state.data_sheet import number
+from skillc_runtime.world.state.data_sheet import number_of
 from skillc_runtime.world.state.terms import POLISH_TIME, POLISHABLE_SURFACE
 
 LEAST_SWING_M = 1e-3
@@ -31,7 +31,7 @@ def measure(evidence: RunEvidence) -> Iterator[Work]:
 def _polished(evidence: RunEvidence, wiping: Wiping, how: WipingResult) -> PolishingWork:
     cell = evidence.cell
     asked, gone = swing_amplitudes(cell.ground_truth.recording(wiping.tool).between(wiping.start, wiping.end))
-    seconds = number(cell.world.snapshot(), wiping.surface, POLISH_TIME)
+    seconds = number_of(cell.world.snapshot(), wiping.surface, POLISH_TIME)
     swung = asked > LEAST_SWING_M
     return PolishingWork(
         how=how,

@@ -32,7 +32,7 @@ from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.known import assumed_facts
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.frame_tree import FrameError
-from skillc_runtime.world.state.data_sheet import SheetError, number
+from skillc_runtime.world.state.data_sheet import SheetError, number_of
 from skillc_runtime.world.state.labelled_text import format_fact
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import CONTACT_FORCE_LIMIT
@@ -116,6 +116,6 @@ def _greatest_force(cell: SimulatedCell) -> float:
 
 def _force_limit(cell: SimulatedCell) -> float | None:
     sheets = [arm.sheet for arm in cell.facts.arms]
-    limits = [number(sheet.state, sheet.individual, CONTACT_FORCE_LIMIT, default=inf) for sheet in sheets]
+    limits = [number_of(sheet.state, sheet.individual, CONTACT_FORCE_LIMIT, default=inf) for sheet in sheets]
     least = min(limits, default=inf)
     return None if least == inf else least

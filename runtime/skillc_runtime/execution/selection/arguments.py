@@ -9,7 +9,7 @@ from skillc_model.words import type_text
 from skillc_rdf.vocabulary.types import THING, ClassType, DirectionType, ValueType, Vocabulary, local_name
 from skillc_runtime.world.state.labelled import label_value
 from skillc_runtime.world.state.labelled_text import format_value
-from skillc_runtime.world.state.value_types import is_of
+from skillc_runtime.world.state.value_types import is_of_type
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.vectors import is_vector
 from skillc_runtime.world.state.world_state import WorldState
@@ -18,7 +18,7 @@ from skillc_runtime.world.state.world_state import WorldState
 def check_value(parameter: Parameter, value: Value, state: WorldState) -> str | None:
     """Return why the value does not fit the parameter, None if it does."""
     vocabulary = state.vocabulary
-    if not is_of(value, parameter.type, state):
+    if not is_of_type(value, parameter.type, state):
         return f"needs {_format_type(parameter.type, vocabulary)}, {_describe_value(value, parameter.type, state)}"
     if isinstance(value, int | float) and not isinstance(value, bool):
         return _check_range(parameter, float(value), vocabulary)

@@ -8,7 +8,7 @@ from skillc_model.reading import free_variables
 from skillc_model.skills import Implementation, Parameter, Requirement
 from skillc_runtime.execution.selection.binding import BoundImplementation
 from skillc_runtime.recording.reasons import DecidingCondition, ParameterReason
-from skillc_runtime.world.eval.support import deciding_facts
+from skillc_runtime.world.eval.deciding_facts import deciding_facts
 from skillc_runtime.world.state.labelled import label
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState

@@ -12,7 +12,7 @@ from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.inference import Ambiguous, Binding, Found, NoneFound, infer
-from skillc_runtime.world.eval.nearest import NearMiss
+from skillc_runtime.world.eval.near_misses import NearMiss
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 

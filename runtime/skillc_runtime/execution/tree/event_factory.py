@@ -16,8 +16,8 @@ from skillc_runtime.primitives.primitive import Phase
 from skillc_runtime.recording.events import Highlight, ImplementationChosen, WorldChanged
 from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.recording.reasons import FailedCallContext, UntriedImplementation
-from skillc_runtime.world.eval.support import deciding_facts
-from skillc_runtime.world.state.labelled import Iri, LabelledFact, LabelledValue, label_bindings, label_change
+from skillc_runtime.world.eval.deciding_facts import deciding_facts
+from skillc_runtime.world.state.labelled import LabelledFact, LabelledIri, LabelledValue, label_bindings, label_change
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.transactions import ChangeEvent
 from skillc_runtime.world.state.values import Value
@@ -60,7 +60,7 @@ def _highlights(
 ) -> tuple[Highlight, ...]:
     """Return what there is to see of the individuals that a primitive is bound to."""
     found = ((when, bindings.get(parameter), word) for when, parameter, word in declared)
-    return tuple(Highlight(when, what, word) for when, what, word in found if isinstance(what, Iri))
+    return tuple(Highlight(when, what, word) for when, what, word in found if isinstance(what, LabelledIri))
 
 
 def _make_untried(

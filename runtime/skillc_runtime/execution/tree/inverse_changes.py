@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from skillc_runtime.world.state.changes import AddRelation, Change, ClearProperty, RemoveRelation, SetProperty
-from skillc_runtime.world.state.values import equal
+from skillc_runtime.world.state.values import are_equal
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -35,7 +35,7 @@ def _is_still_removed(change: RemoveRelation, before: WorldState, now: WorldStat
 
 def _invert_property(change: SetProperty, before: WorldState, after: WorldState, now: WorldState) -> Iterator[Change]:
     former, ours, current = (state.value(change.individual, change.property) for state in (before, after, now))
-    if current is None or ours is None or not equal(current, ours):
+    if current is None or ours is None or not are_equal(current, ours):
         return
     if former is None:
         yield ClearProperty(change.individual, change.property)

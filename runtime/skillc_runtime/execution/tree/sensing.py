@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from skillc_model.reading import conjuncts
 from skillc_model.skills import Post
 from skillc_runtime.execution.tree.lexical_scope import Frame
-from skillc_runtime.world.eval.grounds import Ground, grounds
+from skillc_runtime.world.eval.grounds import Ground, find_grounds
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
-from skillc_runtime.world.state.evidence import Established, statement
+from skillc_runtime.world.state.evidence import DecidingWrite, stated_fact
 from skillc_runtime.world.state.labelled import label_fact
 from skillc_runtime.world.state.labelled_text import format_fact
 from skillc_runtime.world.state.model import WorldModel
-from skillc_runtime.world.state.values import equal
+from skillc_runtime.world.state.values import are_equal
 
 
 def drop_sensed_changes(changes: Sequence[Change], world: WorldModel, writes_before: int) -> tuple[Change, ...]:
@@ -27,7 +27,7 @@ def drop_sensed_changes(changes: Sequence[Change], world: WorldModel, writes_bef
 def explain_not_sensed(post: Post, world: WorldModel, frame: Frame, writes_before: int) -> str | None:
     """Explain why a `sensed` post that holds was not measured since write number `writes_before`; None if it was."""
     for literal in conjuncts(post.condition):
-        found = grounds(literal, world, frame)
+        found = find_grounds(literal, world, frame)
         assumed = next((ground for ground in found if ground.assumed), None)
         if assumed is not None:
             return f"`{post.text}` must be sensed, but {_describe_ground(assumed, world)}"
@@ -38,19 +38,19 @@ def explain_not_sensed(post: Post, world: WorldModel, frame: Frame, writes_befor
 
 
 def _is_sensed(change: Change, world: WorldModel, writes_before: int) -> bool:
-    state, fact = world.snapshot(), statement(change)
+    state, fact = world.snapshot(), stated_fact(change)
     match change:
         case AddRelation(subject, relation, object_) | RemoveRelation(subject, relation, object_):
             holds = state.holds(subject, relation, object_) is isinstance(change, AddRelation)
         case SetProperty(individual, property_, value):
             present = state.value(individual, property_)
-            holds = present is not None and equal(present, value)
+            holds = present is not None and are_equal(present, value)
         case _:
             return False
     return holds and fact is not None and _is_sensed_since(world.known(fact), writes_before)
 
 
-def _is_sensed_since(established: Established | None, writes_before: int) -> bool:
+def _is_sensed_since(established: DecidingWrite | None, writes_before: int) -> bool:
     if established is None or established.number <= writes_before:
         return False
     return established.evidence in ("sensed", "reported")

@@ -37,7 +37,7 @@ from skillc_runtime.planning.problem.pose import Posed
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.properties import property_of
 from skillc_runtime.world.state.python_calls import EvaluationError
-from skillc_runtime.world.state.values import has
+from skillc_runtime.world.state.values import has_value
 from skillc_runtime.world.state.world_state import WorldState
 
 MOST_TUPLES = 100_000
@@ -128,7 +128,7 @@ class _StandIns:
         """Return the stand-ins for somebody of whom a property may have a value."""
         if self._state.vocabulary.properties[property_].computed_by is None:
             return {self._others[iri] for iri in self._state.having(property_, value) if iri in self._others}
-        return self._of_some(self._members, lambda iri: has(property_of(self._state, iri, property_), value))
+        return self._of_some(self._members, lambda iri: has_value(property_of(self._state, iri, property_), value))
 
     def _of_some(self, names: Iterable[str], holds: Callable[[str], bool]) -> Iterator[str]:
         """Yield those stand-ins of which something holds for one at least that they stand for."""

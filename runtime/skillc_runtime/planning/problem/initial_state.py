@@ -26,7 +26,7 @@ from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.state.properties import property_of
 from skillc_runtime.world.state.python_calls import EvaluationError
-from skillc_runtime.world.state.values import Value, has
+from skillc_runtime.world.state.values import Value, has_value
 from skillc_runtime.world.state.world_state import WorldState
 
 MOST_VALUES = 1_000_000
@@ -104,7 +104,7 @@ class InitialState:
         state, term = self._state, self._state.vocabulary.properties[property_]
         computed = term.computed_by is not None
         owners = (iri for iri in self._names if not computed or any(state.is_a(iri, each) for each in term.domains))
-        return (iri for iri in owners if has(property_of(state, iri, property_), value))
+        return (iri for iri in owners if has_value(property_of(state, iri, property_), value))
 
     def _guard(self, predicate: Predicate, fact: GuardFact) -> Iterator[tuple[str, ...]]:
         for names in self._choices(predicate.parameters, f"condition `{fact.label}` of {fact.skill}"):

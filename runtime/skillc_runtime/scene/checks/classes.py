@@ -13,13 +13,13 @@ from skillc_runtime.scene.statements import SUBCLASS, iri_of
 from skillc_runtime.scene.suggestions import suggest
 
 
-def are_placed(classes: Iterable[str], vocabulary: Vocabulary) -> bool:
+def have_valid_parents(classes: Iterable[str], vocabulary: Vocabulary) -> bool:
     """Whether the classes are below classes that there are, and none is below itself."""
     parents = [(iri, parent) for iri in classes for parent in vocabulary.classes[iri].parents]
     return all(parent in vocabulary.ancestors and not vocabulary.is_a(parent, iri) for iri, parent in parents)
 
 
-def misplaced_classes(said: Iterable[Statement], own: frozenset[str], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
+def check_class_parents(said: Iterable[Statement], own: frozenset[str], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
     """Yield a problem for each statement that puts an own class below one that there is not, or below itself.
 
     Of the statements that make a circle the last one is told, with the others beside it.
@@ -33,10 +33,12 @@ def misplaced_classes(said: Iterable[Statement], own: frozenset[str], vocabulary
         elif parent and vocabulary.is_a(parent, cls):
             circles.setdefault(_circle(cls, vocabulary), []).append(each)
     for statements in circles.values():
-        yield _around(statements, vocabulary)
+        yield _cycle(statements, vocabulary)
 
 
-def of_lost_classes(said: Iterable[Statement], own: frozenset[str], vocabulary: Vocabulary) -> frozenset[str]:
+def individuals_of_unknown_classes(
+    said: Iterable[Statement], own: frozenset[str], vocabulary: Vocabulary
+) -> frozenset[str]:
     """Return what is of an own class below one that there is not: what fits it is not known."""
     known = vocabulary.ancestors.keys()
     lost = {cls for cls in own if not vocabulary.ancestors[cls] <= known}
@@ -57,7 +59,7 @@ def _circle(cls: str, vocabulary: Vocabulary) -> frozenset[str]:
     return frozenset(other for other in vocabulary.ancestors[cls] - {THING} if vocabulary.is_a(other, cls))
 
 
-def _around(statements: list[Statement], vocabulary: Vocabulary) -> Diagnostic:
+def _cycle(statements: list[Statement], vocabulary: Vocabulary) -> Diagnostic:
     *others, last = statements
     names = [vocabulary.short(iri_of(each.subject)) for each in others if each.subject != last.subject]
     way = "".join(f", by {name}" for name in dict.fromkeys(names))

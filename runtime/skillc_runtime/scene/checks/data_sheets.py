@@ -39,12 +39,12 @@ KINDS = (
 def check_data_sheets(state: WorldState) -> Iterator[SceneViolation]:
     """Yield the sheets that cannot describe their device, or any; where the vocabulary has no sheets there is none."""
     if {HAS_SHEET, HAS_POSTURE} <= state.facts.keys():
-        yield from _other_kinds(state)
+        yield from _wrong_sheets(state)
         for sheet in sorted(state.instances(ARM_SHEET)):
             yield from _joints(state, sheet)
 
 
-def _other_kinds(state: WorldState) -> Iterator[SceneViolation]:
+def _wrong_sheets(state: WorldState) -> Iterator[SceneViolation]:
     short, known = state.vocabulary.short, set(chain.from_iterable(kinds for _, kinds in KINDS))
     for device, sheet in sorted(state.pairs(HAS_SHEET)):
         needed = {kind for cls, kinds in KINDS if state.is_a(device, cls) for kind in kinds}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches
 
-from skillc_runtime.scene.violation import SceneViolation, stored
+from skillc_runtime.scene.violation import SceneViolation, stored_values
 from skillc_runtime.world.space.frame_tree import WORLD_FRAME
 from skillc_runtime.world.state.terms import (
     AREA,
@@ -42,7 +42,7 @@ def check_frames(state: WorldState) -> Iterator[SceneViolation]:
 
 def _unknown_frames(state: WorldState, owners: Mapping[str, Sequence[str]]) -> Iterator[SceneViolation]:
     short = state.vocabulary.short
-    for individual, base in stored(state, BASE_FRAME_ID):
+    for individual, base in stored_values(state, BASE_FRAME_ID):
         found = owners.get(str(base), [])
         if base == WORLD_FRAME or len(found) == 1:
             continue
@@ -56,7 +56,7 @@ def _unknown_frames(state: WorldState, owners: Mapping[str, Sequence[str]]) -> I
 
 def _circles(state: WorldState, parents: Mapping[str, str]) -> Iterator[SceneViolation]:
     reported = set[str]()
-    for individual, _ in stored(state, BASE_FRAME_ID):
+    for individual, _ in stored_values(state, BASE_FRAME_ID):
         path, at = [individual], parents.get(individual)
         while at is not None and at not in path:
             path.append(at)
@@ -80,7 +80,7 @@ def _carrier(state: WorldState, parents: Mapping[str, str], thing: str) -> str |
 def _partial_poses(state: WorldState) -> Iterator[SceneViolation]:
     """A pose in a frame has all of its numbers."""
     short = state.vocabulary.short
-    for individual, _ in stored(state, BASE_FRAME_ID):
+    for individual, _ in stored_values(state, BASE_FRAME_ID):
         numbers = [name for name in (*POSITION, *ORIENTATION) if name in state.stored]
         lost = [short(name) for name in numbers if state.value(individual, name) is None]
         if lost:
@@ -94,7 +94,7 @@ def _nowhere(state: WorldState, parents: Mapping[str, str]) -> Iterator[SceneVio
     if BASE_FRAME_ID not in state.stored or AT not in state.facts:
         return
     short = state.vocabulary.short
-    based = {individual for individual, _ in stored(state, BASE_FRAME_ID)}
+    based = {individual for individual, _ in stored_values(state, BASE_FRAME_ID)}
     needed = {thing for cls in PLACED for thing in state.instances(cls)}
     needed |= {parent for thing in needed if (parent := parents.get(thing)) is not None}
     for thing in sorted(needed - based - parents.keys()):
@@ -106,13 +106,13 @@ def _nowhere(state: WorldState, parents: Mapping[str, str]) -> Iterator[SceneVio
 def _parents(state: WorldState, owners: Mapping[str, Sequence[str]]) -> dict[str, str]:
     """Return in whose frame each thing is where the scene says so: by its base frame, else by the place it is at."""
     places = sorted(state.pairs(AT), reverse=True) if AT in state.facts else []
-    based = {individual: owners.get(str(base), []) for individual, base in stored(state, BASE_FRAME_ID)}
+    based = {individual: owners.get(str(base), []) for individual, base in stored_values(state, BASE_FRAME_ID)}
     framed = {individual: found[0] for individual, found in based.items() if len(found) == 1}
     return {thing: place for thing, place in places if thing not in based} | framed
 
 
 def _owners(state: WorldState) -> dict[str, list[str]]:
     owners: dict[str, list[str]] = {}
-    for individual, frame in stored(state, FRAME_ID):
+    for individual, frame in stored_values(state, FRAME_ID):
         owners.setdefault(str(frame), []).append(individual)
     return owners

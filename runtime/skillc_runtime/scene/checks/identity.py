@@ -12,8 +12,8 @@ from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_rdf.turtle.statements import Node, Statement
 from skillc_rdf.turtle.terms import OWL, RDF, RDF_TYPE
 from skillc_runtime.scene.statements import iri_of
-from skillc_runtime.store.literals import LiteralError, read
-from skillc_runtime.world.state.values import has
+from skillc_runtime.store.literals import LiteralError, read_literal
+from skillc_runtime.world.state.values import has_value
 from skillc_runtime.world.state.world_state import WorldState
 
 SAME, DIFFERENT = f"{OWL}sameAs", f"{OWL}differentFrom"
@@ -24,7 +24,7 @@ TARGETS = (f"{OWL}targetIndividual", f"{OWL}targetValue")
 PARTS = frozenset({RDF_TYPE, *MEMBERS, SOURCE, PROPERTY, *TARGETS})
 
 
-class Claims:
+class IdentityChecker:
     """The statements of a scene about identity and about what is not so.
 
     `used` are the things that these statements are about, as far as they are understood.
@@ -121,7 +121,7 @@ class Claims:
         if term is None or not isinstance(value, ox.Literal) or term.computed_by is not None:
             return None
         try:
-            return has(state.value(subject, predicate), read(value, term))
+            return has_value(state.value(subject, predicate), read_literal(value, term))
         except LiteralError:
             return None
 

@@ -47,7 +47,7 @@ _HELP = {
 }
 
 
-def ineffective(
+def check_ineffective(
     said: Sequence[Statement], facts: Iterable[Statement], vocabulary: Vocabulary, own: Set[str], used: Set[Node]
 ) -> Iterator[Diagnostic]:
     """Yield a warning for each kind of statement of a scene that is no fact and changes nothing.
@@ -56,14 +56,14 @@ def ineffective(
     """
     kinds, of_blank = _Kinds(said, vocabulary, own), _of_blank(said)
     counted = {(each.lines.path, each.subject_at, each.predicate_at, each.object_at) for each in facts}
-    passed = _reached((each.object for each in said if kinds.is_note(each)), of_blank) | used
+    passed = _with_nested((each.object for each in said if kinds.is_note(each)), of_blank) | used
     found: dict[str, list[Statement]] = defaultdict(list)
     for each in said:
         place = each.lines.path, each.subject_at, each.predicate_at, each.object_at
         named = isinstance(each.subject, ox.NamedNode) and each.subject not in passed
         if named and place not in counted and not kinds.is_understood(each):
             found[_kind(each)].append(each)
-    told = _reached((each.object for each in said if isinstance(each.subject, ox.NamedNode)), of_blank)
+    told = _with_nested((each.object for each in said if isinstance(each.subject, ox.NamedNode)), of_blank)
     for node in () if kinds.is_ontology else of_blank:
         if (
             node not in passed
@@ -72,7 +72,7 @@ def ineffective(
         ):
             first = _first(of_blank[node])
             found[_kind(first)].append(first)
-            told |= _reached([node], of_blank)
+            told |= _with_nested([node], of_blank)
     for term, statements in found.items():
         yield _problem(term, statements, vocabulary)
 
@@ -119,7 +119,7 @@ class _Kinds:
                 return kind in TYPES_ELSEWHERE
 
 
-def language_tags(facts: Iterable[Statement], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
+def check_language_tags(facts: Iterable[Statement], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
     """Yield a warning for each text of a property that says in which language it is."""
     for each in facts:
         if each.predicate in vocabulary.properties and isinstance(each.object, ox.Literal) and each.object.language:
@@ -139,7 +139,7 @@ def is_ordinary_class(cls: str) -> bool:
     return cls in DECLARATIONS or not is_term_kind(cls)
 
 
-def without_class(said: Sequence[Statement], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
+def check_missing_classes(said: Sequence[Statement], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
     """Yield an error for each named individual of which no class is said, and for each of the class that is empty."""
     typed = {each.subject for each in said if _is_type(each) and iri_of(each.object) != NAMED_INDIVIDUAL}
     told: set[Node] = set()
@@ -186,7 +186,7 @@ def _first(statements: Sequence[Statement]) -> Statement:
     return next((each for each in statements if _is_type(each)), statements[0])
 
 
-def _reached(nodes: Iterable[Node], of_blank: dict[Node, list[Statement]]) -> set[Node]:
+def _with_nested(nodes: Iterable[Node], of_blank: dict[Node, list[Statement]]) -> set[Node]:
     """Return the things without a name among nodes, and all below them."""
     return reachable(_blank(nodes), lambda node: _blank(each.object for each in of_blank.get(node, ())))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import hypot
 
-from skillc_runtime.scene.violation import SceneViolation, stored
+from skillc_runtime.scene.violation import SceneViolation, stored_values
 from skillc_runtime.world.state.terms import (
     FRICTION,
     FRICTION_HIGH,
@@ -26,7 +26,7 @@ def check_plausible(state: WorldState) -> Iterator[SceneViolation]:
 
 
 def _turns(state: WorldState) -> Iterator[SceneViolation]:
-    parts = [dict(stored(state, name)) for name in ORIENTATION]
+    parts = [dict(stored_values(state, name)) for name in ORIENTATION]
     for individual in parts[0]:
         numbers = [value for part in parts if isinstance(value := part.get(individual), int | float)]
         if len(numbers) == len(parts) and not LEAST_NORM < hypot(*numbers) < GREATEST_NORM:
@@ -44,7 +44,7 @@ def _frictions(state: WorldState) -> Iterator[SceneViolation]:
     """A surface has a friction or both ends of a range, the lower one first; other things may have neither."""
     if not {FRICTION, FRICTION_LOW, FRICTION_HIGH} <= state.stored.keys():
         return
-    ranged = {thing for end in (FRICTION_LOW, FRICTION_HIGH) for thing, _ in stored(state, end)}
+    ranged = {thing for end in (FRICTION_LOW, FRICTION_HIGH) for thing, _ in stored_values(state, end)}
     for thing in sorted({*state.instances(SURFACE), *ranged}):
         yield from _friction(state, thing)
 

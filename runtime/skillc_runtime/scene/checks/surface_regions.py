@@ -11,7 +11,7 @@ import numpy as np
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.space.frame_tree import FrameError
-from skillc_runtime.world.space.frames import seen_from
+from skillc_runtime.world.space.frames import relative_pose
 from skillc_runtime.world.state.terms import HAS_HOLE, HAS_PATCH, ORIENTATION, POSITION, SIZE
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -67,7 +67,7 @@ def _areas(state: WorldState, relation: str) -> Iterator[_Area]:
     for surface, area in sorted(state.pairs(relation)) if relation in state.facts else ():
         size, surface_size = _size(state, area), _size(state, surface)
         try:
-            pose = seen_from(state, surface, area)
+            pose = relative_pose(state, surface, area)
         except FrameError:
             continue
         if size is not None and surface_size is not None:
@@ -82,7 +82,7 @@ def _size(state: WorldState, individual: str) -> Array | None:
 def _tilted(state: WorldState, each: _Area) -> SceneViolation:
     short = state.vocabulary.short
     message = f"{short(each.area)} is tilted by {degrees(each.tilt):.0f} degrees out of {short(each.surface)}"
-    return _flaw(state, each, ORIENTATION[0], "turned-area", message, "its z points as the surface's z does")
+    return _violation(state, each, ORIENTATION[0], "turned-area", message, "its z points as the surface's z does")
 
 
 def _turned(state: WorldState, each: _Area) -> SceneViolation:
@@ -90,17 +90,17 @@ def _turned(state: WorldState, each: _Area) -> SceneViolation:
     message = f"{short(each.area)} is turned by {degrees(each.turn):.0f} degrees on {short(each.surface)}"
     message += ", and lanes go around holes at right angles"
     cure = f"do not turn it, and write the size of the rectangle around it, {x:.3g} m by {y:.3g} m"
-    return _flaw(state, each, ORIENTATION[0], "turned-area", message, cure)
+    return _violation(state, each, ORIENTATION[0], "turned-area", message, cure)
 
 
 def _beside(state: WorldState, each: _Area) -> SceneViolation:
     short, (x, y), (u, v) = state.vocabulary.short, each.pose.position[:2], each.surface_size / 2
     message = f"{short(each.area)} lies beside {short(each.surface)}: {x:.3g} m along its x, {y:.3g} m along its y"
     cure = f"from its middle the surface reaches {u:.3g} m along x and {v:.3g} m along y, both ways"
-    return _flaw(state, each, POSITION[0], "area-beside-surface", message, cure)
+    return _violation(state, each, POSITION[0], "area-beside-surface", message, cure)
 
 
-def _flaw(state: WorldState, each: _Area, predicate: str, name: str, message: str, cure: str) -> SceneViolation:
+def _violation(state: WorldState, each: _Area, predicate: str, name: str, message: str, cure: str) -> SceneViolation:
     """Return a flaw at what the area says of its pose, else at its class."""
     said = predicate if state.value(each.area, predicate) is not None else None
     return SceneViolation(each.area, said, name, message, cure)

@@ -19,7 +19,7 @@ from skillc_runtime.scene.suggestions import suggest
 FIRST = f"{RDF}first"
 
 
-def misspelt_terms(said: Iterable[Statement], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
+def check_spelling(said: Iterable[Statement], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
     """Yield what is wrong with terms of OWL and RDFS, and with things that have no name."""
     for each in said:
         cls = iri_of(each.object) if each.predicate == RDF_TYPE else ""
@@ -34,7 +34,7 @@ def misspelt_terms(said: Iterable[Statement], vocabulary: Vocabulary) -> Iterato
             )
 
 
-def unnamed_things(said: Sequence[Statement], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
+def check_unnamed(said: Sequence[Statement], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
     """Yield a problem for each thing without a name, and of no class, that a relation or a property is said of."""
     typed = {each.subject for each in said if each.predicate == RDF_TYPE and iri_of(each.object) in vocabulary.classes}
     lists = {each.subject for each in said if each.predicate == FIRST}

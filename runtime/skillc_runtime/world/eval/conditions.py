@@ -26,15 +26,15 @@ from skillc_model.conditions import (
     Term,
     Variable,
 )
-from skillc_runtime.world.eval.expressions import Bindings, bound, compile_expression
-from skillc_runtime.world.eval.identity_cache import ByIdentity
+from skillc_runtime.world.eval.expressions import Bindings, bound_value, compile_expression
+from skillc_runtime.world.eval.identity_cache import IdentityCache
 from skillc_runtime.world.eval.quantifiers import candidates
 from skillc_runtime.world.state.properties import property_of
 from skillc_runtime.world.state.python_calls import EvaluationError
-from skillc_runtime.world.state.values import equal
+from skillc_runtime.world.state.values import are_equal
 from skillc_runtime.world.state.world_state import WorldState
 
-Test: TypeAlias = Callable[[WorldState, Bindings], bool]
+ConditionTest: TypeAlias = Callable[[WorldState, Bindings], bool]
 
 
 def evaluate(condition: Condition, state: WorldState, bindings: Bindings) -> bool:
@@ -42,7 +42,7 @@ def evaluate(condition: Condition, state: WorldState, bindings: Bindings) -> boo
     return _compiled(condition)(state, bindings)
 
 
-def compile_condition(condition: Condition) -> Test:
+def compile_condition(condition: Condition) -> ConditionTest:
     """Return the test for a condition, to be kept where it is evaluated often."""
     match condition:
         case Holds(subject, relation, object_):
@@ -75,7 +75,7 @@ def compile_condition(condition: Condition) -> Test:
             assert_never(condition)
 
 
-_compiled = ByIdentity(compile_condition)
+_compiled = IdentityCache(compile_condition)
 
 
 def _individual(term: Term) -> Callable[[Bindings], str]:
@@ -91,13 +91,13 @@ def _individual(term: Term) -> Callable[[Bindings], str]:
 
 
 def _bound_individual(name: str, bindings: Bindings) -> str:
-    value = bound(name, bindings)
+    value = bound_value(name, bindings)
     if type(value) is not str:
         raise EvaluationError(f"`{name}` is {value!r}, which is no individual")
     return value
 
 
-def _holds(subject: Term, relation: str, object_: Term) -> Test:
+def _holds(subject: Term, relation: str, object_: Term) -> ConditionTest:
     match subject, object_:
         case Anything(), Anything():
             return lambda state, bindings: any(True for _ in state.pairs(relation))
@@ -113,8 +113,8 @@ def _holds(subject: Term, relation: str, object_: Term) -> Test:
 
 
 _ORDER: dict[str, Callable[..., bool]] = {
-    "==": equal,
-    "!=": lambda one, other: not equal(one, other),
+    "==": are_equal,
+    "!=": lambda one, other: not are_equal(one, other),
     "<": operator.lt,
     "<=": operator.le,
     ">": operator.gt,
@@ -122,7 +122,7 @@ _ORDER: dict[str, Callable[..., bool]] = {
 }
 
 
-def _compare(left: Expression, sign: str, right: Expression) -> Test:
+def _compare(left: Expression, sign: str, right: Expression) -> ConditionTest:
     """A missing value makes it false. Of a property with several values, one that compares is enough."""
     one, other, compare = compile_expression(left), compile_expression(right), _ORDER[sign]
     several = isinstance(left, PropertyOf), isinstance(right, PropertyOf)
@@ -141,7 +141,7 @@ def _compare(left: Expression, sign: str, right: Expression) -> Test:
     return test
 
 
-def _quantified(condition: Exists | Forall) -> Test:
+def _quantified(condition: Exists | Forall) -> ConditionTest:
     body, variable, cls = compile_condition(condition.body), condition.variable, condition.cls
     wanted = isinstance(condition, Exists)
     narrow = candidates(condition)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import assert_never
 
 from skillc_model.conditions import Anything, Assert, Assign, Effect, Individual, Retract, Variable
-from skillc_runtime.world.eval.expressions import Bindings, bound, value_of
+from skillc_runtime.world.eval.expressions import Bindings, bound_value, value_of
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
@@ -41,7 +41,7 @@ def _changes(effect: Effect, state: WorldState, bindings: Bindings) -> Iterator[
 
 
 def _individual(term: Variable | Individual, bindings: Bindings) -> str:
-    value = term.iri if isinstance(term, Individual) else bound(term.name, bindings)
+    value = term.iri if isinstance(term, Individual) else bound_value(term.name, bindings)
     if not isinstance(value, str):
         raise EvaluationError(f"`{term}` is {value!r}, which is no individual")
     return value

@@ -31,7 +31,7 @@ from skillc_model.conditions import (
 from skillc_model.format_condition import format_relation
 from skillc_rdf.vocabulary.types import Vocabulary, local_name
 from skillc_runtime.world.eval.conditions import evaluate
-from skillc_runtime.world.eval.expressions import Bindings, compile_expression, missing
+from skillc_runtime.world.eval.expressions import Bindings, compile_expression, describe_missing_value
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.values import Value, show
 from skillc_runtime.world.state.world_state import WorldState
@@ -142,7 +142,7 @@ class _Explainer:
     def _comparison(self, left: Expression, sign: str, right: Expression, bindings: Bindings) -> str:
         for side in (left, right):
             if compile_expression(side)(self._state, bindings) is None:
-                return missing(side, self._state, bindings)
+                return describe_missing_value(side, self._state, bindings)
         found = self._reading(left, bindings)
         needed = (
             f"{sign} {self._reading(right, bindings)}" if not isinstance(right, Literal) else self._needed(sign, right)

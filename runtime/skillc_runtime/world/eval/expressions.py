@@ -21,42 +21,42 @@ from skillc_model.conditions import (
 )
 from skillc_model.words import type_text
 from skillc_rdf.vocabulary.types import local_name
-from skillc_runtime.world.eval.identity_cache import ByIdentity
+from skillc_runtime.world.eval.identity_cache import IdentityCache
 from skillc_runtime.world.state.properties import property_of, value_from_python
 from skillc_runtime.world.state.python_calls import EvaluationError
-from skillc_runtime.world.state.value_types import is_of
+from skillc_runtime.world.state.value_types import is_of_type
 from skillc_runtime.world.state.values import Value, show
 from skillc_runtime.world.state.world_state import WorldState
 
 Bindings: TypeAlias = Mapping[str, "Value | None"]
 """What the names in scope stand for; an unset optional parameter is missing or None."""
 
-Read: TypeAlias = Callable[[WorldState, Bindings], "Value | None"]
+ExpressionFunction: TypeAlias = Callable[[WorldState, Bindings], "Value | None"]
 
 
 def value_of(expression: Expression, state: WorldState, bindings: Bindings) -> Value:
     """Return the value of an expression; EvaluationError when a property it reads is missing."""
     value = _compiled(expression)(state, bindings)
     if value is None:
-        raise EvaluationError(f"{missing(expression, state, bindings)} in the world model")
+        raise EvaluationError(f"{describe_missing_value(expression, state, bindings)} in the world model")
     return value
 
 
-def missing(expression: Expression, state: WorldState, bindings: Bindings) -> str:
+def describe_missing_value(expression: Expression, state: WorldState, bindings: Bindings) -> str:
     """Say which property an expression without a value lacks."""
     match expression:
         case PropertyOf(of, property_):
             owner = compile_expression(of)(state, bindings)
             if owner is None:
-                return missing(of, state, bindings)
+                return describe_missing_value(of, state, bindings)
             return f"{local_name(str(owner))} has no {local_name(property_)}"
         case Arithmetic(_, left, right):
             lacking = left if compile_expression(left)(state, bindings) is None else right
-            return missing(lacking, state, bindings)
+            return describe_missing_value(lacking, state, bindings)
         case Invoke(function, arguments):
             for argument in arguments:
                 if compile_expression(argument)(state, bindings) is None:
-                    return missing(argument, state, bindings)
+                    return describe_missing_value(argument, state, bindings)
             return f"{function} gives no value"
         case Literal() | Variable() | Individual():
             return f"{expression} has no value"
@@ -64,7 +64,7 @@ def missing(expression: Expression, state: WorldState, bindings: Bindings) -> st
             assert_never(expression)
 
 
-def compile_expression(expression: Expression) -> Read:
+def compile_expression(expression: Expression) -> ExpressionFunction:
     """Return a function for the value of an expression, None where a property it reads is missing."""
     match expression:
         case Literal(value):
@@ -72,7 +72,7 @@ def compile_expression(expression: Expression) -> Read:
         case Individual(iri):
             return lambda state, bindings: iri
         case Variable(name):
-            return lambda state, bindings: bound(name, bindings)
+            return lambda state, bindings: bound_value(name, bindings)
         case PropertyOf(of, property_):
             return _property(compile_expression(of), property_)
         case Arithmetic(sign, left, right):
@@ -83,10 +83,10 @@ def compile_expression(expression: Expression) -> Read:
             assert_never(expression)
 
 
-_compiled = ByIdentity(compile_expression)
+_compiled = IdentityCache(compile_expression)
 
 
-def bound(name: str, bindings: Bindings) -> Value:
+def bound_value(name: str, bindings: Bindings) -> Value:
     """Return what a name stands for; EvaluationError for an optional parameter that was not passed."""
     value = bindings.get(name)
     if value is None:
@@ -108,7 +108,7 @@ def iri_of(term: Term, bindings: Bindings) -> str | None:
             assert_never(term)
 
 
-def _property(owner: Read, property_: str) -> Read:
+def _property(owner: ExpressionFunction, property_: str) -> ExpressionFunction:
     def read(state: WorldState, bindings: Bindings) -> Value | None:
         individual = owner(state, bindings)
         if individual is None:
@@ -128,7 +128,7 @@ _OPERATORS: dict[str, Callable[..., Value]] = {
 }
 
 
-def _arithmetic(sign: str, left: Read, right: Read) -> Read:
+def _arithmetic(sign: str, left: ExpressionFunction, right: ExpressionFunction) -> ExpressionFunction:
     apply = _OPERATORS[sign]
 
     def compute(state: WorldState, bindings: Bindings) -> Value | None:
@@ -144,7 +144,7 @@ def _arithmetic(sign: str, left: Read, right: Read) -> Read:
     return compute
 
 
-def _invocation(name: str, arguments: tuple[Read, ...]) -> Read:
+def _invocation(name: str, arguments: tuple[ExpressionFunction, ...]) -> ExpressionFunction:
     def compute(state: WorldState, bindings: Bindings) -> Value | None:
         values = []
         for argument in arguments:
@@ -156,7 +156,7 @@ def _invocation(name: str, arguments: tuple[Read, ...]) -> Read:
             raise EvaluationError(f"there is no function {name} in the vocabulary of this library")
         function = state.vocabulary.functions[name]
         result = value_from_python(function.python, name, state, *values)
-        if result is None or is_of(result, function.result, state):
+        if result is None or is_of_type(result, function.result, state):
             return result
         declared = type_text(function.result, state.vocabulary)
         raise EvaluationError(f"{name} gives {show(result)}, where its declaration says `{declared}`")

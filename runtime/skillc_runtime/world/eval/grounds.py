@@ -28,8 +28,8 @@ from skillc_model.conditions import (
 from skillc_model.reading import walk
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import Bindings, iri_of
-from skillc_runtime.world.state.evidence import Established, pairs
-from skillc_runtime.world.state.facts import Fact, Related, Typed, Valued
+from skillc_runtime.world.state.evidence import DecidingWrite, pairs
+from skillc_runtime.world.state.facts import ClassFact, Fact, PropertyFact, RelationFact
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
@@ -40,7 +40,7 @@ class Ground:
     """A fact that something rests on; `established` is None where it was given with the scene."""
 
     fact: Fact
-    established: Established | None
+    established: DecidingWrite | None
 
     @property
     def assumed(self) -> bool:
@@ -51,7 +51,7 @@ class Ground:
 Grounds: TypeAlias = tuple[Ground, ...]
 
 
-def grounds(condition: Condition, world: WorldModel, bindings: Bindings) -> Grounds:
+def find_grounds(condition: Condition, world: WorldModel, bindings: Bindings) -> Grounds:
     """Return what decides a condition, true or false, each fact once; of alternatives those that assume the least."""
     return _Finder(world).of(condition, bindings)
 
@@ -69,7 +69,7 @@ class _Finder:
                 return self._known(_values(condition, bindings))
             case IsA(subject, cls):
                 iri = str(iri_of(subject, bindings))
-                return self._known([Typed(iri, cls, self._state.is_a(iri, cls))])
+                return self._known([ClassFact(iri, cls, self._state.is_a(iri, cls))])
             case Not(body):
                 return self.of(body, bindings)
             case And(parts) | Or(parts):
@@ -98,16 +98,18 @@ class _Finder:
         return _each_once(ground for one in scopes for ground in self._member(condition, *one))
 
     def _member(self, condition: Exists | Forall, individual: str, scope: Bindings) -> Grounds:
-        return (*self._known([Typed(individual, condition.cls)]), *self.of(condition.body, scope))
+        return (*self._known([ClassFact(individual, condition.cls)]), *self.of(condition.body, scope))
 
     def _related(self, subject: str | None, relation: str, object_: str | None) -> Grounds:
         if subject is not None and object_ is not None:
-            return self._known([Related(subject, relation, object_, self._state.holds(subject, relation, object_))])
+            return self._known(
+                [RelationFact(subject, relation, object_, self._state.holds(subject, relation, object_))]
+            )
         there = sorted(pairs(self._state, relation, subject, object_))
         if there:
-            return _least_assumed([self._known([Related(start, relation, end)]) for start, end in there])
+            return _least_assumed([self._known([RelationFact(start, relation, end)]) for start, end in there])
         gone = sorted(self._world.ledger.once_true(relation, subject, object_))
-        return self._known([Related(start, relation, end, holds=False) for start, end in gone])
+        return self._known([RelationFact(start, relation, end, holds=False) for start, end in gone])
 
     def _known(self, facts: Iterable[Fact]) -> Grounds:
         return tuple(Ground(fact, self._world.known(fact)) for fact in facts)
@@ -127,11 +129,11 @@ def _each_once(found: Iterable[Ground]) -> Grounds:
     return tuple({ground.fact: ground for ground in found}.values())
 
 
-def _values(item: msgspec.Struct, bindings: Bindings) -> Iterator[Valued]:
+def _values(item: msgspec.Struct, bindings: Bindings) -> Iterator[PropertyFact]:
     """Yield the properties that a comparison reads."""
     for each in walk(item):
         match each:
             case PropertyOf(Variable() | Individual() as owner, property_) | HasProperty(owner, property_):
                 iri = iri_of(owner, bindings)
                 if iri is not None:
-                    yield Valued(iri, property_)
+                    yield PropertyFact(iri, property_)

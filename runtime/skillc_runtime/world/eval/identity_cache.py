@@ -11,7 +11,7 @@ V = TypeVar("V")
 LIMIT = 4096
 
 
-class ByIdentity(Generic[K, V]):
+class IdentityCache(Generic[K, V]):
     """A function that is called once per object; it forgets everything when it knows more than LIMIT objects."""
 
     def __init__(self, make: Callable[[K], V]) -> None:

@@ -13,7 +13,7 @@ from skillc_rdf.vocabulary.types import ClassType
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.expressions import Bindings
 from skillc_runtime.world.eval.join import solutions
-from skillc_runtime.world.eval.nearest import NearMiss, nearest
+from skillc_runtime.world.eval.near_misses import NearMiss, find_near_misses
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -88,13 +88,13 @@ def _why_none(
     for name, cls in variables.items():
         if not state.instances(cls):
             reason = f"`{name}`: there is no {state.vocabulary.short(cls)} in the world model"
-            return NoneFound(None, reason, nearest(variables, requirements, bindings, state))
+            return NoneFound(None, reason, find_near_misses(variables, requirements, bindings, state))
     before, linked = _first(variables, (), bindings, state) or {}, frozenset[str]()
     for count, requirement in enumerate(requirements, start=1):
         left = _first(variables, [each.condition for each in requirements[:count]], bindings, state)
         if left is None:
             reason = _explained(requirement.condition, linked, variables, {**bindings, **before}, state)
-            return NoneFound(requirement, reason, nearest(variables, requirements, bindings, state))
+            return NoneFound(requirement, reason, find_near_misses(variables, requirements, bindings, state))
         before = left
         linked |= free_variables(requirement.condition)
     raise AssertionError("there is an answer after all")

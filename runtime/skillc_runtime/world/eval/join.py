@@ -8,7 +8,7 @@ from itertools import repeat
 
 from skillc_model.conditions import Condition, Holds, Term, Variable
 from skillc_model.reading import conjuncts, free_variables
-from skillc_runtime.world.eval.conditions import Test, compile_condition
+from skillc_runtime.world.eval.conditions import ConditionTest, compile_condition
 from skillc_runtime.world.eval.expressions import Bindings, iri_of
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
@@ -32,7 +32,7 @@ def solutions(
     if not all(each.test(state, scope) for each in filters if not each.about):
         return
     tries = repeat(True) if most_tried is None else repeat(True, most_tried)
-    yield from _extended(dict(variables), tuple(filters), scope, state, tries)
+    yield from _bind_next(dict(variables), tuple(filters), scope, state, tries)
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,14 +41,14 @@ class _Filter:
 
     condition: Condition
     about: frozenset[str]
-    test: Test
+    test: ConditionTest
 
 
 def _filter(condition: Condition, variables: Mapping[str, str]) -> _Filter:
     return _Filter(condition, free_variables(condition) & variables.keys(), compile_condition(condition))
 
 
-def _extended(
+def _bind_next(
     left: dict[str, str],
     filters: tuple[_Filter, ...],
     scope: dict[str, Value | None],
@@ -70,7 +70,7 @@ def _extended(
         if state.is_a(individual, cls):
             scope[name] = individual
             if all(test(state, scope) for test in ready):
-                for others in _extended(rest, filters, scope, state, tries):
+                for others in _bind_next(rest, filters, scope, state, tries):
                     yield {name: individual, **others}
     scope[name] = None
 

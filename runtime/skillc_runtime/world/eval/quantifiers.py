@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TypeAlias, TypeGuard
 
 from skillc_model.conditions import And, Anything, Condition, Exists, Forall, Holds, Individual, Not, Or, Term, Variable
-from skillc_runtime.world.eval.expressions import Bindings, bound
+from skillc_runtime.world.eval.expressions import Bindings, bound_value
 from skillc_runtime.world.state.world_state import WorldState
 
 Candidates: TypeAlias = Callable[[WorldState, Bindings], frozenset[str]]
@@ -56,4 +56,4 @@ def _objects(subject: Variable | Individual, relation: str) -> Candidates:
 
 
 def _individual(term: Variable | Individual, bindings: Bindings) -> str:
-    return term.iri if isinstance(term, Individual) else str(bound(term.name, bindings))
+    return term.iri if isinstance(term, Individual) else str(bound_value(term.name, bindings))

@@ -12,9 +12,8 @@ from weakref import WeakKeyDictionary, ref
 import numpy as np
 
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.world.space.box import Box
-from skillc_runtime.world.state.python_calls import Unknown
-from skillc_runtime.world.state.table import Links, Table
+from skillc_runtime.world.space.oriented_box import OrientedBox
+from skillc_runtime.world.state.python_calls import InsufficientFacts
 from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
     AT,
@@ -27,14 +26,15 @@ from skillc_runtime.world.state.terms import (
     SIZE,
 )
 from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.versioned import PairIndex, VersionedMap
 from skillc_runtime.world.state.world_state import WorldState
 
 WORLD_FRAME = "map"
 
-Values: TypeAlias = "Table[str, Value | None]"
+Values: TypeAlias = "VersionedMap[str, Value | None]"
 
-_NO_VALUES: Values = Table(None)
-_NO_LINKS = Links.empty()
+_NO_VALUES: Values = VersionedMap(None)
+_NO_LINKS = PairIndex.empty()
 _VALUES = (FRAME_ID, BASE_FRAME_ID, *POSITION, *ORIENTATION, *SIZE)
 _LINKS = (AT, CONTAIN, HAS_A)
 
@@ -43,7 +43,7 @@ class FrameError(ValueError):
     """A pose that the world model does not hold; the message says of what and why."""
 
 
-class Unplaced(FrameError, Unknown):
+class Unplaced(FrameError, InsufficientFacts):
     """Nothing is wrong, but not enough is said to tell where a thing is, or how large."""
 
 
@@ -68,7 +68,7 @@ class FrameTree:
         self._values = {name: state.stored.get(name, _NO_VALUES) for name in _VALUES}
         self._links = {name: state.facts.get(name, _NO_LINKS) for name in _LINKS}
         self._poses: dict[str, Pose] = {}
-        self.boxes: dict[str, Box] = {}
+        self.boxes: dict[str, OrientedBox] = {}
         renamed = former is None or former._values[FRAME_ID] is not self._values[FRAME_ID]
         self._owners: dict[str, list[str]] | None = None if former is None or renamed else former._owners
 

@@ -23,24 +23,24 @@ def pose(state: WorldState, individual: str) -> Pose:
     return frame_tree_of(state).pose(individual)
 
 
-def seen_from(state: WorldState, viewer: str, individual: str) -> Pose:
+def relative_pose(state: WorldState, viewer: str, individual: str) -> Pose:
     """Return where a thing is in the frame of another; FrameError as for `pose`."""
     return pose(state, viewer).inverse() @ pose(state, individual)
 
 
-def placed(thing: str, at: Pose, frame: str = WORLD_FRAME) -> list[SetProperty]:
+def placement_changes(thing: str, at: Pose, frame: str = WORLD_FRAME) -> list[SetProperty]:
     """Return the changes that say that a thing, by IRI, is at a pose in a frame, by its FrameId."""
     values = zip((*POSITION, *ORIENTATION), (*at.position, *quaternion_of(at.rotation)), strict=True)
     numbers = [SetProperty(thing, name, float(value)) for name, value in values]
     return [SetProperty(thing, BASE_FRAME_ID, frame), *numbers]
 
 
-def moved(state: WorldState, thing: str, at: Pose, viewer: str) -> list[SetProperty]:
+def move_changes(state: WorldState, thing: str, at: Pose, viewer: str) -> list[SetProperty]:
     """Return the changes that put a thing at a pose seen from another thing; what carries it goes on carrying it.
 
     What was nowhere is placed in the world. FrameError when the viewer is nowhere or moves with the thing.
     """
-    if _rides_on(state, viewer, thing):
+    if _moves_with(state, viewer, thing):
         short = state.vocabulary.short
         raise FrameError(f"{short(viewer)} moves with {short(thing)}, so its place cannot say where that is")
     goal = pose(state, viewer) @ at
@@ -49,19 +49,19 @@ def moved(state: WorldState, thing: str, at: Pose, viewer: str) -> list[SetPrope
     except Unplaced:
         carrier = None
     if carrier is None:
-        return placed(thing, goal)
-    return placed(thing, pose(state, carrier).inverse() @ goal, _frame(state, carrier))
+        return placement_changes(thing, goal)
+    return placement_changes(thing, pose(state, carrier).inverse() @ goal, _frame(state, carrier))
 
 
-def carried_by(state: WorldState, thing: str, carrier: str) -> list[SetProperty]:
+def attachment_changes(state: WorldState, thing: str, carrier: str) -> list[SetProperty]:
     """Return the changes that leave a thing where it is and let it move with another from now on.
 
     FrameError when either is nowhere, the carrier has no frame, or the carrier already moves with the thing.
     """
-    if _rides_on(state, carrier, thing):
+    if _moves_with(state, carrier, thing):
         short = state.vocabulary.short
         raise FrameError(f"{short(carrier)} moves with {short(thing)}, so it cannot carry it")
-    return placed(thing, seen_from(state, carrier, thing), _frame(state, carrier))
+    return placement_changes(thing, relative_pose(state, carrier, thing), _frame(state, carrier))
 
 
 def normal(state: WorldState, surface: str) -> Array:
@@ -79,7 +79,7 @@ def width(state: WorldState, tool: str) -> float:
     return frame_tree_of(state).number(tool, SIZE[1])
 
 
-def _rides_on(state: WorldState, individual: str, carrier: str) -> bool:
+def _moves_with(state: WorldState, individual: str, carrier: str) -> bool:
     """Whether one is the other or moves with it; FrameError when the frames of one form a circle or lead nowhere."""
     space, at = frame_tree_of(state), individual
     space.pose(individual)

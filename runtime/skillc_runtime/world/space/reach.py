@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.space.box import CORNERS
-from skillc_runtime.world.space.boxes import solid
+from skillc_runtime.world.space.bounding_boxes import solid_box
 from skillc_runtime.world.space.frame_tree import frame_tree_of
+from skillc_runtime.world.space.oriented_box import CORNERS
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
-from skillc_runtime.world.state.python_calls import Unknown
+from skillc_runtime.world.state.python_calls import InsufficientFacts
 from skillc_runtime.world.state.terms import SURFACE
 
 if TYPE_CHECKING:
     from skillc_runtime.world.state.world_state import WorldState
 
 
-def out_of_reach(state: WorldState, arm: str, base: Pose, thing: str) -> str | None:
+def reach_obstacle(state: WorldState, arm: str, base: Pose, thing: str) -> str | None:
     """Say how much too far away a thing is for an arm with its base at a pose in the world; None when it is not.
 
     Of a surface every corner counts, of anything else the origin of its frame. Unknown when the arm's data sheet or the
@@ -28,7 +28,7 @@ def out_of_reach(state: WorldState, arm: str, base: Pose, thing: str) -> str | N
         sheet = sheet_of(state, arm)
         reach_m, height_m = sheet.number("reach"), sheet.number("shoulderHeight")
     except SheetError as error:
-        raise Unknown(str(error)) from error
+        raise InsufficientFacts(str(error)) from error
     shoulder = base.at(np.array([0.0, 0.0, height_m]))
     distance_m = float(np.linalg.norm(_points(state, thing) - shoulder, axis=1).max())
     if distance_m <= reach_m:
@@ -43,4 +43,4 @@ def _points(state: WorldState, thing: str) -> Array:
     """Return what of a thing must be reached, points (n, 3) in the world."""
     if not state.is_a(thing, SURFACE):
         return frame_tree_of(state).pose(thing).position[None, :]
-    return solid(state, thing).corners[CORNERS[:, 2] > 0]
+    return solid_box(state, thing).corners[CORNERS[:, 2] > 0]

@@ -9,8 +9,8 @@ import numpy as np
 from skillc_runtime.motion.lanes import Direction
 from skillc_runtime.motion.layout import Hole, Layout, Patch
 from skillc_runtime.motion.pose import Array, Pose, exp
-from skillc_runtime.world.space.frames import seen_from, size
-from skillc_runtime.world.state.data_sheet import SheetError, number
+from skillc_runtime.world.space.frames import relative_pose, size
+from skillc_runtime.world.state.data_sheet import SheetError, number_of
 from skillc_runtime.world.state.terms import ALONG_AXIS, HAS_HOLE, HAS_PATCH, LEAST_CONTACT, LEAST_FORCE, MARGIN, SIZE
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -22,7 +22,7 @@ LEAST_FORCE_N, LEAST_SHARE = 1.0, 0.75
 """For surfaces that do not say it."""
 
 
-def layout(state: WorldState, surface: str) -> Layout:
+def surface_layout(state: WorldState, surface: str) -> Layout:
     """Return what of a surface is to be worked on; FrameError or SheetError name the fact that is missing."""
     patches, holes = (sorted(state.objects(surface, relation)) for relation in (HAS_PATCH, HAS_HOLE))
     return Layout(
@@ -32,7 +32,7 @@ def layout(state: WorldState, surface: str) -> Layout:
     )
 
 
-def direction(state: WorldState, surface: str) -> Direction:
+def lane_direction(state: WorldState, surface: str) -> Direction:
     """Return along which of a surface's axes lanes run; SheetError for one that it does not have."""
     match state.value(surface, ALONG_AXIS):
         case None:
@@ -48,27 +48,27 @@ def direction(state: WorldState, surface: str) -> Direction:
 
 def least_force_n(state: WorldState, surface: str) -> float:
     """Return the force in N below which a tool does nothing to a surface."""
-    return number(state, surface, LEAST_FORCE, default=LEAST_FORCE_N)
+    return number_of(state, surface, LEAST_FORCE, default=LEAST_FORCE_N)
 
 
-def least_contact(state: WorldState, surface: str) -> float:
+def least_contact_share(state: WorldState, surface: str) -> float:
     """Return the share of the time, along a path, in which a tool must be pressed on a surface."""
-    return number(state, surface, LEAST_CONTACT, default=LEAST_SHARE)
+    return number_of(state, surface, LEAST_CONTACT, default=LEAST_SHARE)
 
 
 def _patch(state: WorldState, surface: str, patch: str) -> Patch:
-    return Patch(_in_plane(seen_from(state, surface, patch)), _extent(state, patch))
+    return Patch(_in_plane(relative_pose(state, surface, patch)), _extent(state, patch))
 
 
 def _hole(state: WorldState, surface: str, hole: str) -> Hole:
     """Return the least rectangle along the surface's axes with the hole in it."""
-    margin = number(state, hole, MARGIN, default=MARGIN_M)
-    frame, height = _in_plane(seen_from(state, surface, hole)), number(state, hole, SIZE[2], default=0.0)
+    margin = number_of(state, hole, MARGIN, default=MARGIN_M)
+    frame, height = _in_plane(relative_pose(state, surface, hole)), number_of(state, hole, SIZE[2], default=0.0)
     return Hole(np.zeros(2), _extent(state, hole), margin, height).seen_from(frame.inverse())
 
 
 def _extent(state: WorldState, area: str) -> Array:
-    return np.array([number(state, area, name) for name in SIZE[:2]])
+    return np.array([number_of(state, area, name) for name in SIZE[:2]])
 
 
 def _in_plane(pose: Pose) -> Pose:

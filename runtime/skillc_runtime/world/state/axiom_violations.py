@@ -22,7 +22,7 @@ from skillc_runtime.world.state.value_types import value_error
 from skillc_runtime.world.state.values import Value, show
 from skillc_runtime.world.state.world_state import WorldState
 
-Fact: TypeAlias = tuple[str, str, str]
+IriTriple: TypeAlias = tuple[str, str, str]
 """A relation or a class as it was written: subject, predicate and object, all IRIs."""
 
 
@@ -36,8 +36,8 @@ class AxiomViolation:
 
     axiom: str
     message: str
-    rivals: tuple[Fact, ...] = ()
-    causes: tuple[Fact, ...] = ()
+    rivals: tuple[IriTriple, ...] = ()
+    causes: tuple[IriTriple, ...] = ()
     misfit: str | None = None
 
 
@@ -45,11 +45,11 @@ def axiom_violations(state: WorldState, change: Change) -> Iterator[AxiomViolati
     """Yield what is wrong with a change in the version it led to."""
     match change:
         case AddIndividual(individual, types):
-            yield from _classes(state, individual, types)
+            yield from _class_violations(state, individual, types)
         case AddRelation(subject, relation, object_):
-            yield from _relation(state, subject, relation, object_)
+            yield from _relation_violations(state, subject, relation, object_)
         case SetProperty(individual, property_, value):
-            yield from _property(state, individual, property_, value)
+            yield from _property_violations(state, individual, property_, value)
         case RemoveIndividual() | RemoveRelation() | ClearProperty():
             return
         case _:
@@ -75,24 +75,26 @@ def _disjoint_classes(state: WorldState, types: Iterable[str]) -> tuple[str, str
     return next(((one, other) for one, other in pairs if state.vocabulary.disjoint(one, other)), None)
 
 
-def _misfit(state: WorldState, term: RelationTerm, subject: str, object_: str) -> AxiomViolation | None:
+def _signature_violation(state: WorldState, term: RelationTerm, subject: str, object_: str) -> AxiomViolation | None:
     """Say what a relation takes, when it takes neither signature's subject and object; None when one fits."""
     fits = (state.is_a(subject, each.domain) and state.is_a(object_, each.range) for each in term.signatures)
     if not term.signatures or any(fits):
         return None
     short = state.vocabulary.short
-    accepted = " or ".join(f"({_class(state, each.domain)}, {_class(state, each.range)})" for each in term.signatures)
+    accepted = " or ".join(
+        f"({_class_name(state, each.domain)}, {_class_name(state, each.range)})" for each in term.signatures
+    )
     wrong_subject = not any(state.is_a(subject, each.domain) for each in term.signatures)
     misfit = subject if wrong_subject else object_
     return AxiomViolation(
         "relation-domain" if wrong_subject else "relation-range",
-        f"{short(term.iri)} takes {accepted}; {_described(state, subject)}, {_described(state, object_)}",
+        f"{short(term.iri)} takes {accepted}; {_describe_types(state, subject)}, {_describe_types(state, object_)}",
         causes=_types(state, misfit),
         misfit=misfit,
     )
 
 
-def _classes(state: WorldState, individual: str, types: tuple[str, ...]) -> Iterator[AxiomViolation]:
+def _class_violations(state: WorldState, individual: str, types: tuple[str, ...]) -> Iterator[AxiomViolation]:
     short = state.vocabulary.short
     for cls in types:
         if cls not in state.vocabulary.ancestors:
@@ -106,52 +108,58 @@ def _classes(state: WorldState, individual: str, types: tuple[str, ...]) -> Iter
         yield AxiomViolation("disjoint-classes", f"{both}: the classes are disjoint", rivals=facts)
 
 
-def _relation(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
+def _relation_violations(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
     fact, short = (subject, relation, object_), state.vocabulary.short
     absent = [each for each in (subject, object_) if not state.exists(each)]
     if absent:
-        yield AxiomViolation("unknown-individual", f"{_quoted(state, fact)}: there is no individual {short(absent[0])}")
+        yield AxiomViolation(
+            "unknown-individual", f"{_format_fact(state, fact)}: there is no individual {short(absent[0])}"
+        )
         return
     if relation in state.axioms.computed:
         reason = "the relation is computed from other facts and cannot be stated"
-        yield AxiomViolation("computed-property", f"{_quoted(state, fact)}: {reason}")
+        yield AxiomViolation("computed-property", f"{_format_fact(state, fact)}: {reason}")
         return
-    rivalry = _rivalry(state, fact)
+    rivalry = _functional_conflict(state, fact)
     if rivalry is not None:
         reason, rivals = rivalry
-        yield AxiomViolation("functional-relation", f"{_quoted(state, fact)}: {reason}", rivals=rivals)
+        yield AxiomViolation("functional-relation", f"{_format_fact(state, fact)}: {reason}", rivals=rivals)
         return
-    violation = lone_violation(state, fact) or _stated(state, fact, next(_asymmetric(state, *fact), None))
+    violation = standalone_violation(state, fact) or _with_fact(
+        state, fact, next(_asymmetry_violations(state, *fact), None)
+    )
     if violation is not None:
         yield violation
 
 
-def lone_violation(state: WorldState, fact: Fact) -> AxiomViolation | None:
+def standalone_violation(state: WorldState, fact: IriTriple) -> AxiomViolation | None:
     """Return what is wrong with a relation between individuals by itself, whatever else is said."""
-    return _stated(state, fact, next(chain(_irreflexive(state, *fact), _misfits(state, *fact)), None))
+    return _with_fact(
+        state, fact, next(chain(_irreflexivity_violations(state, *fact), _signature_violations(state, *fact)), None)
+    )
 
 
-def _irreflexive(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
+def _irreflexivity_violations(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
     for term, start, end in _implied(state, subject, relation, object_):
         if (term.irreflexive or term.asymmetric) and start == end:
             short, kind = state.vocabulary.short, "irreflexive" if term.irreflexive else "asymmetric"
             yield AxiomViolation("irreflexive-relation", f"{short(term.iri)} is {kind}, nothing has it to itself")
 
 
-def _asymmetric(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
+def _asymmetry_violations(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
     for term, start, end in _implied(state, subject, relation, object_):
         if term.asymmetric and start != end and state.holds(end, term.iri, start):
             short = state.vocabulary.short
             opposite = f"{short(end)} {short(term.iri)} {short(start)}"
-            rivals = written_facts(state, end, term.iri, start)
+            rivals = asserted_facts(state, end, term.iri, start)
             yield AxiomViolation(
                 "asymmetric-relation", f"{short(term.iri)} is asymmetric, and `{opposite}` holds", rivals
             )
 
 
-def _misfits(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
+def _signature_violations(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
     for term, start, end in _implied(state, subject, relation, object_):
-        misfit = _misfit(state, term, start, end)
+        misfit = _signature_violation(state, term, start, end)
         if misfit is not None:
             yield misfit
 
@@ -163,7 +171,7 @@ def _implied(state: WorldState, subject: str, relation: str, object_: str) -> It
         yield state.vocabulary.relations[implied], start, end
 
 
-def written_facts(state: WorldState, subject: str, relation: str, object_: str) -> tuple[Fact, ...]:
+def asserted_facts(state: WorldState, subject: str, relation: str, object_: str) -> tuple[IriTriple, ...]:
     """Return the facts, as they were written, from which one follows without transitivity."""
     found = (
         (source, object_, subject) if flipped else (source, subject, object_)
@@ -172,7 +180,7 @@ def written_facts(state: WorldState, subject: str, relation: str, object_: str) 
     return tuple((start, iri, end) for iri, start, end in found if end in state.asserted[iri].forward.get(start))
 
 
-def _rivalry(state: WorldState, fact: Fact) -> tuple[str, tuple[Fact, ...]] | None:
+def _functional_conflict(state: WorldState, fact: IriTriple) -> tuple[str, tuple[IriTriple, ...]] | None:
     """Say which other fact a functional relation cannot hold beside this one; None where this one stands alone.
 
     A fact that was written and does not hold has lost its place to another of the same write.
@@ -185,27 +193,27 @@ def _rivalry(state: WorldState, fact: Fact) -> tuple[str, tuple[Fact, ...]] | No
             (holder, term.iri, end) for holder in sorted(holders)
         ]
         for rival in rivals[: None if stands else 1]:
-            written = written_facts(state, *rival)
+            written = asserted_facts(state, *rival)
             if written or not stands:
                 kind, said = "functional" if term.functional else "inverse functional", " ".join(map(short, rival))
                 return f"{short(term.iri)} is {kind}, and `{said}` is said too", written
     return None if stands else ("the same write takes it back", ())
 
 
-def _stated(state: WorldState, fact: Fact, violation: AxiomViolation | None) -> AxiomViolation | None:
+def _with_fact(state: WorldState, fact: IriTriple, violation: AxiomViolation | None) -> AxiomViolation | None:
     """Return a violation with the fact that was written before its message."""
-    return violation and replace(violation, message=f"{_quoted(state, fact)}: {violation.message}")
+    return violation and replace(violation, message=f"{_format_fact(state, fact)}: {violation.message}")
 
 
-def _quoted(state: WorldState, fact: Fact) -> str:
+def _format_fact(state: WorldState, fact: IriTriple) -> str:
     return f"`{' '.join(map(state.vocabulary.short, fact))}`"
 
 
-def _types(state: WorldState, individual: str) -> tuple[Fact, ...]:
+def _types(state: WorldState, individual: str) -> tuple[IriTriple, ...]:
     return tuple((individual, RDF_TYPE, cls) for cls in sorted(state.types(individual)))
 
 
-def _property(state: WorldState, individual: str, property_: str, value: Value) -> Iterator[AxiomViolation]:
+def _property_violations(state: WorldState, individual: str, property_: str, value: Value) -> Iterator[AxiomViolation]:
     short, term = state.vocabulary.short, state.vocabulary.properties[property_]
 
     def stating(reason: str) -> str:
@@ -218,8 +226,8 @@ def _property(state: WorldState, individual: str, property_: str, value: Value) 
         reason = "the property is computed from other facts and cannot be set"
         yield AxiomViolation("computed-property", stating(reason))
     if term.domains and not any(state.is_a(individual, domain) for domain in term.domains):
-        owners = " or ".join(_class(state, domain) for domain in term.domains)
-        message = stating(f"it belongs to {owners}; {_described(state, individual)}")
+        owners = " or ".join(_class_name(state, domain) for domain in term.domains)
+        message = stating(f"it belongs to {owners}; {_describe_types(state, individual)}")
         yield AxiomViolation("property-domain", message, causes=_types(state, individual), misfit=individual)
     for one in value if isinstance(value, tuple) and not term.functional else (value,):
         wrong = value_error(term, one)
@@ -227,10 +235,10 @@ def _property(state: WorldState, individual: str, property_: str, value: Value) 
             yield AxiomViolation("wrong-data-type", stating(wrong))
 
 
-def _class(state: WorldState, iri: str) -> str:
+def _class_name(state: WorldState, iri: str) -> str:
     return "Thing" if iri == THING else state.vocabulary.short(iri)
 
 
-def _described(state: WorldState, individual: str) -> str:
+def _describe_types(state: WorldState, individual: str) -> str:
     short = state.vocabulary.short
     return f"{short(individual)} is a {' and a '.join(sorted(map(short, state.types(individual))))}"

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from skillc_rdf.vocabulary.closure import Directed
 from skillc_rdf.vocabulary.types import THING, Vocabulary
-from skillc_runtime.world.state.computed import Computed
+from skillc_runtime.world.state.computed import ComputedRelation
 
 
-class Axioms:
+class RelationAxioms:
     """What the closure of the vocabulary's relations means for the facts that are kept of them.
 
     `implied`, `sources` and `transitive` are those of the closure. `carriers[x]` are the transitive relations
@@ -18,7 +18,7 @@ class Axioms:
     def __init__(self, vocabulary: Vocabulary) -> None:
         self._vocabulary = vocabulary
         self.computed = {
-            iri: Computed(term, term.computed_by)
+            iri: ComputedRelation(term, term.computed_by)
             for iri, term in vocabulary.relations.items()
             if term.computed_by is not None
         }

@@ -9,9 +9,9 @@ from typing import TypeAlias
 
 from skillc_rdf.vocabulary.closure import reachable
 from skillc_rdf.vocabulary.types import Vocabulary
-from skillc_runtime.world.state.axioms import Axioms
-from skillc_runtime.world.state.table import NONE, Links, Members, Table
+from skillc_runtime.world.state.axioms import RelationAxioms
 from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.versioned import EMPTY, PairIndex, VersionedMap, VersionedSet
 from skillc_runtime.world.state.world_state import WorldState
 
 Pairs: TypeAlias = Iterable[tuple[str, str]]
@@ -19,7 +19,7 @@ _Sets: TypeAlias = dict[str, frozenset[str]]
 
 
 @dataclass(frozen=True, slots=True)
-class Facts:
+class FactTables:
     """All that is said: the classes of each individual, the pairs of each relation, the values of each property."""
 
     types: Mapping[str, Iterable[str]]
@@ -27,26 +27,26 @@ class Facts:
     valued: Mapping[str, dict[str, Value | None]]
 
 
-def state_of(vocabulary: Vocabulary, said: Facts) -> WorldState:
+def build_world_state(vocabulary: Vocabulary, said: FactTables) -> WorldState:
     """Return the world of these facts, unchecked; none may take the place of another, as a functional relation's do."""
     empty = WorldState.empty(vocabulary)
-    sets = _Freezer()
+    sets = _SetInterner()
     direct = {individual: sets.same(frozenset(types)) for individual, types in said.types.items()}
     classes = {individual: empty.axioms.superclasses(types) for individual, types in direct.items()}
     asserted = {**empty.asserted, **{iri: _links(pairs, sets) for iri, pairs in said.related.items()}}
     return WorldState(
         vocabulary,
         empty.axioms,
-        Table(NONE, direct),
-        Table(NONE, classes),
+        VersionedMap(EMPTY, direct),
+        VersionedMap(EMPTY, classes),
         _members(classes),
         asserted,
-        _Consequences(empty.axioms, asserted, sets).all(),
-        {**empty.stored, **{iri: Table(None, values) for iri, values in said.valued.items()}},
+        _RelationClosure(empty.axioms, asserted, sets).all(),
+        {**empty.stored, **{iri: VersionedMap(None, values) for iri, values in said.valued.items()}},
     )
 
 
-class _Freezer:
+class _SetInterner:
     """Makes sets, equal ones once: most are of one element, and many of the same."""
 
     def __init__(self) -> None:
@@ -72,60 +72,60 @@ class _Freezer:
         return found
 
 
-class _Consequences:
+class _RelationClosure:
     """Works out the facts of every relation from the assertions; Closure says what they are."""
 
-    def __init__(self, axioms: Axioms, asserted: dict[str, Links], sets: _Freezer) -> None:
+    def __init__(self, axioms: RelationAxioms, asserted: dict[str, PairIndex], sets: _SetInterner) -> None:
         self._axioms, self._asserted, self._sets = axioms, asserted, sets
-        self._facts: dict[str, Links] = {}
-        self._closed: dict[frozenset[tuple[str, bool]], Links] = {}
+        self._facts: dict[str, PairIndex] = {}
+        self._closed: dict[frozenset[tuple[str, bool]], PairIndex] = {}
 
-    def all(self) -> dict[str, Links]:
+    def all(self) -> dict[str, PairIndex]:
         """Return the facts by relation; those that are transitive first, because others follow from theirs."""
         for relation in sorted(self._asserted, key=lambda iri: iri not in self._axioms.transitive):
             self._facts[relation] = self._of(relation)
         return {relation: self._facts[relation] for relation in self._asserted}
 
-    def _of(self, relation: str) -> Links:
+    def _of(self, relation: str) -> PairIndex:
         sources = self._axioms.sources[relation]
         written = [(self._asserted[source], flipped) for source, flipped in sources]
         if relation in self._axioms.transitive:
             turned = frozenset((source, not flipped) for source, flipped in sources)
             if turned in self._closed:
-                return _turned(self._closed[turned])
+                return _inverse(self._closed[turned])
             closed = self._closed[frozenset(sources)] = self._transitive(self._united(written))
             return closed
         carried = [(self._facts[carrier], flipped) for carrier, flipped in self._axioms.carriers[relation]]
         return self._united([*written, *carried])
 
-    def _united(self, parts: Iterable[tuple[Links, bool]]) -> Links:
-        full = [_turned(links) if flipped else links for links, flipped in parts if links.forward]
+    def _united(self, parts: Iterable[tuple[PairIndex, bool]]) -> PairIndex:
+        full = [_inverse(links) if flipped else links for links, flipped in parts if links.forward]
         distinct = list({(id(links.forward), id(links.backward)): links for links in full}.values())
         if len(distinct) <= 1:
-            return distinct[0] if distinct else Links.empty()
+            return distinct[0] if distinct else PairIndex.empty()
         return _links([pair for links in distinct for pair in links.pairs()], self._sets)
 
-    def _transitive(self, edges: Links) -> Links:
+    def _transitive(self, edges: PairIndex) -> PairIndex:
         following = dict(edges.forward.items())
         if not any(each in following for objects in following.values() for each in objects):
             return edges
         forward = {
-            start: reachable(objects, lambda each: following.get(each, NONE)) for start, objects in following.items()
+            start: reachable(objects, lambda each: following.get(each, EMPTY)) for start, objects in following.items()
         }
         return _links([(start, end) for start, ends in forward.items() for end in ends], self._sets)
 
 
-def _links(pairs: Pairs, sets: _Freezer) -> Links:
+def _links(pairs: Pairs, sets: _SetInterner) -> PairIndex:
     listed = list(pairs)
     forward, backward = sets.grouped(listed), sets.grouped((second, first) for first, second in listed)
-    return Links(Table(NONE, forward), Table(NONE, backward))
+    return PairIndex(VersionedMap(EMPTY, forward), VersionedMap(EMPTY, backward))
 
 
-def _turned(links: Links) -> Links:
-    return Links(links.backward, links.forward)
+def _inverse(links: PairIndex) -> PairIndex:
+    return PairIndex(links.backward, links.forward)
 
 
-def _members(classes: _Sets) -> dict[str, Members]:
+def _members(classes: _Sets) -> dict[str, VersionedSet]:
     """Return the individuals of each class; those of the same classes are taken together."""
     alike: dict[frozenset[str], list[str]] = defaultdict(list)
     for individual, of in classes.items():
@@ -135,5 +135,5 @@ def _members(classes: _Sets) -> dict[str, Members]:
         for cls in of:
             groups[cls].append(of)
     distinct = {tuple(group) for group in groups.values()}
-    united = {group: Members(frozenset().union(*(alike[of] for of in group))) for group in distinct}
+    united = {group: VersionedSet(frozenset().union(*(alike[of] for of in group))) for group in distinct}
     return {cls: united[tuple(group)] for cls, group in groups.items()}

@@ -61,7 +61,7 @@ class ClearProperty:
 Change: TypeAlias = AddIndividual | RemoveIndividual | AddRelation | RemoveRelation | SetProperty | ClearProperty
 
 
-def about(change: Change) -> tuple[str, ...]:
+def named_individuals(change: Change) -> tuple[str, ...]:
     """Return the individuals that a change names: whatever else it retracts is a fact about one of them."""
     match change:
         case AddRelation(subject, _, object_) | RemoveRelation(subject, _, object_):

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Set
 
 from skillc_rdf.vocabulary.closure import reachable
-from skillc_runtime.world.state.axioms import Axioms
-from skillc_runtime.world.state.table import Links, LinksDraft
+from skillc_runtime.world.state.axioms import RelationAxioms
+from skillc_runtime.world.state.versioned import PairIndex, PairIndexBuilder
 
 
-class Closure:
+class ClosureBuilder:
     """Asserted relations and their consequences on the way to the next version.
 
     An *edge* of a relation is a pair that follows from one assertion alone (sub-relation, inverse, symmetry). The facts
@@ -17,11 +17,11 @@ class Closure:
     of the transitive relations below it.
     """
 
-    def __init__(self, axioms: Axioms, asserted: dict[str, Links], facts: dict[str, Links]) -> None:
+    def __init__(self, axioms: RelationAxioms, asserted: dict[str, PairIndex], facts: dict[str, PairIndex]) -> None:
         self._axioms = axioms
         self._asserted, self._facts = asserted, facts
-        self._asserting: dict[str, LinksDraft] = {}
-        self._following: dict[str, LinksDraft] = {}
+        self._asserting: dict[str, PairIndexBuilder] = {}
+        self._following: dict[str, PairIndexBuilder] = {}
 
     def edges_from(self, subject: str, relation: str) -> set[str]:
         """Return the objects of the relation's edges from a subject."""
@@ -56,7 +56,7 @@ class Closure:
             if end in self._assertions(source).objects(start):
                 self._retract(start, source, end)
 
-    def frozen(self) -> tuple[dict[str, Links], dict[str, Links]]:
+    def frozen(self) -> tuple[dict[str, PairIndex], dict[str, PairIndex]]:
         """Return the asserted relations and the facts of the finished version."""
         if not self._asserting:
             return self._asserted, self._facts
@@ -65,14 +65,14 @@ class Closure:
         facts.update((iri, asserted[iri]) for iri in self._asserting if iri in self._axioms.plain)
         return asserted, facts
 
-    def _assertions(self, relation: str) -> LinksDraft:
+    def _assertions(self, relation: str) -> PairIndexBuilder:
         if relation not in self._asserting:
-            self._asserting[relation] = LinksDraft(self._asserted[relation])
+            self._asserting[relation] = PairIndexBuilder(self._asserted[relation])
         return self._asserting[relation]
 
-    def _consequences(self, relation: str) -> LinksDraft:
+    def _consequences(self, relation: str) -> PairIndexBuilder:
         if relation not in self._following:
-            self._following[relation] = LinksDraft(self._facts[relation])
+            self._following[relation] = PairIndexBuilder(self._facts[relation])
         return self._following[relation]
 
     def _retract(self, subject: str, relation: str, object_: str) -> None:
@@ -102,10 +102,10 @@ class Closure:
             return
         before, after = {start, *facts.subjects(start)}, {end, *facts.objects(end)}
         if len(before) < len(after):
-            left = {first: _after(first, lambda node: self.edges_from(node, relation)) for first in before}
+            left = {first: _reachable_from(first, lambda node: self.edges_from(node, relation)) for first in before}
             lost = [(first, last) for first in before for last in after - left[first]]
         else:
-            left = {last: _after(last, lambda node: self.edges_to(relation, node)) for last in after}
+            left = {last: _reachable_from(last, lambda node: self.edges_to(relation, node)) for last in after}
             lost = [(first, last) for last in after for first in before - left[last]]
         for first, last in lost:
             facts.discard(first, last)
@@ -130,6 +130,6 @@ class Closure:
         self._consequences(relation).discard(start, end)
 
 
-def _after(start: str, step: Callable[[str], Set[str]]) -> set[str]:
+def _reachable_from(start: str, step: Callable[[str], Set[str]]) -> set[str]:
     """Return what is reached by one step or more, the start itself only in a circle."""
     return reachable(step(start), step)

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Protocol, TypeVar
 
 from skillc_rdf.vocabulary.types import RelationTerm, Vocabulary, local_name
-from skillc_runtime.world.state.python_calls import Unknown, call_python, load_python
+from skillc_runtime.world.state.python_calls import InsufficientFacts, call_python, load_python
 
 State = TypeVar("State", contravariant=True)
 
@@ -44,7 +44,7 @@ class Reasoner(Protocol[State]):
         ...
 
 
-class Computed:
+class ComputedRelation:
     """A relation with the reasoner that tells whether it holds."""
 
     def __init__(self, term: RelationTerm, target: str) -> None:
@@ -84,7 +84,7 @@ class Computed:
     def _asked(self, state: ClassIndex, subject: str, object_: str) -> str | None:
         try:
             return self._reasoner.obstacle(state, subject, object_)
-        except Unknown as missing:
+        except InsufficientFacts as missing:
             return str(missing)
 
     @cached_property

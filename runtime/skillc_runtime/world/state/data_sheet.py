@@ -18,7 +18,7 @@ class SheetError(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class Sheet:
+class DataSheet:
     """A data sheet in one version of the world; names are those of the `skillc` vocabulary without prefix."""
 
     state: WorldState
@@ -26,11 +26,11 @@ class Sheet:
 
     def number(self, name: str) -> float:
         """Return a number in SI units; SheetError when missing."""
-        return number(self.state, self.individual, SKILLC + name)
+        return number_of(self.state, self.individual, SKILLC + name)
 
     def text(self, name: str) -> str:
         """Return a text; SheetError when missing."""
-        return text(self.state, self.individual, SKILLC + name)
+        return text_of(self.state, self.individual, SKILLC + name)
 
     @property
     def model(self) -> Path:
@@ -62,7 +62,7 @@ class Sheet:
         if name not in names:
             known = ", ".join(self.posture_names) or "none"
             raise SheetError(f"{self._short(self.individual)} has no posture {name!r}; it has {known}")
-        values = text(self.state, names[name], JOINT_VALUES)
+        values = text_of(self.state, names[name], JOINT_VALUES)
         return _numbers(values, f"posture {name} of {self._short(self.individual)}")
 
     @property
@@ -82,15 +82,15 @@ class Sheet:
         return self.state.vocabulary.short(individual)
 
 
-def sheet_of(state: WorldState, individual: str) -> Sheet:
+def sheet_of(state: WorldState, individual: str) -> DataSheet:
     """Return the data sheet of a device; SheetError when it has none."""
     sheets = sorted(state.objects(individual, HAS_SHEET))
     if not sheets:
         raise SheetError(f"{state.vocabulary.short(individual)} has no data sheet (skillc:hasSheet)")
-    return Sheet(state, sheets[0])
+    return DataSheet(state, sheets[0])
 
 
-def number(state: WorldState, individual: str, property_: str, default: float | None = None) -> float:
+def number_of(state: WorldState, individual: str, property_: str, default: float | None = None) -> float:
     """Return a number in SI units of an individual; SheetError when missing and no default is given."""
     found = state.value(individual, property_)
     if isinstance(found, int | float):
@@ -103,14 +103,14 @@ def number(state: WorldState, individual: str, property_: str, default: float | 
 
 def range_below(state: WorldState, individual: str, property_: str, middle: float) -> float:
     """Return how far a number in SI units may be from its middle, 0 where nothing is said; SheetError when beyond 0."""
-    found = number(state, individual, property_, default=0.0)
+    found = number_of(state, individual, property_, default=0.0)
     if found >= middle:
         short = state.vocabulary.short
         raise SheetError(f"{short(individual)} has a {short(property_)} of {found:g}; it must be below {middle:g}")
     return found
 
 
-def text(state: WorldState, individual: str, property_: str) -> str:
+def text_of(state: WorldState, individual: str, property_: str) -> str:
     """Return a text about an individual; SheetError when missing."""
     found = state.value(individual, property_)
     if isinstance(found, str):

@@ -14,7 +14,7 @@ from skillc_runtime.world.state.changes import (
     RemoveRelation,
     SetProperty,
 )
-from skillc_runtime.world.state.values import Value, equal
+from skillc_runtime.world.state.values import Value, are_equal
 from skillc_runtime.world.state.world_state import WorldState
 
 _Fact: TypeAlias = tuple[str, str, str]
@@ -26,15 +26,15 @@ def changes_between(before: WorldState, after: WorldState, about: Iterable[str] 
     Only facts about the individuals `about` are looked at, all where they are not given.
     """
     individuals = sorted(before.individuals | after.individuals if about is None else set(about))
-    existing = list(_existing(before, after, individuals))
-    lost = _written(before, individuals) - _written(after, individuals)
+    existing = list(_individual_changes(before, after, individuals))
+    lost = _asserted_relations(before, individuals) - _asserted_relations(after, individuals)
     changes = [*existing, *(RemoveRelation(*fact) for fact in sorted(lost))]
     midway = before.changed(changes)
-    missing = _written(after, individuals) - _written(midway, individuals)
-    return (*changes, *(AddRelation(*fact) for fact in sorted(missing)), *_values(midway, after, individuals))
+    missing = _asserted_relations(after, individuals) - _asserted_relations(midway, individuals)
+    return (*changes, *(AddRelation(*fact) for fact in sorted(missing)), *_property_changes(midway, after, individuals))
 
 
-def _existing(before: WorldState, after: WorldState, individuals: Iterable[str]) -> Iterator[Change]:
+def _individual_changes(before: WorldState, after: WorldState, individuals: Iterable[str]) -> Iterator[Change]:
     """Yield what makes each individual one of its classes; what loses a class begins anew."""
     for individual in individuals:
         former, present = before.types(individual), after.types(individual)
@@ -44,7 +44,7 @@ def _existing(before: WorldState, after: WorldState, individuals: Iterable[str])
             yield AddIndividual(individual, tuple(sorted(present)))
 
 
-def _written(state: WorldState, individuals: Iterable[str]) -> set[_Fact]:
+def _asserted_relations(state: WorldState, individuals: Iterable[str]) -> set[_Fact]:
     """Return the relations as they were written, from and to the individuals."""
     return {
         fact
@@ -58,16 +58,16 @@ def _written(state: WorldState, individuals: Iterable[str]) -> set[_Fact]:
     }
 
 
-def _values(before: WorldState, after: WorldState, individuals: Iterable[str]) -> Iterator[Change]:
+def _property_changes(before: WorldState, after: WorldState, individuals: Iterable[str]) -> Iterator[Change]:
     for property_, table in sorted(after.stored.items()):
         former = before.stored[property_]
         for individual in individuals:
             old, new = former.get(individual), table.get(individual)
             if new is None and old is not None:
                 yield ClearProperty(individual, property_)
-            elif new is not None and not _alike(old, new):
+            elif new is not None and not _are_identical(old, new):
                 yield SetProperty(individual, property_, new)
 
 
-def _alike(one: Value | None, other: Value) -> bool:
-    return one is other or (one is not None and type(one) is type(other) and equal(one, other))
+def _are_identical(one: Value | None, other: Value) -> bool:
+    return one is other or (one is not None and type(one) is type(other) and are_equal(one, other))

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 
 from skillc_model.words import SI_UNITS
 from skillc_rdf.vocabulary.types import THING, NumberType, VectorType, Vocabulary
-from skillc_runtime.world.state.names import NoSuchName, individual_of, term_of
+from skillc_runtime.world.state.names import NoSuchName, resolve_individual, resolve_term
 from skillc_runtime.world.state.properties import property_of
-from skillc_runtime.world.state.values import Value, has, show
+from skillc_runtime.world.state.values import Value, has_value, show
 from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)
-class Quantity:
+class PropertyValue:
     """The value of a property, and the SI unit that it counts, nothing where it counts none."""
 
     property: str
@@ -47,15 +47,15 @@ class Element:
         return tuple((name, each) for name, pairs in links for each in sorted(pairs.forward.get(self.iri)))
 
     @property
-    def quantities(self) -> tuple[Quantity, ...]:
+    def quantities(self) -> tuple[PropertyValue, ...]:
         """The properties that are stored of it, sorted."""
         found = ((name, table.get(self.iri)) for name, table in sorted(self.state.stored.items()))
         known = self.state.vocabulary
-        return tuple(Quantity(name, value, unit_of(name, known)) for name, value in found if value is not None)
+        return tuple(PropertyValue(name, value, unit_of(name, known)) for name, value in found if value is not None)
 
     def is_a(self, cls: str) -> bool:
         """Whether it is of a class or of a subclass."""
-        return self.state.is_a(self.iri, term_of(cls, self.state.vocabulary))
+        return self.state.is_a(self.iri, resolve_term(cls, self.state.vocabulary))
 
     def objects(self, relation: str) -> tuple[Element, ...]:
         """Return all that it has the relation to, what follows from axioms too, sorted by IRI."""
@@ -67,19 +67,19 @@ class Element:
         found = self.state.subjects(_relation(relation, self.state.vocabulary), self.iri)
         return tuple(Element(self.state, each) for each in sorted(found))
 
-    def quantity(self, property_: str) -> Quantity | None:
+    def quantity(self, property_: str) -> PropertyValue | None:
         """Return a property with its unit, computed if it is so declared; None when it has none."""
         iri = _property(property_, self.state.vocabulary)
         value = property_of(self.state, self.iri, iri)
-        return None if value is None else Quantity(iri, value, unit_of(iri, self.state.vocabulary))
+        return None if value is None else PropertyValue(iri, value, unit_of(iri, self.state.vocabulary))
 
 
-def element(state: WorldState, name: str) -> Element:
+def find_element(state: WorldState, name: str) -> Element:
     """Return the individual of that IRI or `prefix:name`; NoSuchName says which there are."""
-    return Element(state, individual_of(name, state))
+    return Element(state, resolve_individual(name, state))
 
 
-def find(
+def find_elements(
     state: WorldState,
     cls: str = THING,
     related: Mapping[str, str] | None = None,
@@ -87,16 +87,16 @@ def find(
 ) -> tuple[Element, ...]:
     """Return the individuals of a class that have all these relations, to individuals, and values; sorted by IRI."""
     known = state.vocabulary
-    found = state.instances(term_of(cls, known))
+    found = state.instances(resolve_term(cls, known))
     for relation, object_ in (related or {}).items():
-        found &= state.subjects(_relation(relation, known), individual_of(object_, state))
+        found &= state.subjects(_relation(relation, known), resolve_individual(object_, state))
     for name, value in (having or {}).items():
         table = state.stored[_property(name, known)]
-        found = frozenset(each for each in found if has(table.get(each), value))
+        found = frozenset(each for each in found if has_value(table.get(each), value))
     return tuple(Element(state, each) for each in sorted(found))
 
 
-def search(state: WorldState, words: str) -> tuple[Element, ...]:
+def search_elements(state: WorldState, words: str) -> tuple[Element, ...]:
     """Return the individuals in whose names, classes or texts all the words occur, whatever their case; by IRI."""
     wanted = words.casefold().split()
     found = (Element(state, each) for each in sorted(state.individuals))
@@ -119,14 +119,14 @@ def _text(each: Element) -> str:
 
 
 def _relation(name: str, vocabulary: Vocabulary) -> str:
-    iri = term_of(name, vocabulary)
+    iri = resolve_term(name, vocabulary)
     if iri not in vocabulary.relations:
         raise NoSuchName(f"{vocabulary.short(iri)} is no relation")
     return iri
 
 
 def _property(name: str, vocabulary: Vocabulary) -> str:
-    iri = term_of(name, vocabulary)
+    iri = resolve_term(name, vocabulary)
     if iri not in vocabulary.properties:
         raise NoSuchName(f"{vocabulary.short(iri)} is no property")
     return iri

@@ -19,10 +19,10 @@ from skillc_runtime.world.state.changes import (
     RemoveRelation,
     SetProperty,
 )
-from skillc_runtime.world.state.facts import Fact, Related, Typed, Valued
+from skillc_runtime.world.state.facts import ClassFact, Fact, PropertyFact, RelationFact
 from skillc_runtime.world.state.properties import value_at
 from skillc_runtime.world.state.python_calls import EvaluationError
-from skillc_runtime.world.state.values import equal
+from skillc_runtime.world.state.values import are_equal
 from skillc_runtime.world.state.world_state import WorldState
 
 Evidence: TypeAlias = Literal["sensed", "reported", "assumed"]
@@ -30,12 +30,12 @@ Evidence: TypeAlias = Literal["sensed", "reported", "assumed"]
 
 _STRENGTH: dict[Evidence | None, int] = {"assumed": 0, "reported": 1, "sensed": 2, None: 3}
 
-LIMIT = 500
+MAX_WRITES = 500
 """So many writes are kept apart; of older ones, taken together, the weakest evidence counts."""
 
 
 @dataclass(frozen=True, slots=True)
-class Established:
+class DecidingWrite:
     """The write that decides how a fact is known: its number, from 1 on, and who made it.
 
     `evidence` is None for a write that is no claim of this run: a person's, or another program's.
@@ -48,13 +48,13 @@ class Established:
 
 @dataclass(frozen=True, slots=True)
 class _Entry:
-    established: Established
+    established: DecidingWrite
     changes: tuple[Change, ...]
     before: WorldState
     after: WorldState
 
 
-class Ledger:
+class EvidenceLedger:
     """The writes since a world model was made; facts that none of them concerns were given with the scene."""
 
     def __init__(self) -> None:
@@ -71,28 +71,28 @@ class Ledger:
     ) -> None:
         """Take in a write."""
         self.count += 1
-        self._entries.append(_Entry(Established(self.count, evidence, origin), changes, before, after))
-        if len(self._entries) > LIMIT:
-            self._entries[:2] = [_together(*self._entries[:2])]
+        self._entries.append(_Entry(DecidingWrite(self.count, evidence, origin), changes, before, after))
+        if len(self._entries) > MAX_WRITES:
+            self._entries[:2] = [_merge(*self._entries[:2])]
 
     def drop_last(self) -> None:
         """Forget the last write, which was taken back: what it concerned is known again as it was before."""
         self._entries.pop()
 
-    def established(self, fact: Fact, state: WorldState) -> Established | None:
+    def established(self, fact: Fact, state: WorldState) -> DecidingWrite | None:
         """Return the write that decides how a fact, true in the present `state`, is known; None where it was given."""
         match fact:
-            case Related(relation=relation) if relation in state.axioms.computed:
+            case RelationFact(relation=relation) if relation in state.axioms.computed:
                 term = state.vocabulary.relations[relation]
                 read = [each for each in term.computed_from if each in state.vocabulary.properties]
-                inputs = [Valued(individual, each) for individual in (fact.subject, fact.object) for each in read]
+                inputs = [PropertyFact(individual, each) for individual in (fact.subject, fact.object) for each in read]
                 return weakest(map(self._last, inputs)) or self._last(fact)
-            case Related() if fact.holds:
-                return weakest(map(self._last, _links(fact, state)))
-            case Related():
-                excluding = (self.established(each, state) for each in _excluding(fact, state))
+            case RelationFact() if fact.holds:
+                return weakest(map(self._last, _premises(fact, state)))
+            case RelationFact():
+                excluding = (self.established(each, state) for each in _excluding_facts(fact, state))
                 return strongest((self._last(fact), *excluding))
-            case Valued() | Typed():
+            case PropertyFact() | ClassFact():
                 return self._last(fact)
             case _:
                 assert_never(fact)
@@ -104,20 +104,20 @@ class Ledger:
             found.update(pairs(entry.before, relation, subject, object_))
         return found
 
-    def _last(self, fact: Fact) -> Established | None:
+    def _last(self, fact: Fact) -> DecidingWrite | None:
         for entry in reversed(self._entries):
-            if any(_states(change, fact, entry.after) for change in entry.changes) or _turned(fact, entry):
+            if any(_is_stated_by(change, fact, entry.after) for change in entry.changes) or _is_changed_by(fact, entry):
                 return entry.established
         return None
 
 
-def weakest(found: Iterable[Established | None]) -> Established | None:
+def weakest(found: Iterable[DecidingWrite | None]) -> DecidingWrite | None:
     """Return the weakest of what several facts, which are all needed, rest on; None where all were given."""
     there = [each for each in found if each is not None]
     return min(there, key=lambda each: (_STRENGTH[each.evidence], -each.number), default=None)
 
 
-def strongest(found: Iterable[Established | None]) -> Established | None:
+def strongest(found: Iterable[DecidingWrite | None]) -> DecidingWrite | None:
     """Return the strongest of what alternatives, of which one is enough, rest on."""
     there = tuple(found)
     if None in there:
@@ -134,34 +134,34 @@ def pairs(state: WorldState, relation: str, subject: str | None, object_: str | 
     return state.pairs(relation)
 
 
-def statement(change: Change) -> Fact | None:
+def stated_fact(change: Change) -> Fact | None:
     """Return the fact that a change states; None for one about an individual as a whole."""
     match change:
         case AddRelation(subject, relation, object_):
-            return Related(subject, relation, object_)
+            return RelationFact(subject, relation, object_)
         case RemoveRelation(subject, relation, object_):
-            return Related(subject, relation, object_, holds=False)
+            return RelationFact(subject, relation, object_, holds=False)
         case SetProperty(individual, property_, _) | ClearProperty(individual, property_):
-            return Valued(individual, property_)
+            return PropertyFact(individual, property_)
         case AddIndividual() | RemoveIndividual():
             return None
         case _:
             assert_never(change)
 
 
-def _states(change: Change, fact: Fact, state: WorldState) -> bool:
+def _is_stated_by(change: Change, fact: Fact, state: WorldState) -> bool:
     """Whether a change states a fact, by itself or by what its relation implies."""
     match change, fact:
-        case AddRelation(subject, relation, object_), Related(holds=True):
+        case AddRelation(subject, relation, object_), RelationFact(holds=True):
             return _implies(state, (subject, relation, object_), (fact.subject, fact.relation, fact.object))
-        case RemoveRelation(subject, relation, object_), Related(holds=False):
+        case RemoveRelation(subject, relation, object_), RelationFact(holds=False):
             return _implies(state, (fact.subject, fact.relation, fact.object), (subject, relation, object_))
-        case AddIndividual(individual, types), Typed(holds=True):
+        case AddIndividual(individual, types), ClassFact(holds=True):
             return individual == fact.individual and fact.cls in types
-        case RemoveIndividual(individual), Valued() | Typed():
+        case RemoveIndividual(individual), PropertyFact() | ClassFact():
             return individual == fact.individual
         case _:
-            return statement(change) == fact
+            return stated_fact(change) == fact
 
 
 def _implies(state: WorldState, one: tuple[str, str, str], other: tuple[str, str, str]) -> bool:
@@ -170,25 +170,27 @@ def _implies(state: WorldState, one: tuple[str, str, str], other: tuple[str, str
     return any(other == ((object_, x, subject) if flipped else (subject, x, object_)) for x, flipped in reached)
 
 
-def _turned(fact: Fact, entry: _Entry) -> bool:
+def _is_changed_by(fact: Fact, entry: _Entry) -> bool:
     """Whether a write made a fact true that was not, or changed a value that is computed."""
     before, after = entry.before, entry.after
     try:
         match fact:
-            case Related(subject, relation, object_):
+            case RelationFact(subject, relation, object_):
                 return before.holds(subject, relation, object_) != after.holds(subject, relation, object_)
-            case Typed(individual, cls, _):
+            case ClassFact(individual, cls, _):
                 return before.is_a(individual, cls) != after.is_a(individual, cls)
-            case Valued(individual, property_):
+            case PropertyFact(individual, property_):
                 old, new = value_at(before, individual, property_), value_at(after, individual, property_)
-                return (old is None) != (new is None) or (old is not None and new is not None and not equal(old, new))
+                return (old is None) != (new is None) or (
+                    old is not None and new is not None and not are_equal(old, new)
+                )
             case _:
                 assert_never(fact)
     except EvaluationError:
         return False
 
 
-def _links(fact: Related, state: WorldState) -> Iterator[Related]:
+def _premises(fact: RelationFact, state: WorldState) -> Iterator[RelationFact]:
     """Yield the facts that a true one follows from: itself, and of a chain every link between its ends."""
     yield fact
     axioms, relation = state.axioms, fact.relation
@@ -200,26 +202,26 @@ def _links(fact: Related, state: WorldState) -> Iterator[Related]:
         for start in sorted(nodes):
             for end in sorted(nodes & state.asserted[source].forward.get(start)):
                 if (start, end) != ((fact.object, fact.subject) if flipped else (fact.subject, fact.object)):
-                    yield Related(start, source, end)
+                    yield RelationFact(start, source, end)
 
 
-def _excluding(fact: Related, state: WorldState) -> Iterator[Related]:
+def _excluding_facts(fact: RelationFact, state: WorldState) -> Iterator[RelationFact]:
     """Yield true facts that a false one follows from: the other value of a functional relation, the other holder."""
     for relation, flipped in state.axioms.implied.get(fact.relation, ()):
         term = state.vocabulary.relations[relation]
         start, end = (fact.object, fact.subject) if flipped else (fact.subject, fact.object)
         if term.functional:
-            yield from (Related(start, relation, each) for each in sorted(state.objects(start, relation)))
+            yield from (RelationFact(start, relation, each) for each in sorted(state.objects(start, relation)))
         if term.inverse_functional:
-            yield from (Related(each, relation, end) for each in sorted(state.subjects(relation, end)))
+            yield from (RelationFact(each, relation, end) for each in sorted(state.subjects(relation, end)))
 
 
-def _together(one: _Entry, other: _Entry) -> _Entry:
-    weaker = one.established if _weaker(one, other) else other.established
+def _merge(one: _Entry, other: _Entry) -> _Entry:
+    weaker = one.established if _is_weaker(one, other) else other.established
     kept = replace(weaker, number=other.established.number)
-    changes = {statement(each) or each: each for each in (*one.changes, *other.changes)}
+    changes = {stated_fact(each) or each: each for each in (*one.changes, *other.changes)}
     return _Entry(kept, tuple(changes.values()), one.before, other.after)
 
 
-def _weaker(one: _Entry, other: _Entry) -> bool:
+def _is_weaker(one: _Entry, other: _Entry) -> bool:
     return _STRENGTH[one.established.evidence] < _STRENGTH[other.established.evidence]

@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 
 @dataclass(frozen=True, slots=True)
-class Related:
+class RelationFact:
     """The relation holds between two individuals, or does not."""
 
     subject: str
@@ -17,7 +17,7 @@ class Related:
 
 
 @dataclass(frozen=True, slots=True)
-class Valued:
+class PropertyFact:
     """The property of the individual has the value that it has, or none."""
 
     individual: str
@@ -25,7 +25,7 @@ class Valued:
 
 
 @dataclass(frozen=True, slots=True)
-class Typed:
+class ClassFact:
     """The individual is of the class, or is not."""
 
     individual: str
@@ -33,4 +33,4 @@ class Typed:
     holds: bool = True
 
 
-Fact: TypeAlias = Related | Valued | Typed
+Fact: TypeAlias = RelationFact | PropertyFact | ClassFact

@@ -23,7 +23,7 @@ from skillc_runtime.world.state.changes import (
     RemoveRelation,
     SetProperty,
 )
-from skillc_runtime.world.state.facts import Fact, Related, Typed, Valued
+from skillc_runtime.world.state.facts import ClassFact, Fact, PropertyFact, RelationFact
 from skillc_runtime.world.state.properties import value_at
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
@@ -32,7 +32,7 @@ MILLI = {"mm": 1e3}
 """How many of a unit for messages make one SI unit."""
 
 
-class Iri(msgspec.Struct, frozen=True, tag="iri"):
+class LabelledIri(msgspec.Struct, frozen=True, tag="iri"):
     """An individual, class, relation or property; `label` is what people read, `lab:Arm-1` or `contain`."""
 
     iri: str
@@ -65,7 +65,7 @@ class NotFinite(msgspec.Struct, frozen=True, tag="not-finite"):
     text: str
 
 
-class Vector(msgspec.Struct, frozen=True, tag="vector"):
+class LabelledVector(msgspec.Struct, frozen=True, tag="vector"):
     """Three numbers of one unit in the world frame."""
 
     components: tuple[float, float, float]
@@ -75,7 +75,7 @@ class Vector(msgspec.Struct, frozen=True, tag="vector"):
         return f"({', '.join(format(part + 0.0, spec or 'g') for part in self.components)}) {self.unit}".strip()
 
 
-class Pose(msgspec.Struct, frozen=True, tag="pose"):
+class LabelledPose(msgspec.Struct, frozen=True, tag="pose"):
     """A position in m and an orientation as unit quaternion (w, x, y, z), in a frame."""
 
     position_m: tuple[float, float, float]
@@ -89,69 +89,71 @@ class ValueList(msgspec.Struct, frozen=True, tag="list"):
     values: tuple[LabelledValue, ...]
 
 
-LabelledValue: TypeAlias = bool | int | str | Iri | Quantity | NotFinite | Vector | Pose | ValueList
+LabelledValue: TypeAlias = (
+    bool | int | str | LabelledIri | Quantity | NotFinite | LabelledVector | LabelledPose | ValueList
+)
 """Truth values, integers and texts are themselves."""
 
 
-class RelationFact(msgspec.Struct, frozen=True, tag="relation", omit_defaults=True):
+class LabelledRelation(msgspec.Struct, frozen=True, tag="relation", omit_defaults=True):
     """A relation holds between two individuals, or does not; None stands for anybody."""
 
-    subject: Iri | None
-    relation: Iri
-    object: Iri | None
+    subject: LabelledIri | None
+    relation: LabelledIri
+    object: LabelledIri | None
     holds: bool = True
 
 
-class PropertyFact(msgspec.Struct, frozen=True, tag="property"):
+class LabelledProperty(msgspec.Struct, frozen=True, tag="property"):
     """A property of an individual has a value, or none."""
 
-    individual: Iri
-    property: Iri
+    individual: LabelledIri
+    property: LabelledIri
     value: LabelledValue | None
 
 
-class ClassFact(msgspec.Struct, frozen=True, tag="class", omit_defaults=True):
+class LabelledClass(msgspec.Struct, frozen=True, tag="class", omit_defaults=True):
     """An individual is of a class, or is not."""
 
-    individual: Iri
-    cls: Iri
+    individual: LabelledIri
+    cls: LabelledIri
     holds: bool = True
 
 
-class IdentityFact(msgspec.Struct, frozen=True, tag="same", omit_defaults=True):
+class LabelledIdentity(msgspec.Struct, frozen=True, tag="same", omit_defaults=True):
     """Two names stand for one individual, or do not."""
 
-    one: Iri
-    other: Iri
+    one: LabelledIri
+    other: LabelledIri
     holds: bool = True
 
 
 class IndividualAdded(msgspec.Struct, frozen=True, tag="added"):
     """An individual exists from now on."""
 
-    individual: Iri
-    classes: tuple[Iri, ...]
+    individual: LabelledIri
+    classes: tuple[LabelledIri, ...]
 
 
 class IndividualRemoved(msgspec.Struct, frozen=True, tag="removed"):
     """An individual and all facts about it are gone."""
 
-    individual: Iri
+    individual: LabelledIri
 
 
-LabelledFact: TypeAlias = RelationFact | PropertyFact | ClassFact | IdentityFact
-LabelledChange: TypeAlias = RelationFact | PropertyFact | IndividualAdded | IndividualRemoved
+LabelledFact: TypeAlias = LabelledRelation | LabelledProperty | LabelledClass | LabelledIdentity
+LabelledChange: TypeAlias = LabelledRelation | LabelledProperty | IndividualAdded | IndividualRemoved
 """A change of a relation or a property is the fact that holds from then on."""
 
 
-def label(iri: str, vocabulary: Vocabulary) -> Iri:
+def label(iri: str, vocabulary: Vocabulary) -> LabelledIri:
     """Return an individual or a class with its short name."""
-    return Iri(iri, vocabulary.short(iri))
+    return LabelledIri(iri, vocabulary.short(iri))
 
 
-def label_term(iri: str) -> Iri:
+def label_term(iri: str) -> LabelledIri:
     """Return a relation or a property with its name, as conditions are written."""
-    return Iri(iri, local(iri))
+    return LabelledIri(iri, local(iri))
 
 
 def label_value(value: Value, type_: ValueType | None, vocabulary: Vocabulary) -> LabelledValue:
@@ -166,7 +168,7 @@ def label_value(value: Value, type_: ValueType | None, vocabulary: Vocabulary) -
         case motion.Pose():
             x, y, z = value.position.tolist()
             quaternion_w, *quaternion = motion.quaternion_of(value.rotation).tolist()
-            return Pose((x, y, z), (quaternion_w, *quaternion))
+            return LabelledPose((x, y, z), (quaternion_w, *quaternion))
         case np.ndarray():
             return _vector(value, type_)
         case tuple() | list():
@@ -189,7 +191,7 @@ def make_recordable(value: object) -> LabelledValue:
     match value:
         case Quantity(number) if not isfinite(number):
             return NotFinite(f"{value}")
-        case Iri() | Quantity() | NotFinite() | Vector() | Pose() | ValueList():
+        case LabelledIri() | Quantity() | NotFinite() | LabelledVector() | LabelledPose() | ValueList():
             return value
         case _:
             return label_value(cast(Value, value), None, Vocabulary())
@@ -199,30 +201,30 @@ def label_fact(fact: Fact, state: WorldState) -> LabelledFact:
     """Return a fact as it is in a state."""
     vocabulary = state.vocabulary
     match fact:
-        case Related(subject, relation, object_, holds):
-            return relation_fact(subject, relation, object_, holds, vocabulary)
-        case Valued(individual, property_):
-            return property_fact(individual, property_, value_at(state, individual, property_), vocabulary)
-        case Typed(individual, cls, holds):
-            return ClassFact(label(individual, vocabulary), label(cls, vocabulary), holds)
+        case RelationFact(subject, relation, object_, holds):
+            return label_relation(subject, relation, object_, holds, vocabulary)
+        case PropertyFact(individual, property_):
+            return label_property(individual, property_, value_at(state, individual, property_), vocabulary)
+        case ClassFact(individual, cls, holds):
+            return LabelledClass(label(individual, vocabulary), label(cls, vocabulary), holds)
         case _:
             assert_never(fact)
 
 
-def relation_fact(
+def label_relation(
     subject: str | None, relation: str, object_: str | None, holds: bool, vocabulary: Vocabulary
-) -> RelationFact:
+) -> LabelledRelation:
     """Return that a relation holds or not, by IRIs; None for anybody."""
     ends = (None if end is None else label(end, vocabulary) for end in (subject, object_))
-    return RelationFact(next(ends), label_term(relation), next(ends), holds)
+    return LabelledRelation(next(ends), label_term(relation), next(ends), holds)
 
 
-def property_fact(individual: str, property_: str, value: Value | None, vocabulary: Vocabulary) -> PropertyFact:
+def label_property(individual: str, property_: str, value: Value | None, vocabulary: Vocabulary) -> LabelledProperty:
     """Return the value of a property, by IRIs; None and several values of which there are none are no value."""
     term = vocabulary.properties.get(property_)
     empty = value is None or (isinstance(value, tuple) and not value)
     labelled = None if value is None or empty else label_value(value, term.type if term else None, vocabulary)
-    return PropertyFact(label(individual, vocabulary), label_term(property_), labelled)
+    return LabelledProperty(label(individual, vocabulary), label_term(property_), labelled)
 
 
 def label_change(change: Change, vocabulary: Vocabulary) -> LabelledChange:
@@ -233,11 +235,11 @@ def label_change(change: Change, vocabulary: Vocabulary) -> LabelledChange:
         case RemoveIndividual(individual):
             return IndividualRemoved(label(individual, vocabulary))
         case AddRelation(subject, relation, object_) | RemoveRelation(subject, relation, object_):
-            return relation_fact(subject, relation, object_, isinstance(change, AddRelation), vocabulary)
+            return label_relation(subject, relation, object_, isinstance(change, AddRelation), vocabulary)
         case SetProperty(individual, property_, value):
-            return property_fact(individual, property_, value, vocabulary)
+            return label_property(individual, property_, value, vocabulary)
         case ClearProperty(individual, property_):
-            return property_fact(individual, property_, None, vocabulary)
+            return label_property(individual, property_, None, vocabulary)
         case _:
             assert_never(change)
 
@@ -255,6 +257,6 @@ def _vector(value: np.ndarray, type_: ValueType | None) -> LabelledValue:
     unit = SI_UNITS.get(type_.dimension, "") if isinstance(type_, VectorType) else ""
     match value.ravel().tolist():
         case [x, y, z]:
-            return Vector((x, y, z), unit)
+            return LabelledVector((x, y, z), unit)
         case parts:
             return ValueList(tuple(Quantity(part, unit) for part in parts))

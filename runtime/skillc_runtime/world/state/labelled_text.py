@@ -6,18 +6,18 @@ from typing import assert_never
 
 from skillc_model.format_condition import format_class, format_property, format_relation
 from skillc_runtime.world.state.labelled import (
-    ClassFact,
-    IdentityFact,
-    Iri,
+    LabelledClass,
     LabelledFact,
+    LabelledIdentity,
+    LabelledIri,
+    LabelledPose,
+    LabelledProperty,
+    LabelledRelation,
     LabelledValue,
+    LabelledVector,
     NotFinite,
-    Pose,
-    PropertyFact,
     Quantity,
-    RelationFact,
     ValueList,
-    Vector,
 )
 
 LISTED = 3
@@ -35,14 +35,14 @@ def format_value(value: LabelledValue) -> str:
             return str(value)
         case str():
             return f'"{value}"'
-        case Iri(_, name):
+        case LabelledIri(_, name):
             return name
-        case Quantity() | Vector():
+        case Quantity() | LabelledVector():
             return f"{value}"
         case NotFinite(text):
             return text
-        case Pose(position_m):
-            return f"pose at {Vector(position_m)}"
+        case LabelledPose(position_m):
+            return f"pose at {LabelledVector(position_m)}"
         case ValueList(values) if len(values) > LISTED:
             return f"{len(values)} values"
         case ValueList(values):
@@ -54,14 +54,14 @@ def format_value(value: LabelledValue) -> str:
 def format_fact(fact: LabelledFact) -> str:
     """Return a fact in the words of the language, as `not lab:Gripper-1 contain lab:Eraser-1`."""
     match fact:
-        case RelationFact(subject, relation, object_, holds):
+        case LabelledRelation(subject, relation, object_, holds):
             ends = [ANY if end is None else end.label for end in (subject, object_)]
             return format_relation(ends[0], relation.iri, ends[1], holds)
-        case PropertyFact(individual, property_, value):
+        case LabelledProperty(individual, property_, value):
             return format_property(individual.label, property_.iri, None if value is None else format_value(value))
-        case ClassFact(individual, cls, holds):
+        case LabelledClass(individual, cls, holds):
             return format_class(individual.label, cls.label, holds)
-        case IdentityFact(one, other, holds):
+        case LabelledIdentity(one, other, holds):
             return f"{one.label} {'==' if holds else '!='} {other.label}"
         case _:
             assert_never(fact)

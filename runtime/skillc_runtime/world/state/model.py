@@ -15,10 +15,10 @@ from skillc_runtime.world.state.changes import (
     RemoveIndividual,
     RemoveRelation,
     SetProperty,
-    about,
+    named_individuals,
 )
 from skillc_runtime.world.state.difference import changes_between
-from skillc_runtime.world.state.evidence import Established, Evidence, Ledger
+from skillc_runtime.world.state.evidence import DecidingWrite, Evidence, EvidenceLedger
 from skillc_runtime.world.state.facts import Fact
 from skillc_runtime.world.state.open_transaction import OpenTransaction
 from skillc_runtime.world.state.transactions import ChangeEvent, Listener, NullStore, StoreError, TransactionLog
@@ -46,7 +46,7 @@ class WorldModel:
         self._lock = RLock()
         self._gathering = False
         self._past: deque[ChangeEvent] = deque(maxlen=UNDOABLE)
-        self.ledger = Ledger()
+        self.ledger = EvidenceLedger()
 
     def snapshot(self) -> WorldState:
         """Return the current version, which never changes."""
@@ -57,7 +57,7 @@ class WorldModel:
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener)
 
-    def known(self, fact: Fact) -> Established | None:
+    def known(self, fact: Fact) -> DecidingWrite | None:
         """Return the write that decides how a fact of the current version is known; None for one given at the start."""
         return self.ledger.established(fact, self._state)
 
@@ -106,7 +106,7 @@ class WorldModel:
             if not self._past:
                 raise WorldError("there is nothing to take back: nothing was written here since others wrote")
             last = self._past[-1]
-            named = {individual for change in last.changes for individual in about(change)}
+            named = {individual for change in last.changes for individual in named_individuals(change)}
             event = self._checked(changes_between(self._state, last.before, named), origin, None)
             if not self._store.append(event, self._sequence):
                 raise WorldError("others wrote to the world meanwhile: nothing was taken back")
@@ -157,7 +157,7 @@ class WorldModel:
         if strange:
             raise WorldError(f"there is no relation or property {before.vocabulary.short(strange[0])}")
         after = before.changed(made)
-        problems = [breach.message for change in _lasting(made) for breach in axiom_violations(after, change)]
+        problems = [breach.message for change in _effective_changes(made) for breach in axiom_violations(after, change)]
         if problems:
             raise WorldError("; ".join(dict.fromkeys(problems)))
         return ChangeEvent(made, origin, before, after, known)
@@ -167,7 +167,7 @@ class WorldModel:
             listener(event)
 
 
-def _lasting(changes: tuple[Change, ...]) -> list[Change]:
+def _effective_changes(changes: tuple[Change, ...]) -> list[Change]:
     """Return the changes that a later one of the same write does not take back."""
     lasting: list[Change] = []
     for change in changes:

@@ -23,11 +23,11 @@ def expand_name(name: str, vocabulary: Vocabulary) -> str:
     if prefix in vocabulary.prefixes:
         name = vocabulary.prefixes[prefix] + local
     elif "/" not in local and prefix != "urn":
-        raise NoSuchName(f"there is no prefix `{prefix}`; there is {_some(sorted(vocabulary.prefixes))}")
+        raise NoSuchName(f"there is no prefix `{prefix}`; there is {_list_names(sorted(vocabulary.prefixes))}")
     return vocabulary.aliases.get(name, name)
 
 
-def individual_of(name: str, state: WorldState) -> str:
+def resolve_individual(name: str, state: WorldState) -> str:
     """Return the IRI of an individual that there is; NoSuchName says which are called alike."""
     iri = expand_name(name, state.vocabulary)
     if state.exists(iri):
@@ -35,11 +35,11 @@ def individual_of(name: str, state: WorldState) -> str:
     short = state.vocabulary.short
     by_name = {local_name(each): short(each) for each in sorted(state.individuals)}
     near = [by_name[each] for each in get_close_matches(local_name(iri), by_name, n=3)]
-    cure = f"did you mean {' or '.join(near)}?" if near else f"there is {_some(sorted(by_name.values()))}"
+    cure = f"did you mean {' or '.join(near)}?" if near else f"there is {_list_names(sorted(by_name.values()))}"
     raise NoSuchName(f"there is no individual {short(iri)}; {cure}")
 
 
-def term_of(name: str, vocabulary: Vocabulary) -> str:
+def resolve_term(name: str, vocabulary: Vocabulary) -> str:
     """Return the IRI of a class, relation or property that there is; NoSuchName says which are called alike."""
     iri = expand_name(name, vocabulary)
     known = vocabulary.ancestors.keys() | vocabulary.relations.keys() | vocabulary.properties.keys()
@@ -51,5 +51,5 @@ def term_of(name: str, vocabulary: Vocabulary) -> str:
     raise NoSuchName(f"there is no term {vocabulary.short(iri)}{cure}")
 
 
-def _some(names: list[str]) -> str:
+def _list_names(names: list[str]) -> str:
     return (", ".join(names[:LISTED]) + ", .." * (len(names) > LISTED)) or "none"

@@ -16,7 +16,7 @@ class EvaluationError(ValueError):
     """A condition or expression that has no value; the message names what is missing and where."""
 
 
-class Unknown(ValueError):
+class InsufficientFacts(ValueError):
     """Too little is known to work something out; the message says what is missing."""
 
 

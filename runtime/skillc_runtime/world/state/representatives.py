@@ -8,7 +8,7 @@ from operator import itemgetter
 from typing import TypeAlias, cast
 
 from skillc_rdf.vocabulary.types import PropertyTerm
-from skillc_runtime.world.state.axiom_violations import Fact, axiom_violations, written_facts
+from skillc_runtime.world.state.axiom_violations import IriTriple, asserted_facts, axiom_violations
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
@@ -25,8 +25,8 @@ def representatives(state: WorldState) -> Iterator[Change]:
     """Yield changes that write facts of a version; where none of them violates an axiom, no fact does."""
     alike = {types: individual for individual, types in state.direct.items()}
     yield from (AddIndividual(individual, tuple(types)) for types, individual in alike.items())
-    related = [fact for relation in state.asserted for fact in _of_each_kind(state, relation)]
-    related += (fact for relation in state.facts for fact in _not_alone(state, relation))
+    related = [fact for relation in state.asserted for fact in _one_per_kind(state, relation)]
+    related += (fact for relation in state.facts for fact in _conflicting_facts(state, relation))
     yield from (AddRelation(*fact) for fact in related)
     for property_, table in state.stored.items():
         entries = [(individual, value) for individual, value in table.items() if value is not None]
@@ -35,14 +35,14 @@ def representatives(state: WorldState) -> Iterator[Change]:
         yield from (SetProperty(one, property_, value) for one, value in (*owners.values(), *_extremes(entries, term)))
 
 
-def _of_each_kind(state: WorldState, relation: str) -> Iterator[Fact]:
+def _one_per_kind(state: WorldState, relation: str) -> Iterator[IriTriple]:
     """Yield a fact as it was written for each pair of classes that it is between."""
     of = state.classes.get
     kinds = {(of(start), of(end), start == end): (start, end) for start, end in state.asserted[relation].pairs()}
     yield from ((start, relation, end) for start, end in kinds.values())
 
 
-def _not_alone(state: WorldState, relation: str) -> Iterator[Fact]:
+def _conflicting_facts(state: WorldState, relation: str) -> Iterator[IriTriple]:
     """Yield the facts, as they were written, beside which another one may not hold by the axioms of a relation."""
     term, facts = state.vocabulary.relations[relation], state.facts[relation]
     suspects: list[tuple[str, str]] = []
@@ -53,7 +53,7 @@ def _not_alone(state: WorldState, relation: str) -> Iterator[Fact]:
     if term.asymmetric:
         suspects += ((start, end) for start, end in facts.pairs() if end in facts.backward.get(start))
     for start, end in suspects:
-        yield from written_facts(state, start, relation, end)
+        yield from asserted_facts(state, start, relation, end)
 
 
 def _extremes(entries: _Entries, term: PropertyTerm) -> _Entries:

@@ -32,7 +32,7 @@ class Templates:
         taken = [each for each in named.values() if state.exists(each)]
         if taken:
             raise ValueError(f"there is a {self.vocabulary.short(taken[0])} already")
-        made = [_renamed(change, named) for each in named for change in self.patterns[each]]
+        made = [_rename_individuals(change, named) for each in named for change in self.patterns[each]]
         return tuple(sorted(made, key=lambda change: not isinstance(change, AddIndividual)))
 
     def _named(self, template: str, individual: str) -> dict[str, str]:
@@ -50,7 +50,7 @@ def _objects(pattern: Iterable[Change]) -> Iterator[str]:
     return (change.object for change in pattern if isinstance(change, AddRelation))
 
 
-def _renamed(change: Change, named: Mapping[str, str]) -> Change:
+def _rename_individuals(change: Change, named: Mapping[str, str]) -> Change:
     match change:
         case AddIndividual(individual, _) | SetProperty(individual, _, _):
             return replace(change, individual=named[individual])

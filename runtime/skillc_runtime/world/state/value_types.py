@@ -15,26 +15,26 @@ from skillc_rdf.vocabulary.types import (
     VectorType,
 )
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.world.state.values import Value, finite
+from skillc_runtime.world.state.values import Value, is_finite
 from skillc_runtime.world.state.vectors import is_direction, is_vector
 from skillc_runtime.world.state.world_state import WorldState
 
 
-def is_of(value: Value, type_: ValueType, state: WorldState) -> bool:
+def is_of_type(value: Value, type_: ValueType, state: WorldState) -> bool:
     """Whether a value is of a type; an individual must be in the world, a number finite, a direction of length 1."""
     match type_:
         case ClassType(iri=iri):
             return isinstance(value, str) and value in state.individuals and state.is_a(value, iri)
         case NumberType():
-            return isinstance(value, int | float) and not isinstance(value, bool) and finite(value)
+            return isinstance(value, int | float) and not isinstance(value, bool) and is_finite(value)
         case VectorType():
-            return is_vector(value) and finite(value)
+            return is_vector(value) and is_finite(value)
         case DirectionType():
             return is_direction(value)
         case PlainType(name=name):
             return _is_plain(value, name)
         case ListType(element=element):
-            return isinstance(value, tuple) and all(is_of(part, element, state) for part in value)
+            return isinstance(value, tuple) and all(is_of_type(part, element, state) for part in value)
         case _:
             assert_never(type_)
 
@@ -46,7 +46,7 @@ def _is_plain(value: Value, name: str) -> bool:
 
 def value_error(term: PropertyTerm, value: Value) -> str | None:
     """Say what a property takes when the value is none of it, None when it fits; several values are checked alone."""
-    if not finite(value):
+    if not is_finite(value):
         return "NaN and infinity are no values"
     expected = _expected(term.type, value)
     if expected is not None:

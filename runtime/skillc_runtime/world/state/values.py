@@ -16,45 +16,47 @@ Value: TypeAlias = "bool | int | float | str | Pose | Array | tuple[Value, ...]"
 """Numbers in SI units, individuals as IRIs, vectors as arrays (3,), several values and lists as tuples."""
 
 
-def equal(one: Value, other: Value) -> bool:
+def are_equal(one: Value, other: Value) -> bool:
     """Whether two values are the same: numbers by value (3 = 3.0), text exactly, poses and vectors by component."""
     if isinstance(one, Pose) and isinstance(other, Pose):
         return np.array_equal(one.position, other.position) and np.array_equal(one.rotation, other.rotation)
     if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
         return np.array_equal(one, other)
     if isinstance(one, tuple) and isinstance(other, tuple):
-        return len(one) == len(other) and all(equal(a, b) for a, b in zip(one, other, strict=True))
+        return len(one) == len(other) and all(are_equal(a, b) for a, b in zip(one, other, strict=True))
     if isinstance(one, Pose | np.ndarray) or isinstance(other, Pose | np.ndarray):
         return False
     return one == other
 
 
-def has(stored: Value | None, value: Value) -> bool:
+def has_value(stored: Value | None, value: Value) -> bool:
     """Whether a stored value is the value, or has it among several."""
-    return stored is not None and any(equal(one, value) for one in (stored if isinstance(stored, tuple) else (stored,)))
+    return stored is not None and any(
+        are_equal(one, value) for one in (stored if isinstance(stored, tuple) else (stored,))
+    )
 
 
-def finite(value: Value) -> bool:
+def is_finite(value: Value) -> bool:
     """Whether no number in the value is NaN or infinite."""
     if isinstance(value, float):
         return math.isfinite(value)
     if isinstance(value, np.ndarray):
         return bool(np.isfinite(value).all())
     if isinstance(value, Pose):
-        return finite(value.position) and finite(value.rotation)
-    return all(finite(part) for part in value) if isinstance(value, tuple) else True
+        return is_finite(value.position) and is_finite(value.rotation)
+    return all(is_finite(part) for part in value) if isinstance(value, tuple) else True
 
 
-def plain(value: Value) -> object:
+def to_json(value: Value) -> object:
     """Return a value as JSON has it; what JSON has no form for as text."""
     if isinstance(value, tuple):
-        return [plain(part) for part in value]
+        return [to_json(part) for part in value]
     if isinstance(value, np.ndarray):
         return value.tolist()
     return show(value) if isinstance(value, Pose) else value
 
 
-def show_stated(value: Value | None) -> str | None:
+def show_if_stated(value: Value | None) -> str | None:
     """Return a value of a property as text, None where it has none."""
     return None if value is None or (isinstance(value, tuple) and not value) else show(value)
 

@@ -16,7 +16,7 @@ UNIT_WITHIN = 1e-3
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 
 
-def vector_of(text: str) -> Array | None:
+def parse_vector(text: str) -> Array | None:
     """Return the vector (3,) that a text states as three numbers with spaces between them, None if it states none."""
     numbers = _three_numbers(text)
     if not numbers or not all(map(isfinite, numbers)):
@@ -37,7 +37,7 @@ def _three_numbers(text: str) -> list[float]:
     return [float(part) for part in parts] if stated else []
 
 
-def text_of_vector(vector: Array) -> str:
+def format_vector(vector: Array) -> str:
     """Return the text from which `vector_of` reads the same vector."""
     return " ".join(repr(float(part)) for part in vector)
 

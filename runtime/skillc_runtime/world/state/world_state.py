@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import assert_never
 
 from skillc_rdf.vocabulary.types import THING, Vocabulary
-from skillc_runtime.world.state.axioms import Axioms
+from skillc_runtime.world.state.axioms import RelationAxioms
 from skillc_runtime.world.state.changes import (
     AddIndividual,
     AddRelation,
@@ -17,9 +17,9 @@ from skillc_runtime.world.state.changes import (
     RemoveRelation,
     SetProperty,
 )
-from skillc_runtime.world.state.closure import Closure
-from skillc_runtime.world.state.table import NONE, Links, Members, Table
-from skillc_runtime.world.state.values import Value, has
+from skillc_runtime.world.state.closure import ClosureBuilder
+from skillc_runtime.world.state.values import Value, has_value
+from skillc_runtime.world.state.versioned import EMPTY, PairIndex, VersionedMap, VersionedSet
 
 
 @dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
@@ -33,20 +33,29 @@ class WorldState:
     """
 
     vocabulary: Vocabulary
-    axioms: Axioms
-    direct: Table[str, frozenset[str]]
-    classes: Table[str, frozenset[str]]
-    members: dict[str, Members]
-    asserted: dict[str, Links]
-    facts: dict[str, Links]
-    stored: dict[str, Table[str, Value | None]]
+    axioms: RelationAxioms
+    direct: VersionedMap[str, frozenset[str]]
+    classes: VersionedMap[str, frozenset[str]]
+    members: dict[str, VersionedSet]
+    asserted: dict[str, PairIndex]
+    facts: dict[str, PairIndex]
+    stored: dict[str, VersionedMap[str, Value | None]]
 
     @staticmethod
     def empty(vocabulary: Vocabulary) -> WorldState:
         """Return a world without individuals."""
-        links = {iri: Links.empty() for iri in vocabulary.relations}
-        stored: dict[str, Table[str, Value | None]] = {iri: Table(None) for iri in vocabulary.properties}
-        return WorldState(vocabulary, Axioms(vocabulary), Table(NONE), Table(NONE), {}, links, dict(links), stored)
+        links = {iri: PairIndex.empty() for iri in vocabulary.relations}
+        stored: dict[str, VersionedMap[str, Value | None]] = {iri: VersionedMap(None) for iri in vocabulary.properties}
+        return WorldState(
+            vocabulary,
+            RelationAxioms(vocabulary),
+            VersionedMap(EMPTY),
+            VersionedMap(EMPTY),
+            {},
+            links,
+            dict(links),
+            stored,
+        )
 
     @property
     def individuals(self) -> frozenset[str]:
@@ -67,7 +76,7 @@ class WorldState:
 
     def instances(self, cls: str) -> frozenset[str]:
         """Return all individuals of a class and its subclasses."""
-        return self.members[cls].all() if cls in self.members else NONE
+        return self.members[cls].all() if cls in self.members else EMPTY
 
     def holds(self, subject: str, relation: str, object_: str) -> bool:
         """Whether the relation holds; KeyError for one the vocabulary lacks."""
@@ -103,7 +112,9 @@ class WorldState:
 
     def having(self, property_: str, value: Value) -> tuple[str, ...]:
         """Return the individuals whose stored property has the value, sorted by IRI."""
-        return tuple(sorted(individual for individual, found in self.stored[property_].items() if has(found, value)))
+        return tuple(
+            sorted(individual for individual, found in self.stored[property_].items() if has_value(found, value))
+        )
 
     def changed(self, changes: Iterable[Change]) -> WorldState:
         """Return the next version with the changes made in order, unchecked (WorldModel.commit checks them).
@@ -121,7 +132,7 @@ class WorldStateBuilder:
 
     def __init__(self, state: WorldState) -> None:
         self._state = state
-        self._closure = Closure(state.axioms, state.asserted, state.facts)
+        self._closure = ClosureBuilder(state.axioms, state.asserted, state.facts)
         self._direct: dict[str, frozenset[str]] = {}
         self._classes: dict[str, frozenset[str]] = {}
         self._members: dict[str, dict[str, bool]] = {}
@@ -182,16 +193,16 @@ class WorldStateBuilder:
             former = self._classes[individual]
         else:
             former = self._state.classes.get(individual)
-        present = self._state.axioms.superclasses(types) if types else NONE
+        present = self._state.axioms.superclasses(types) if types else EMPTY
         for cls in former - present:
             self._members.setdefault(cls, {})[individual] = False
         for cls in present - former:
             self._members.setdefault(cls, {})[individual] = True
-        self._direct[individual] = types or NONE
+        self._direct[individual] = types or EMPTY
         self._classes[individual] = present
 
-    def _members_of(self, cls: str) -> Members:
-        return self._state.members.get(cls, Members()).updated(self._members[cls])
+    def _members_of(self, cls: str) -> VersionedSet:
+        return self._state.members.get(cls, VersionedSet()).updated(self._members[cls])
 
     def _remove_individual(self, individual: str) -> None:
         for relation in self._state.vocabulary.relations:
@@ -203,4 +214,4 @@ class WorldStateBuilder:
             written = self._values.get(property_, {})
             if individual in written or table.get(individual) is not None:
                 self._values.setdefault(property_, {})[individual] = None
-        self._classify(individual, NONE)
+        self._classify(individual, EMPTY)

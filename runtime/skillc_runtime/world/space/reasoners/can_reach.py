@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from skillc_runtime.world.space.frame_tree import frame_tree_of
-from skillc_runtime.world.space.reach import out_of_reach
+from skillc_runtime.world.space.reach import reach_obstacle
 from skillc_runtime.world.state.terms import CONTAIN, HAS_ARM, MOBILE_ROBOT, WORKSTATION
 
 if TYPE_CHECKING:
@@ -25,13 +25,13 @@ class CanReach:
         base = space.pose(subject)
         robot = min(state.subjects(HAS_ARM, subject), default=None)
         if robot is None or not state.is_a(robot, MOBILE_ROBOT):
-            return out_of_reach(state, subject, base, object_)
+            return reach_obstacle(state, subject, base, object_)
         stations = _stations(state, object_)
         if not stations:
             return f"there is no workstation at which {short(robot)} could stand"
         mounted, told = space.pose(robot).inverse() @ base, []
         for station in stations:
-            obstacle = out_of_reach(state, subject, space.pose(station) @ mounted, object_)
+            obstacle = reach_obstacle(state, subject, space.pose(station) @ mounted, object_)
             if obstacle is None:
                 return None
             told.append(f"at {short(station)}: {obstacle}")

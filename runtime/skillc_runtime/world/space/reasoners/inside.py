@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from skillc_runtime.world.space.boxes import TOUCH_M, box, solid
+from skillc_runtime.world.space.bounding_boxes import TOUCH_M, bounding_box, solid_box
 
 if TYPE_CHECKING:
     from skillc_runtime.world.state.world_state import WorldState
@@ -17,7 +17,7 @@ class Inside:
         """Say how far the subject sticks out; None when it is inside."""
         if subject == object_:
             return "nothing is inside itself"
-        overhang_m = solid(state, object_).overhang(box(state, subject).corners)
+        overhang_m = solid_box(state, object_).overhang(bounding_box(state, subject).corners)
         if overhang_m <= TOUCH_M:
             return None
         return f"{state.vocabulary.short(subject)} sticks out by {overhang_m:.3f} m"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from skillc_runtime.world.space.frame_tree import frame_tree_of
-from skillc_runtime.world.space.reach import out_of_reach
+from skillc_runtime.world.space.reach import reach_obstacle
 
 if TYPE_CHECKING:
     from skillc_runtime.world.state.world_state import WorldState
@@ -16,4 +16,4 @@ class Reaches:
 
     def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
         """Say how much too far away the thing is; None when the arm reaches it."""
-        return out_of_reach(state, subject, frame_tree_of(state).pose(subject), object_)
+        return reach_obstacle(state, subject, frame_tree_of(state).pose(subject), object_)

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from enum import Enum
 
 from skillc_rdf.turtle.terms import RDF_TYPE
-from skillc_runtime.world.state.axiom_violations import Fact
-from skillc_runtime.world.state.values import Value, has
+from skillc_runtime.world.state.axiom_violations import IriTriple
+from skillc_runtime.world.state.values import Value, has_value
 from skillc_runtime.world.state.world_state import WorldState
 
 
-class Context(Enum):
+class FactSource(Enum):
     """Who says that a fact is true."""
 
     ROBOT = "robot"
@@ -22,40 +22,42 @@ class Context(Enum):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Contexts:
+class Provenance:
     """The two versions that a world began with: that of the data sheets alone, and that of the scene beside them."""
 
     sheets: WorldState
     scene: WorldState
 
-    def of_relation(self, state: WorldState, subject: str, relation: str, object_: str) -> Context | None:
+    def of_relation(self, state: WorldState, subject: str, relation: str, object_: str) -> FactSource | None:
         """Return where a relation between two individuals comes from, all by IRI; None when it does not hold."""
         if not state.holds(subject, relation, object_):
             return None
         if object_ not in state.asserted[relation].forward.get(subject):
-            return Context.INFERRED
+            return FactSource.INFERRED
         for version, context in self._versions():
             if object_ in version.asserted[relation].forward.get(subject):
                 return context
-        return Context.RUN
+        return FactSource.RUN
 
-    def of_class(self, state: WorldState, individual: str, cls: str) -> Context | None:
+    def of_class(self, state: WorldState, individual: str, cls: str) -> FactSource | None:
         """Return where it comes from that an individual is of a class; None when it is not."""
         if not state.is_a(individual, cls):
             return None
         if cls not in state.types(individual):
-            return Context.INFERRED
+            return FactSource.INFERRED
         found = (context for version, context in self._versions() if cls in version.types(individual))
-        return next(found, Context.RUN)
+        return next(found, FactSource.RUN)
 
-    def of_value(self, state: WorldState, individual: str, property_: str, value: Value) -> Context | None:
+    def of_value(self, state: WorldState, individual: str, property_: str, value: Value) -> FactSource | None:
         """Return where the value of a property comes from, one of several if it has several; None when it is not."""
-        if not has(state.value(individual, property_), value):
+        if not has_value(state.value(individual, property_), value):
             return None
-        found = (context for version, context in self._versions() if has(version.value(individual, property_), value))
-        return next(found, Context.RUN)
+        found = (
+            context for version, context in self._versions() if has_value(version.value(individual, property_), value)
+        )
+        return next(found, FactSource.RUN)
 
-    def relations(self, state: WorldState, wanted: Context) -> Iterator[Fact]:
+    def relations(self, state: WorldState, wanted: FactSource) -> Iterator[IriTriple]:
         """Yield the relations and classes that come from there, sorted: subject, predicate and object."""
         links = (
             (subject, relation, object_)
@@ -66,5 +68,5 @@ class Contexts:
         classes = ((one, cls) for one, found in sorted(state.classes.items()) for cls in sorted(found))
         yield from ((one, RDF_TYPE, cls) for one, cls in classes if self.of_class(state, one, cls) is wanted)
 
-    def _versions(self) -> tuple[tuple[WorldState, Context], ...]:
-        return ((self.sheets, Context.ROBOT), (self.scene, Context.SCENE))
+    def _versions(self) -> tuple[tuple[WorldState, FactSource], ...]:
+        return ((self.sheets, FactSource.ROBOT), (self.scene, FactSource.SCENE))

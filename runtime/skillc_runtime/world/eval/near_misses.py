@@ -14,10 +14,10 @@ from skillc_runtime.world.eval.expressions import Bindings
 from skillc_runtime.world.eval.join import solutions
 from skillc_runtime.world.state.world_state import WorldState
 
-MOST_TRIED = 2000
+MAX_TRIED = 2000
 """So many individuals are looked at for each requirement that is left out; what is further away is not near."""
 
-FEW = 3
+MAX_NEAR_MISSES = 3
 """A thing to leave out for which more than so many would do then is not all that is wrong with any of them."""
 
 
@@ -35,29 +35,32 @@ class NearMiss:
     reason: str
 
 
-def nearest(
+def find_near_misses(
     variables: Mapping[str, str], requirements: Sequence[Requirement], bindings: Bindings, state: WorldState
 ) -> tuple[NearMiss, ...]:
     """Return for each requirement, then for each parameter's class, those that would do without it, if they are few.
 
     EvaluationError as in `evaluate`.
     """
-    return (*_but_one(variables, requirements, bindings, state), *_of_another(variables, requirements, bindings, state))
+    return (
+        *_without_one_requirement(variables, requirements, bindings, state),
+        *_of_another_class(variables, requirements, bindings, state),
+    )
 
 
-def _but_one(
+def _without_one_requirement(
     variables: Mapping[str, str], requirements: Sequence[Requirement], bindings: Bindings, state: WorldState
 ) -> Iterator[NearMiss]:
     for place, dropped in enumerate(requirements):
         mentioned = free_variables(dropped.condition)
         about = tuple(name for name in variables if name in mentioned)
         kept = [each.condition for each in (*requirements[:place], *requirements[place + 1 :])]
-        for found in _few(about, variables, kept, bindings, state):
+        for found in _few_solutions(about, variables, kept, bindings, state):
             reason = explain(dropped.condition, state, {**bindings, **found}, state.vocabulary)
             yield NearMiss(found, dropped, about, reason)
 
 
-def _of_another(
+def _of_another_class(
     variables: Mapping[str, str], requirements: Sequence[Requirement], bindings: Bindings, state: WorldState
 ) -> Iterator[NearMiss]:
     """Yield those of another class, for parameters that something else says who they are."""
@@ -65,12 +68,12 @@ def _of_another(
     linked = frozenset[str]().union(*map(free_variables, conditions))
     for name, cls in variables.items():
         about = (name,) if name in linked else ()
-        for found in _few(about, {**variables, name: THING}, conditions, bindings, state):
+        for found in _few_solutions(about, {**variables, name: THING}, conditions, bindings, state):
             reason = explain(IsA(Variable(name), cls), state, found, state.vocabulary)
             yield NearMiss(found, None, about, reason)
 
 
-def _few(
+def _few_solutions(
     about: tuple[str, ...],
     variables: Mapping[str, str],
     conditions: Sequence[Condition],
@@ -79,8 +82,8 @@ def _few(
 ) -> list[dict[str, str]]:
     """Return answers that differ in what the parameters `about` are, in IRI order; none where there are many."""
     different: dict[tuple[str, ...], dict[str, str]] = {}
-    for answer in solutions(variables, conditions, bindings, state, MOST_TRIED if about else 0):
+    for answer in solutions(variables, conditions, bindings, state, MAX_TRIED if about else 0):
         different.setdefault(tuple(answer[name] for name in about), answer)
-        if len(different) > FEW:
+        if len(different) > MAX_NEAR_MISSES:
             return []
     return [different[each] for each in sorted(different)]

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 
 import pyoxigraph as ox
 
-from skillc_runtime.store.triples import Difference
+from skillc_runtime.store.triples import TripleDifference
 
 NS = "https://w3id.org/skillc/store#"
 WORLD, LOG, STORE = f"<{NS}world>", f"<{NS}log>", f"<{NS}this>"
@@ -19,11 +19,11 @@ NUMBER, ORIGIN, CHANGES, MARK = f"<{NS}number>", f"<{NS}origin>", f"<{NS}changes
 
 FACTS = f"CONSTRUCT {{ ?s ?p ?o }} WHERE {{ GRAPH {WORLD} {{ ?s ?p ?o }} }}"
 
-FOUND = f"""INSERT {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} 0 ; {BEGINNING} "" }} }}
+CREATE = f"""INSERT {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} 0 ; {BEGINNING} "" }} }}
 WHERE {{ FILTER NOT EXISTS {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} ?n }} }} }}"""
 """Makes a server a store, unless it is one."""
 
-FORGET = f"""DELETE {{ GRAPH {WORLD} {{ ?s ?p ?o }} }} WHERE {{ GRAPH {WORLD} {{ ?s ?p ?o }} }} ;
+RESET = f"""DELETE {{ GRAPH {WORLD} {{ ?s ?p ?o }} }} WHERE {{ GRAPH {WORLD} {{ ?s ?p ?o }} }} ;
 DELETE {{ GRAPH {LOG} {{ ?entry ?p ?o }} }} WHERE {{ GRAPH {LOG} {{ ?entry {NUMBER} ?n ; ?p ?o }} }} ;
 DELETE {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} ?n ; {BEGINNING} ?b }} }}
 INSERT {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} ?next ; {BEGINNING} "" . ?entry {NUMBER} ?next ; {ORIGIN} "reset" }} }}
@@ -32,25 +32,25 @@ WHERE {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} ?n ; {BEGINNING} ?b }}
 """Empties a store. The number goes on, so that whoever knows the former world notices."""
 
 
-def head(number: int) -> str:
+def head_query(number: int) -> str:
     """Ask for the number of the last transaction, `n`, and the `mark` of a transaction; of none for 0."""
     return f"""SELECT ?n ?mark WHERE {{ GRAPH {LOG} {{
   {STORE} {SEQUENCE} ?n . OPTIONAL {{ {_entry(number)} {MARK} ?mark }} }} }}"""
 
 
-def began() -> str:
+def beginning_query() -> str:
     """Ask for the number of the last transaction, `n`, and how all began, `beginning`."""
     return f"SELECT ?n ?beginning WHERE {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} ?n ; {BEGINNING} ?beginning }} }}"
 
 
-def logged(sequence: int) -> str:
+def log_query(sequence: int) -> str:
     """Ask for the transactions after the one of that number: `n`, `origin` and, where they were kept, `changes`."""
     return f"""SELECT ?n ?origin ?changes WHERE {{ GRAPH {LOG} {{
   ?entry {NUMBER} ?n ; {ORIGIN} ?origin . OPTIONAL {{ ?entry {CHANGES} ?changes }}
   FILTER (?n > {sequence}) }} }}"""
 
 
-def write(change: Difference, after: int, about: Mapping[str, str], beginning: str | None) -> str:
+def write_update(change: TripleDifference, after: int, about: Mapping[str, str], beginning: str | None) -> str:
     """Make a change if the last transaction is `after`; `about` is what the log says of it, by predicate."""
     told = "".join(f" ; {predicate} {ox.Literal(text)}" for predicate, text in about.items())
     old, new = f"{STORE} {SEQUENCE} {after} .", f"{STORE} {SEQUENCE} {after + 1} ."

@@ -13,7 +13,7 @@ CORNERS = np.array([(x, y, z) for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Box:
+class OrientedBox:
     """A box: its middle in the world, half its extent (3,) m along its axes, its corners (8, 3) in the world.
 
     `lowest` is the height in m of the lowest corner, `axes` are its axes in the world, each with half the extent.
@@ -26,11 +26,11 @@ class Box:
     axes: tuple[tuple[float, float, float, float], ...]
 
     @staticmethod
-    def of(middle: Pose, half: Array) -> Box:
+    def of(middle: Pose, half: Array) -> OrientedBox:
         """Return the box with its middle at a pose and half its extent (3,) m."""
         corners = CORNERS * half @ middle.rotation.T + middle.position
         axes = tuple((x, y, z, h) for (x, y, z), h in zip(middle.rotation.T.tolist(), half.tolist(), strict=True))
-        return Box(middle, half, corners, float(corners[:, 2].min()), axes)
+        return OrientedBox(middle, half, corners, float(corners[:, 2].min()), axes)
 
     def overhang(self, points: Array) -> float:
         """Return how far the farthest of the points (n, 3) lies outside, along its axes, in m; negative inside."""

@@ -10,14 +10,14 @@ import msgspec
 import pyoxigraph as ox
 
 from skillc_rdf.vocabulary.types import ClassTerm, Vocabulary
-from skillc_runtime.store.literals import LiteralError, read
+from skillc_runtime.store.literals import LiteralError, read_literal
 from skillc_runtime.store.triples import CLASS, PREFIX, SUBCLASS, TYPE
 from skillc_runtime.world.state.axiom_violations import axiom_violations
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.transactions import StoreError
 from skillc_runtime.world.state.world_state import WorldState
 
-MOST_TOLD = 5
+MAX_REPORTED = 5
 """How many of the things that are wrong with a store are told."""
 
 
@@ -32,9 +32,9 @@ class _Contents:
     prefixes: dict[str, str]
 
 
-def world_of(triples: Iterable[ox.Triple], library: Vocabulary, store: str) -> WorldState:
+def build_world(triples: Iterable[ox.Triple], library: Vocabulary, store: str) -> WorldState:
     """Return the world that triples speak of; StoreError, which names the store, where the vocabulary forbids it."""
-    contents = _sorted_out(triples)
+    contents = _sort_triples(triples)
     own = {iri: ClassTerm(iri=iri, parents=tuple(sorted(parents))) for iri, parents in contents.classes.items()}
     prefixes, classes = {**contents.prefixes, **library.prefixes}, {**own, **library.classes}
     vocabulary = msgspec.structs.replace(library, prefixes=prefixes, classes=classes)
@@ -44,15 +44,15 @@ def world_of(triples: Iterable[ox.Triple], library: Vocabulary, store: str) -> W
     problems += [breach.message for change in changes for breach in axiom_violations(state, change)]
     if problems:
         distinct = list(dict.fromkeys(problems))
-        more = f"; and {len(distinct) - MOST_TOLD} more" if len(distinct) > MOST_TOLD else ""
+        more = f"; and {len(distinct) - MAX_REPORTED} more" if len(distinct) > MAX_REPORTED else ""
         raise StoreError(
-            f"{store} does not go with these skills: {'; '.join(distinct[:MOST_TOLD])}{more}. "
+            f"{store} does not go with these skills: {'; '.join(distinct[:MAX_REPORTED])}{more}. "
             "Use the library it was filled with, or fill it anew with --reset"
         )
     return state
 
 
-def _sorted_out(triples: Iterable[ox.Triple]) -> _Contents:
+def _sort_triples(triples: Iterable[ox.Triple]) -> _Contents:
     contents = _Contents(defaultdict(list), [], defaultdict(list), defaultdict(list), {})
     for triple in triples:
         subject, predicate, object_ = _iri(triple.subject), triple.predicate, triple.object
@@ -93,7 +93,7 @@ def _changes(contents: _Contents, vocabulary: Vocabulary, problems: list[str]) -
             problems.append(f"there is no property {short(property_)}")
             continue
         try:
-            values = tuple(read(each, term) for each in sorted(literals, key=str))
+            values = tuple(read_literal(each, term) for each in sorted(literals, key=str))
         except LiteralError as error:
             problems.append(f"{short(individual)}.{short(property_)}: {error}")
         else:

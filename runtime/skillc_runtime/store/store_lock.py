@@ -14,7 +14,7 @@ PATIENCE_S = 30.0
 PAUSE_S = 0.02
 
 
-class Users:
+class StoreLock:
     """This process's place among the users of a store: a lock that ends with the process, however it ends."""
 
     def __init__(self, path: Path) -> None:

@@ -9,18 +9,18 @@ from typing import get_args
 import msgspec
 
 from skillc_runtime.world.state.changes import Change
-from skillc_runtime.world.state.vectors import is_vector, text_of_vector, vector_of
+from skillc_runtime.world.state.vectors import format_vector, is_vector, parse_vector
 
 KINDS: dict[str, Callable[..., Change]] = {kind.__name__: kind for kind in get_args(Change)}
 
 
-def as_text(changes: tuple[Change, ...]) -> str:
+def encode_changes(changes: tuple[Change, ...]) -> str:
     """Return changes as one line of JSON: a list for each, of its kind and its fields in order."""
     told = [[type(each).__name__, *_fields(each)] for each in changes]
     return msgspec.json.encode(told, enc_hook=_vector_text).decode()
 
 
-def changes_of(text: str) -> tuple[Change, ...]:
+def decode_changes(text: str) -> tuple[Change, ...]:
     """Return the changes that a line of JSON tells of; ValueError when it tells of none."""
     try:
         return tuple(_change(*each) for each in msgspec.json.decode(text, type=list[list[object]]))
@@ -39,7 +39,7 @@ def _change(kind: object, *values: object) -> Change:
 def _vector_text(value: object) -> dict[str, str]:
     """Return a vector as JSON has it; TypeError for what no change has."""
     if is_vector(value):
-        return {"vector": text_of_vector(value)}
+        return {"vector": format_vector(value)}
     raise TypeError(f"{type(value).__name__} has no form in a journal")
 
 
@@ -48,6 +48,6 @@ def _value(written: object) -> object:
         case list():
             return tuple(map(_value, written))
         case {"vector": str(text)}:
-            return vector_of(text)
+            return parse_vector(text)
         case _:
             return written

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.space.box import Box
 from skillc_runtime.world.space.frame_tree import FrameTree, frame_tree_of
+from skillc_runtime.world.space.oriented_box import OrientedBox
 from skillc_runtime.world.state.terms import FURNITURE, MOBILE_ROBOT, SIZE, SURFACE
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -17,7 +17,7 @@ FRAME_HEIGHT = {FURNITURE: 0.5, SURFACE: 0.5, MOBILE_ROBOT: -0.5}
 """Where along z the frame lies, as a share of the height, seen from the middle; in the middle where nothing is said."""
 
 
-def box(state: WorldState, individual: str) -> Box:
+def bounding_box(state: WorldState, individual: str) -> OrientedBox:
     """Return the box of a thing; a thing of which no extent is known at all is a point.
 
     FrameError when it is nowhere, MissingFact when a part of its extent is not known.
@@ -28,14 +28,14 @@ def box(state: WorldState, individual: str) -> Box:
         half = _half(space, individual) if known else np.zeros(3)
         share = next((share for cls, share in FRAME_HEIGHT.items() if state.is_a(individual, cls)), 0.0)
         middle = space.pose(individual) @ Pose.of((0.0, 0.0, -2 * share * half[2]))
-        space.boxes[individual] = Box.of(middle, half)
+        space.boxes[individual] = OrientedBox.of(middle, half)
     return space.boxes[individual]
 
 
-def solid(state: WorldState, individual: str) -> Box:
+def solid_box(state: WorldState, individual: str) -> OrientedBox:
     """Return the box of a thing that has an extent; errors as for `box`, MissingFact when it has none."""
     _half(frame_tree_of(state), individual)
-    return box(state, individual)
+    return bounding_box(state, individual)
 
 
 def _half(space: FrameTree, individual: str) -> Array:
@@ -47,6 +47,6 @@ def gap_below(state: WorldState, upper: str, lower: str) -> float | None:
 
     None when the other is not below its middle at all. FrameError when one is nowhere, MissingFact without a size.
     """
-    over = box(state, upper)
-    top = solid(state, lower).height_at(float(over.middle.position[0]), float(over.middle.position[1]))
+    over = bounding_box(state, upper)
+    top = solid_box(state, lower).height_at(float(over.middle.position[0]), float(over.middle.position[1]))
     return None if top is None else over.lowest - top

@@ -39,7 +39,7 @@ def read(folder: Path) -> StoredWorld:
         return StoredWorld(0, "", ())
     try:
         store = ox.Store.read_only(str(folder))
-        sequence, beginning = _told(store, SEQUENCE), _told(store, BEGINNING)
+        sequence, beginning = _read_text(store, SEQUENCE), _read_text(store, BEGINNING)
         quads = store.quads_for_pattern(None, None, None, ox.DefaultGraph())
         return StoredWorld(int(sequence), beginning, tuple(quad.triple for quad in quads))
     except (OSError, RuntimeError, ValueError) as error:
@@ -49,7 +49,7 @@ def read(folder: Path) -> StoredWorld:
 def sequence(folder: Path) -> int:
     """Return the number of the last transaction in a folder; StoreError when it is damaged."""
     try:
-        return int(_told(ox.Store.read_only(str(folder)), SEQUENCE))
+        return int(_read_text(ox.Store.read_only(str(folder)), SEQUENCE))
     except (OSError, RuntimeError, ValueError) as error:
         raise _damaged(folder, error) from error
 
@@ -76,7 +76,7 @@ def _about(sequence: int, beginning: str) -> list[ox.Quad]:
     ]
 
 
-def _told(store: ox.Store, what: ox.NamedNode) -> str:
+def _read_text(store: ox.Store, what: ox.NamedNode) -> str:
     for quad in store.quads_for_pattern(STORE, what, None, LOG):
         if isinstance(quad.object, ox.Literal):
             return quad.object.value

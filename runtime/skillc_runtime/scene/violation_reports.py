@@ -15,29 +15,34 @@ from skillc_runtime.scene.checks.frames import check_frames
 from skillc_runtime.scene.checks.plausible import check_plausible
 from skillc_runtime.scene.checks.required import check_required
 from skillc_runtime.scene.checks.surface_regions import check_surface_regions
-from skillc_runtime.scene.mistakes import Written
+from skillc_runtime.scene.mistakes import LocatedChange
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.scene.violation import SceneViolation
-from skillc_runtime.world.state.axiom_violations import AxiomViolation, Fact, axiom_violations, lone_violation
+from skillc_runtime.world.state.axiom_violations import (
+    AxiomViolation,
+    IriTriple,
+    axiom_violations,
+    standalone_violation,
+)
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.world_state import WorldState
 
-RIVALS = frozenset({"functional-relation", "asymmetric-relation", "disjoint-classes"})
+MUTUAL_AXIOMS = frozenset({"functional-relation", "asymmetric-relation", "disjoint-classes"})
 """Axioms that two statements violate together, neither more than the other."""
 
 
-def place_axiom_violations(state: WorldState, written: Sequence[Written]) -> Iterator[Diagnostic]:
+def report_axiom_violations(state: WorldState, written: Sequence[LocatedChange]) -> Iterator[Diagnostic]:
     """Yield a problem for each violation of an axiom once; `state` is the world after all that is written.
 
     Of statements that cannot be true together, one that is wrong by itself is reported for that alone.
     """
     places = {fact: statement for change, statement in reversed(written) if (fact := _fact(change)) is not None}
-    reported: set[tuple[str, frozenset[Fact]]] = set()
+    reported: set[tuple[str, frozenset[IriTriple]]] = set()
     for change, statement in written:
         for violation in _violations(state, change):
-            facts = _together(violation, _fact(change))
-            if violation.axiom in RIVALS:
-                if (violation.axiom, facts) in reported or any(_is_wrong(state, each) for each in facts):
+            facts = _violating_facts(violation, _fact(change))
+            if violation.axiom in MUTUAL_AXIOMS:
+                if (violation.axiom, facts) in reported or any(_violates_alone(state, each) for each in facts):
                     continue
                 reported.add((violation.axiom, facts))
             yield _axiom_problem(
@@ -50,17 +55,17 @@ def _violations(state: WorldState, change: Change) -> Iterator[AxiomViolation]:
     for violation in axiom_violations(state, change):
         match change:
             case AddRelation(subject, relation, object_) if violation.axiom == "functional-relation":
-                yield lone_violation(state, (subject, relation, object_)) or violation
+                yield standalone_violation(state, (subject, relation, object_)) or violation
             case _:
                 yield violation
 
 
-def _is_wrong(state: WorldState, fact: Fact) -> bool:
+def _violates_alone(state: WorldState, fact: IriTriple) -> bool:
     """Whether a fact is wrong by itself."""
-    return fact[1] in state.vocabulary.relations and lone_violation(state, fact) is not None
+    return fact[1] in state.vocabulary.relations and standalone_violation(state, fact) is not None
 
 
-def _together(violation: AxiomViolation, own: Fact | None) -> frozenset[Fact]:
+def _violating_facts(violation: AxiomViolation, own: IriTriple | None) -> frozenset[IriTriple]:
     """Return the facts that violate the axiom together."""
     if own is None or own in violation.rivals or violation.axiom == "disjoint-classes":
         return frozenset(violation.rivals)
@@ -72,9 +77,9 @@ def _axiom_problem(
     violation: AxiomViolation,
     own: Statement,
     together: Sequence[Statement],
-    places: Mapping[Fact, Statement],
+    places: Mapping[IriTriple, Statement],
 ) -> Diagnostic:
-    if violation.axiom in RIVALS and together:
+    if violation.axiom in MUTUAL_AXIOMS and together:
         first, *others = sorted((each.object_place for each in together), reverse=True)
     else:
         first, others = _violating_term(violation, own), []
@@ -92,7 +97,7 @@ def _violating_term(violation: AxiomViolation, own: Statement) -> Span:
 
 
 def _help(violation: AxiomViolation) -> str:
-    return "keep one of them" if violation.axiom in RIVALS else ""
+    return "keep one of them" if violation.axiom in MUTUAL_AXIOMS else ""
 
 
 def _declared(state: WorldState, violation: AxiomViolation, own: Statement) -> Iterator[Label]:
@@ -103,7 +108,7 @@ def _declared(state: WorldState, violation: AxiomViolation, own: Statement) -> I
         yield Label(Span(source.path, source.line, source.column, source.line, source.column + 1), "declared here")
 
 
-def _fact(change: Change) -> Fact | None:
+def _fact(change: Change) -> IriTriple | None:
     """Return the relation or class that a change writes."""
     match change:
         case AddIndividual(individual, (cls,)):
@@ -116,19 +121,19 @@ def _fact(change: Change) -> Fact | None:
             return None
 
 
-def of_things(state: WorldState) -> Iterator[SceneViolation]:
+def check_individuals(state: WorldState) -> Iterator[SceneViolation]:
     """Yield what is wrong with things, wherever they are."""
     for check in (check_containment, check_required, check_plausible, check_data_sheets):
         yield from check(state)
 
 
-def of_places(state: WorldState) -> Iterator[SceneViolation]:
+def check_placement(state: WorldState) -> Iterator[SceneViolation]:
     """Yield what is wrong with where things are; how areas lie is looked at once all things are somewhere."""
     misplaced = list(check_frames(state))
     yield from misplaced or check_surface_regions(state)
 
 
-def place_scene_violations(
+def report_scene_violations(
     state: WorldState, said: Sequence[Statement], problems: Collection[Diagnostic], doubtful: Collection[str]
 ) -> Iterator[Diagnostic]:
     """Yield what is wrong with individuals of which every statement made sense.
@@ -136,7 +141,7 @@ def place_scene_violations(
     Where things are is looked at only when there is no other problem: a frame may be missing because of it.
     """
     troubled = {*doubtful, *_subjects(said, problems)}
-    found = [*of_things(state), *(of_places(state) if not problems and not doubtful else ())]
+    found = [*check_individuals(state), *(check_placement(state) if not problems and not doubtful else ())]
     places = {(iri_of(each.subject), each.predicate): each for each in reversed(said)}
     for violation in found:
         if violation.individual not in troubled:

@@ -28,12 +28,12 @@ from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import iri_of
 from skillc_runtime.world.eval.quantifiers import candidates
 from skillc_runtime.world.state.labelled import (
-    ClassFact,
-    IdentityFact,
+    LabelledClass,
     LabelledFact,
+    LabelledIdentity,
     label,
-    property_fact,
-    relation_fact,
+    label_property,
+    label_relation,
 )
 from skillc_runtime.world.state.properties import property_of
 from skillc_runtime.world.state.python_calls import EvaluationError
@@ -67,11 +67,11 @@ def _facts(item: msgspec.Struct, state: WorldState, bindings: _Names) -> Iterato
         case IsA(subject, cls):
             iri = iri_of(subject, bindings)
             if iri is not None:
-                yield ClassFact(label(iri, words), label(cls, words), state.is_a(iri, cls))
+                yield LabelledClass(label(iri, words), label(cls, words), state.is_a(iri, cls))
         case Same(left, right):
             one, other = iri_of(left, bindings), iri_of(right, bindings)
             if one is not None and other is not None:
-                yield IdentityFact(label(one, words), label(other, words), one == other)
+                yield LabelledIdentity(label(one, words), label(other, words), one == other)
         case Or(parts):
             for alternative in _true(parts, state, bindings) or parts:
                 yield from _facts(alternative, state, bindings)
@@ -86,7 +86,7 @@ def _facts(item: msgspec.Struct, state: WorldState, bindings: _Names) -> Iterato
 def _related(subject: str | None, relation: str, object_: str | None, state: WorldState) -> Iterator[LabelledFact]:
     words = state.vocabulary
     if subject is not None and object_ is not None:
-        yield relation_fact(subject, relation, object_, state.holds(subject, relation, object_), words)
+        yield label_relation(subject, relation, object_, state.holds(subject, relation, object_), words)
         return
     if subject is not None:
         pairs = [(subject, each) for each in sorted(state.objects(subject, relation))]
@@ -94,14 +94,14 @@ def _related(subject: str | None, relation: str, object_: str | None, state: Wor
         pairs = [(each, object_) for each in sorted(state.subjects(relation, object_))]
     else:
         pairs = nsmallest(LISTED, state.pairs(relation))
-    yield from (relation_fact(start, relation, end, True, words) for start, end in pairs[:LISTED])
+    yield from (label_relation(start, relation, end, True, words) for start, end in pairs[:LISTED])
     if not pairs:
-        yield relation_fact(subject, relation, object_, False, words)
+        yield label_relation(subject, relation, object_, False, words)
 
 
 def _value(individual: str, property_: str, state: WorldState) -> Iterator[LabelledFact]:
     with suppress(EvaluationError):
-        yield property_fact(individual, property_, property_of(state, individual, property_), state.vocabulary)
+        yield label_property(individual, property_, property_of(state, individual, property_), state.vocabulary)
 
 
 def _deciding(condition: Exists | Forall, state: WorldState, bindings: _Names) -> list[str]:

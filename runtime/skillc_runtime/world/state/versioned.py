@@ -11,7 +11,7 @@ K = TypeVar("K")
 V = TypeVar("V")
 
 
-class Table(Generic[K, V]):
+class VersionedMap(Generic[K, V]):
     """A map in two layers: a large one shared with earlier versions and a small one with what changed since.
 
     The value `empty` stands for "no entry". The small layer is merged when it outgrows the root of the large one,
@@ -45,16 +45,16 @@ class Table(Generic[K, V]):
         yield from (entry for entry in self._base.items() if entry[0] not in recent)
         yield from (entry for entry in recent.items() if entry[1] is not empty)
 
-    def updated(self, changes: Mapping[K, V]) -> Table[K, V]:
+    def updated(self, changes: Mapping[K, V]) -> VersionedMap[K, V]:
         """Return the next version; this one stays as it is."""
         recent = {**self._recent, **changes}
         if len(recent) <= 16 + 2 * isqrt(len(self._base)):
-            return Table(self._empty, self._base, recent)
+            return VersionedMap(self._empty, self._base, recent)
         merged = {**self._base, **recent}
-        return Table(self._empty, {key: value for key, value in merged.items() if value is not self._empty})
+        return VersionedMap(self._empty, {key: value for key, value in merged.items() if value is not self._empty})
 
 
-class Members:
+class VersionedSet:
     """An immutable set: a large one, and whether individuals are in it of which that was written since.
 
     It is put together when somebody asks for all of it, and after about as many writes as the square root of its size.
@@ -74,34 +74,34 @@ class Members:
             self._all = self._base.difference(self._recent) | present
         return self._all
 
-    def updated(self, changes: Mapping[str, bool]) -> Members:
+    def updated(self, changes: Mapping[str, bool]) -> VersionedSet:
         """Return the next version with individuals that are in it now, or are not; this one stays as it is."""
         if self._all is not None:
-            return Members(self._all, changes)
+            return VersionedSet(self._all, changes)
         recent = {**self._recent, **changes}
         if len(recent) <= 16 + 2 * isqrt(len(self._base)):
-            return Members(self._base, recent)
-        return Members(Members(self._base, recent).all())
+            return VersionedSet(self._base, recent)
+        return VersionedSet(VersionedSet(self._base, recent).all())
 
 
-NONE: frozenset[str] = frozenset()
+EMPTY: frozenset[str] = frozenset()
 
 
-def _no_entries() -> Table[str, frozenset[str]]:
-    return Table(NONE)
+def _no_entries() -> VersionedMap[str, frozenset[str]]:
+    return VersionedMap(EMPTY)
 
 
 @dataclass(frozen=True, slots=True)
-class Links:
+class PairIndex:
     """An immutable set of pairs (subject, object)."""
 
-    forward: Table[str, frozenset[str]]
-    backward: Table[str, frozenset[str]]
+    forward: VersionedMap[str, frozenset[str]]
+    backward: VersionedMap[str, frozenset[str]]
 
     @staticmethod
-    def empty() -> Links:
+    def empty() -> PairIndex:
         """Return no pairs."""
-        return Links(_no_entries(), _no_entries())
+        return PairIndex(_no_entries(), _no_entries())
 
     def pairs(self) -> Iterator[tuple[str, str]]:
         """Yield all pairs, in no particular order."""
@@ -110,10 +110,10 @@ class Links:
                 yield subject, object_
 
 
-class LinksDraft:
+class PairIndexBuilder:
     """Pairs on the way to the next version: only the entries that are written are copied."""
 
-    def __init__(self, links: Links) -> None:
+    def __init__(self, links: PairIndex) -> None:
         self._links = links
         self._forward: dict[str, set[str]] = {}
         self._backward: dict[str, set[str]] = {}
@@ -138,20 +138,20 @@ class LinksDraft:
             _writable(self._forward, self._links.forward, subject).discard(object_)
             _writable(self._backward, self._links.backward, object_).discard(subject)
 
-    def frozen(self) -> Links:
+    def frozen(self) -> PairIndex:
         """Return the version written, the former one where nothing was."""
         if not self._forward:
             return self._links
-        return Links(
+        return PairIndex(
             self._links.forward.updated(_sets(self._forward)), self._links.backward.updated(_sets(self._backward))
         )
 
 
-def _writable(written: dict[str, set[str]], table: Table[str, frozenset[str]], key: str) -> set[str]:
+def _writable(written: dict[str, set[str]], table: VersionedMap[str, frozenset[str]], key: str) -> set[str]:
     if key not in written:
         written[key] = set(table.get(key))
     return written[key]
 
 
 def _sets(written: dict[str, set[str]]) -> dict[str, frozenset[str]]:
-    return {key: frozenset(members) if members else NONE for key, members in written.items()}
+    return {key: frozenset(members) if members else EMPTY for key, members in written.items()}
