@@ -97,7 +97,7 @@ def reading(state: WorldState) -> dict[str, float]:
         found[f"condition `{name}` us"] = microseconds(lambda check=check: check(state, BOUND), 20_000)  # type: ignore[misc]
     assert isinstance(infer(WANTED, LINKED, BOUND, state), Found)
     found["infer two parameters us"] = microseconds(lambda: infer(WANTED, LINKED, BOUND, state), 300)
-    found["see an element us"] = microseconds(lambda: find_element(state, BOUND["b"]).quantities, 300)
+    found["see an element us"] = microseconds(lambda: find_element(state, BOUND["b"]).properties, 300)
     return found
 
 

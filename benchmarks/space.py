@@ -33,7 +33,7 @@ def scene(boxes: int) -> WorldState:
         for place in range(PER_SHELF):
             name = f"box-{number * PER_SHELF + place}"
             changes += thing(name, at(0.09 * place - 0.4, 0, 0.06), f"shelf-{number}", size=(0.08, 0.1, 0.1))
-    return EMPTY.changed(changes)
+    return EMPTY.with_changes(changes)
 
 
 def microseconds(work: Callable[[], object], rounds: int) -> float:
@@ -62,11 +62,11 @@ def _asked(pair: tuple[str, str], relation: str) -> tuple[str, str, str]:
 
 def _written(state: WorldState) -> WorldState:
     """Return a version in which a thing has been put elsewhere."""
-    return state.changed(placement_changes(lab("rack-0"), at(0, 1, 0)))
+    return state.with_changes(placement_changes(lab("rack-0"), at(0, 1, 0)))
 
 
 def _moved(state: WorldState) -> object:
-    after = state.changed(move_changes(state, lab("box-0"), at(0, 0, 0.06), lab("shelf-0")))
+    after = state.with_changes(move_changes(state, lab("box-0"), at(0, 0, 0.06), lab("shelf-0")))
     return after.holds(lab("box-0"), skillc("restsOn"), lab("shelf-0"))
 
 

@@ -75,7 +75,7 @@ def posture(scene: str, name: str, q: Sequence[float]) -> list[Change]:
 
 
 def world(scene: str, changes: list[Change]) -> WorldState:
-    return cells.world(scene).changed(changes)
+    return cells.world(scene).with_changes(changes)
 
 
 def cell(scene: str, changes: list[Change]) -> SimulatedCell:

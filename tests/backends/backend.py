@@ -57,7 +57,7 @@ class MujocoBackend:
 
     def __init__(self, scene: str, controller: str | None = None, steps_per_command: int = 1) -> None:
         changes = [] if controller is None else [SetProperty(ARM[scene], COMPLIANT_CONTROLLER, controller)]
-        self._cell = SimulatedCell(WorldModel(world(scene).changed(changes)), steps_per_command=steps_per_command)
+        self._cell = SimulatedCell(WorldModel(world(scene).with_changes(changes)), steps_per_command=steps_per_command)
         facts = self._cell.facts.arms[0]
         assert facts.gripper is not None
         self.arm = self._cell.arms[facts.individual]

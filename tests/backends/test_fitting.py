@@ -34,7 +34,7 @@ def controlled_by(scene: str, name: str) -> Change:
 )
 def test_what_is_missing_is_told(scene: str, change: Change, says: str) -> None:
     with pytest.raises(SheetError, match=re.escape(says)):
-        SimulatedCell(WorldModel(world(scene).changed([change])))
+        SimulatedCell(WorldModel(world(scene).with_changes([change])))
 
 
 def test_a_law_whose_commands_the_arm_does_not_take_is_told() -> None:
@@ -43,7 +43,7 @@ def test_a_law_whose_commands_the_arm_does_not_take_is_told() -> None:
     with pytest.raises(
         SheetError, match="lab:Ur5e-1 has the controller 'impedance': the arm takes position and velocity"
     ):
-        SimulatedCell(WorldModel(world(UR5E).changed([controlled_by(UR5E, "impedance"), *facts])))
+        SimulatedCell(WorldModel(world(UR5E).with_changes([controlled_by(UR5E, "impedance"), *facts])))
 
 
 def test_an_arm_that_takes_positions_only_refuses_speeds() -> None:

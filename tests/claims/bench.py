@@ -75,7 +75,7 @@ def world(clean: bool = False) -> WorldState:
         frame = {FRAME_ID: name, BASE_FRAME_ID: "map", **places}
         changes += [SetProperty(iri(name), property_, value) for property_, value in frame.items()]
     known = library().vocabulary
-    return WorldState.empty(structs.replace(known, prefixes={**known.prefixes, "lab": LAB})).changed(changes)
+    return WorldState.empty(structs.replace(known, prefixes={**known.prefixes, "lab": LAB})).with_changes(changes)
 
 
 @dataclass

@@ -134,7 +134,7 @@ def test_who_only_believes_to_hold_something_is_contradicted_by_the_hand() -> No
 
 
 def test_a_scene_that_the_hand_contradicts_fails_at_once() -> None:
-    given = world().changed([AddRelation(iri("gripper"), CONTAIN, iri("part"))])
+    given = world().with_changes([AddRelation(iri("gripper"), CONTAIN, iri("part"))])
     there = Bench(WorldModel(given), hand=Hand())
     execution = run("Wave(robot: lab:robot)", there)
     assert execution.failure is not None and execution.failure.kind == "contradiction"

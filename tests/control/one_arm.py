@@ -40,7 +40,7 @@ def world(robot):
         SetProperty(HOME, POSTURE_NAME, "home"),
         SetProperty(HOME, JOINT_VALUES, " ".join(map(str, HOMES[robot]))),
     ]
-    return WorldModel(WorldState.empty(vocabulary()).changed(facts))
+    return WorldModel(WorldState.empty(vocabulary()).with_changes(facts))
 
 
 class OneArm:

@@ -145,7 +145,7 @@ class Dice:
         values = [SetProperty(iri(name), iri("size"), n) for n, name in enumerate(names) if self._random.random() < 0.7]
         modes = [SetProperty(iri(name), iri("mode"), "c") for name in names if self._random.random() < 0.5]
         individuals = [AddIndividual(iri(name), (iri(cls),)) for name, cls in self._individuals.items()]
-        return WorldState.empty(self.vocabulary).changed([*individuals, *facts, *values, *modes])
+        return WorldState.empty(self.vocabulary).with_changes([*individuals, *facts, *values, *modes])
 
     def goal(self, skills: SkillLibrary, start: WorldState) -> Condition:
         """Draw a goal, which is written as text and read back."""

@@ -234,7 +234,7 @@ class Author:
         people = [AddIndividual(iri(name), (iri(cls),)) for name, cls in self.individuals.items()]
         if self._maybe(0.3):
             people.append(AddIndividual(iri("x1"), (iri(self._any_class()),)))
-        model = WorldModel(WorldState.empty(self.vocabulary).changed(people))
+        model = WorldModel(WorldState.empty(self.vocabulary).with_changes(people))
         for _ in range(self._random.randint(1, 8)):
             subject, object_ = (iri(self._random.choice(list(self.individuals))) for _ in range(2))
             try:

@@ -176,7 +176,7 @@ def test_aries_finds_what_two_robots_can_do_at_once() -> None:
 )
 def test_aries_takes_goals_of_every_kind(text: str) -> None:
     assert PROGRAM is not None
-    world = depot.world({"carl": "a"}, {"crate": "a"}, "a b c").changed(())
+    world = depot.world({"carl": "a"}, {"crate": "a"}, "a b c").with_changes(())
     goal = depot.goal(f"({text}) and lab:carl at lab:b", world)
     answer = Aries(PROGRAM).schedule(pose_problem(LIBRARY, world, goal).problem, 20.0)
     assert isinstance(answer, Schedule), answer

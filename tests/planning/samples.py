@@ -137,7 +137,7 @@ CLEAN = skill(
     40.0,
 )
 WIPING = library(DRIVE, PICK, CLEAN)
-LAB = WorldState.empty(VOCABULARY).changed(
+LAB = WorldState.empty(VOCABULARY).with_changes(
     (
         *(individual(name, "Location") for name in ("dock", "shelf", "wall")),
         individual("robot", "Robot"),

@@ -21,7 +21,7 @@ from skillc_runtime.planning.solve import solve
 from world.lab import assign, fact, individual, iri
 
 SMALL = AbstractionSize(10, 2)
-CROWD = LAB.changed(
+CROWD = LAB.with_changes(
     [
         *(individual(f"place-{n}", "Location") for n in range(12)),
         *(individual(f"part-{n}", "Product") for n in range(12)),
@@ -29,7 +29,7 @@ CROWD = LAB.changed(
         *(assign(f"part-{n}", "weight", 0.1) for n in range(12)),
     ]
 )
-HEAVY = CROWD.changed([assign("eraser", "weight", 3.0)])
+HEAVY = CROWD.with_changes([assign("eraser", "weight", 3.0)])
 
 
 def test_a_part_of_the_scene_is_enough_and_nothing_left_out_could_make_the_plan_shorter() -> None:
@@ -44,7 +44,7 @@ def test_a_part_of_the_scene_is_enough_and_nothing_left_out_could_make_the_plan_
 def test_a_plan_that_may_not_be_the_shortest_is_labelled_and_with_a_proof_the_scene_is_widened() -> None:
     quick = msgspec.structs.replace(PICK, duration=PropertyOf(Variable("object"), iri("weight")))
     skills = library(DRIVE, quick, CLEAN)
-    light = CROWD.changed(
+    light = CROWD.with_changes(
         [
             *(individual(f"wiper-{n}", "Eraser") for n in range(8)),
             *(fact("dock", "contain", f"wiper-{n}") for n in range(8)),
@@ -64,7 +64,7 @@ def test_a_plan_that_may_not_be_the_shortest_is_labelled_and_with_a_proof_the_sc
 def test_a_small_scene_is_widened_until_the_plan_is_proven() -> None:
     quick = msgspec.structs.replace(PICK, duration=PropertyOf(Variable("object"), iri("weight")))
     wipers = range(8)
-    light = CROWD.changed(
+    light = CROWD.with_changes(
         [
             *(individual(f"wiper-{n}", "Eraser") for n in wipers),
             *(fact("dock", "contain", f"wiper-{n}") for n in wipers),
@@ -80,7 +80,7 @@ def test_a_small_scene_is_widened_until_the_plan_is_proven() -> None:
 
 
 def test_a_stand_in_has_what_one_of_those_has_whom_it_stands_for() -> None:
-    narrow = pose_problem(WIPING, HEAVY.changed([assign("board", "isClean", True)]), CLEANED, (), SMALL)
+    narrow = pose_problem(WIPING, HEAVY.with_changes([assign("board", "isClean", True)]), CLEANED, (), SMALL)
     assert narrow.narrowed and narrow.things == len(narrow.problem.objects) + len(
         next(each for each in narrow.left_out if not each.harmless).what
     )

@@ -56,7 +56,7 @@ def test_an_open_goal_reads_the_narrower_relations_of_every_kind_of_thing() -> N
     kept = RelationTerm(iri=iri("kept"), signatures=(Signature(iri("Tool"), iri("Place")),), parents=(AT,))
     vocabulary = msgspec.structs.replace(VOCABULARY, relations={**VOCABULARY.relations, kept.iri: kept})
     people = [AddIndividual(iri(name), (iri(cls),)) for name, cls in (("a", "Thing1"), ("b", "Tool"), ("p", "Place"))]
-    state = WorldState.empty(vocabulary).changed(people)
+    state = WorldState.empty(vocabulary).with_changes(people)
     answer = solve(compiled(KEEP, vocabulary), state, Holds(Anything(), AT, Individual(iri("p"))), (AStar(),))
     assert isinstance(answer, Solved) and answer.optimal == "proven", answer
     assert [each.arguments["x"] for each in answer.plan.steps] == [iri("b")]

@@ -84,7 +84,7 @@ UNSOLVABLE = [
 @pytest.mark.parametrize("planner", list_planners(), ids=lambda planner: planner.name)
 @pytest.mark.parametrize(("changes", "goal", "words"), UNSOLVABLE)
 def test_no_plan_is_proved_and_explained(changes: list, goal: Condition, words: str, planner: Planner) -> None:  # type: ignore[type-arg]
-    result = solve(WIPING, LAB.changed(changes), goal, (planner,))
+    result = solve(WIPING, LAB.with_changes(changes), goal, (planner,))
     assert isinstance(result, Unsolvable), result
     assert words in result.why
 
@@ -127,7 +127,7 @@ def test_classes_of_the_scene_itself_take_part() -> None:
     vocabulary = msgspec.structs.replace(
         LAB.vocabulary, classes={**LAB.vocabulary.classes, own.iri: own}, prefixes=LAB.vocabulary.prefixes
     )
-    state = WorldState.empty(vocabulary).changed(
+    state = WorldState.empty(vocabulary).with_changes(
         [
             *(individual(name, "Location") for name in ("shelf", "wall")),
             individual("robot", "Robot"),
@@ -185,14 +185,14 @@ def test_a_planner_is_never_trusted_and_the_next_one_is_asked() -> None:
 
 
 def test_the_built_in_planner_gives_up_in_time() -> None:
-    crowd = LAB.changed([individual(f"place-{n}", "Location") for n in range(40)])
+    crowd = LAB.with_changes([individual(f"place-{n}", "Location") for n in range(40)])
     assert isinstance(solve(WIPING, crowd, CLEANED, (AStar(),), deadline_s=0.0), GaveUp)
 
 
 def test_durations_that_depend_on_things_are_minimised() -> None:
     heavy = PropertyOf(Variable("object"), iri("weight"))
     slow = msgspec.structs.replace(PICK, duration=heavy)
-    state = LAB.changed(
+    state = LAB.with_changes(
         [
             individual("light", "Eraser"),
             assign("light", "weight", 0.5),

@@ -48,7 +48,7 @@ def world(robots: dict[str, str], crates: dict[str, str], places: str = "a b c d
     changes += [AddIndividual(iri(name), (SKIROS + "Product",)) for name in crates]
     facts = [AddRelation(iri(name), AT, iri(place)) for name, place in robots.items()]
     facts += [contain(place, name) for name, place in crates.items()]
-    return WorldState.empty(library().vocabulary).changed([*changes, *facts])
+    return WorldState.empty(library().vocabulary).with_changes([*changes, *facts])
 
 
 def goal(text: str, state: WorldState) -> Condition:

@@ -58,7 +58,7 @@ PLANS = {
 def test_a_plan_is_over_when_its_times_say(name: str) -> None:
     steps, text, expected_s = PLANS[name]
     state = world({"carl": "a", "dora": "b"}, {}, "a b c")
-    state = state.changed([AddIndividual(iri("box"), (PRODUCT,)), contain("dora", "box")])
+    state = state.with_changes([AddIndividual(iri("box"), (PRODUCT,)), contain("dora", "box")])
     aim = goal(text, state)
     plan = Plan(steps, sum(5.0 if each.skill == "Go" else 2.0 for each in steps))
     planners = Planners((Always(plan),), None)

@@ -76,4 +76,4 @@ def world(vocabulary: Vocabulary, random: Random) -> WorldModel:
             changes.append(SetProperty(item, NS + "on", random.random() < 0.5))
         if random.random() < 0.7:
             changes.append(SetProperty(item, NS + "level", float(random.randint(1, 4))))
-    return WorldModel(WorldState.empty(vocabulary).changed(changes))
+    return WorldModel(WorldState.empty(vocabulary).with_changes(changes))

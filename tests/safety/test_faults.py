@@ -69,7 +69,7 @@ def _of_arms() -> Iterator[object]:
 @pytest.mark.parametrize(("name", "phase"), list(_of_arms()))
 def test_an_arm_that_takes_speeds_is_left_with_a_stiff_hold_as_well(name: str, phase: str) -> None:
     by_speed = SetProperty(ARM[BY_SPEED], COMPLIANT_CONTROLLER, "forward_dynamics_velocity")
-    there = SimulatedCell(WorldModel(world(BY_SPEED).changed([by_speed])))
+    there = SimulatedCell(WorldModel(world(BY_SPEED).with_changes([by_speed])))
     told, status = run(there, BY_SPEED, name, phase)
     assert there.arms[ARM[BY_SPEED]].interface == "velocity"
     assert f"broke at {phase}" in reasons(told)

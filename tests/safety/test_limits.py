@@ -22,7 +22,7 @@ from skillc_runtime.world.state.terms import FRAME_ID, HAS_SHEET, HAS_WORKSPACE,
 
 
 def cell_with(scene: str, changes: list[Change]) -> SimulatedCell:
-    return SimulatedCell(WorldModel(world(scene).changed(changes)))
+    return SimulatedCell(WorldModel(world(scene).with_changes(changes)))
 
 
 def moved(arm: CompliantArmDriver, *way: float) -> Pose:

@@ -77,7 +77,7 @@ class Grips(Primitive):
 
 def scene(*changes: Change) -> WorldState:
     """Return the scene, changed."""
-    return WorldState.empty(VOCABULARY).changed([*FACTS, *changes])
+    return WorldState.empty(VOCABULARY).with_changes([*FACTS, *changes])
 
 
 def at(line: int) -> Position:

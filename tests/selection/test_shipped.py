@@ -50,7 +50,7 @@ PICK = call("Pick", arm="Iiwa-1", object="Eraser-1")
 
 def refusals(body: tree.Node, *changes: Change) -> list[str]:
     """Return the refusals in the changed scene, as text."""
-    return [str(refusal) for refusal in preflight(body, library(), scene().changed(changes))]
+    return [str(refusal) for refusal in preflight(body, library(), scene().with_changes(changes))]
 
 
 def test_the_whole_scene_lets_both_skills_run() -> None:

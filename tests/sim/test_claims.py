@@ -108,7 +108,7 @@ IN_THE_AIR = (*zip(POSITION, (0.48, -0.45, 0.8), strict=True), *zip(ORIENTATION,
 
 def moved(calls: tuple[str, ...], changes: tuple[Change, ...]) -> list[Execution]:
     """Run calls one after the other in the cell of the table, whose facts were changed before."""
-    state = scene("clean_table").changed(changes)
+    state = scene("clean_table").with_changes(changes)
     cell, executions = SimulatedCell(WorldModel(state)), []
     for text in calls:
         now = cell.world.snapshot()

@@ -45,7 +45,7 @@ def vocabulary() -> Vocabulary:
 def at_the_eraser(scene: str, seed: int = 0, changes: Sequence[Change] = ()) -> SimulatedCell:
     """Return a cell whose robot is where the eraser is."""
     moved = [AddRelation(LAB + "Heron-1", AT, LAB + "Store")] if scene == "ur5e_whiteboard" else []
-    return SimulatedCell(WorldModel(world(scene).changed([*moved, *changes])), seed)
+    return SimulatedCell(WorldModel(world(scene).with_changes([*moved, *changes])), seed)
 
 
 @cache

@@ -81,14 +81,14 @@ def test_the_felt_yields_as_its_data_sheet_says() -> None:
 
 
 def test_a_missing_fact_is_named() -> None:
-    state = world("iiwa_table").changed([ClearProperty(ERASER, WEIGHT)])
+    state = world("iiwa_table").with_changes([ClearProperty(ERASER, WEIGHT)])
     with pytest.raises(SheetError, match=r"Eraser-1 has no number skiros:Weight"):
         read_scene_spec(state)
 
 
 def test_a_device_without_data_sheet_is_named() -> None:
     arm = ARM["iiwa_table"]
-    state = world("iiwa_table").changed([RemoveRelation(arm, HAS_SHEET, SKILLC + "iiwa14-sheet")])
+    state = world("iiwa_table").with_changes([RemoveRelation(arm, HAS_SHEET, SKILLC + "iiwa14-sheet")])
     with pytest.raises(SheetError, match="Iiwa-1 has no data sheet"):
         read_scene_spec(state)
 
@@ -104,11 +104,11 @@ def test_a_device_without_data_sheet_is_named() -> None:
 )
 def test_a_posture_that_cannot_be_taken_is_named(change: Change, message: str) -> None:
     with pytest.raises(SheetError, match=message):
-        SimulatedCell(WorldModel(world("iiwa_table").changed([change])))
+        SimulatedCell(WorldModel(world("iiwa_table").with_changes([change])))
 
 
 def test_an_unknown_controller_is_named_with_those_there_are() -> None:
-    state = world("iiwa_table").changed([SetProperty(ARM["iiwa_table"], COMPLIANT_CONTROLLER, "impedence")])
+    state = world("iiwa_table").with_changes([SetProperty(ARM["iiwa_table"], COMPLIANT_CONTROLLER, "impedence")])
     with pytest.raises(
         SheetError,
         match=r"Iiwa-1: there is no controller 'impedence'; .*forward_dynamics, forward_dynamics_velocity, impedance",
@@ -129,7 +129,7 @@ def test_a_plain_surface_with_nothing_but_its_friction_is_simulated(tmp_path: Pa
 
 @pytest.mark.parametrize(("given", "missing"), [(FRICTION_LOW, FRICTION_HIGH), (FRICTION_HIGH, FRICTION_LOW)])
 def test_half_a_range_of_friction_is_refused(given: str, missing: str) -> None:
-    state = world("iiwa_table").changed([ClearProperty(SURFACE["iiwa_table"], missing)])
+    state = world("iiwa_table").with_changes([ClearProperty(SURFACE["iiwa_table"], missing)])
     assert state.value(SURFACE["iiwa_table"], given) is not None
     with pytest.raises(SheetError, match=f"Table-1 has no number skillc:{missing.removeprefix(SKILLC)}"):
         read_scene_spec(state)
@@ -137,17 +137,17 @@ def test_half_a_range_of_friction_is_refused(given: str, missing: str) -> None:
 
 def test_a_range_of_friction_is_read_without_the_single_value_and_the_other_way_round() -> None:
     surface, state = SURFACE["iiwa_table"], world("iiwa_table")
-    assert read_scene_spec(state.changed([ClearProperty(surface, FRICTION)])).surfaces[0].friction == (0.3, 0.8)
-    bare = state.changed([ClearProperty(surface, name) for name in RANGES])
+    assert read_scene_spec(state.with_changes([ClearProperty(surface, FRICTION)])).surfaces[0].friction == (0.3, 0.8)
+    bare = state.with_changes([ClearProperty(surface, name) for name in RANGES])
     assert read_scene_spec(bare).surfaces[0].friction == (0.6, 0.6)
     with pytest.raises(SheetError, match=r"Table-1 has no number skillc:friction "):
-        read_scene_spec(bare.changed([ClearProperty(surface, FRICTION)]))
+        read_scene_spec(bare.with_changes([ClearProperty(surface, FRICTION)]))
     with pytest.raises(SheetError, match=r"skillc:frictionLow above its skillc:frictionHigh"):
-        read_scene_spec(state.changed([SetProperty(surface, FRICTION_LOW, 0.9)]))
+        read_scene_spec(state.with_changes([SetProperty(surface, FRICTION_LOW, 0.9)]))
 
 
 def test_facts_that_contradict_a_model_are_refused() -> None:
-    facts = read_scene_spec(world("iiwa_table").changed([SetProperty(ERASER, SIZE[0], 0.2)]))
+    facts = read_scene_spec(world("iiwa_table").with_changes([SetProperty(ERASER, SIZE[0], 0.2)]))
     with pytest.raises(SheetError, match=r"the face of .*Eraser-1 is"):
         build_model(facts, draw(facts, 0))
 

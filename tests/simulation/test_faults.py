@@ -8,7 +8,8 @@ from cells import ARM, SCENES, cell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.world.state.changes import SetProperty
-from skillc_runtime.world.state.model import ChangeEvent, WorldModel
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.transactions import ChangeEvent
 
 DEVICE_STATE = "https://w3id.org/skillc/core#deviceState"
 
@@ -16,7 +17,7 @@ DEVICE_STATE = "https://w3id.org/skillc/core#deviceState"
 def faults(there: SimulatedCell) -> list[ChangeEvent]:
     """Return the list that every later note of a fault goes into."""
     found: list[ChangeEvent] = []
-    there.world.listen(lambda event: found.append(event) if "Fault" in str(event.changes) else None)
+    there.world.subscribe(lambda event: found.append(event) if "Fault" in str(event.changes) else None)
     return found
 
 

@@ -74,7 +74,7 @@ def test_an_arm_s_model_agrees_with_its_sheet(arm: str) -> None:
     built, said = model(arm), sheet(arm)
     np.testing.assert_array_equal(built.dof_armature, said.number("armature"))
     for name in ("jointSpeeds", "jointAccelerations"):
-        if name == "jointSpeeds" or said.states(name):
+        if name == "jointSpeeds" or said.has(name):
             assert said.limits(name, built.nv).shape == (built.nv,)
     home = said.posture("home")
     assert (built.jnt_range[:, 0] < home).all() and (home < built.jnt_range[:, 1]).all()

@@ -17,7 +17,7 @@ SENSOR = LAB + "ForceTorque-1"
 
 def silent() -> SimulatedCell:
     """Return a cell in which the sensor has no noise."""
-    state = world(SCENE).changed([SetProperty(SENSOR, noise, 0.0) for noise in (FORCE_NOISE, TORQUE_NOISE)])
+    state = world(SCENE).with_changes([SetProperty(SENSOR, noise, 0.0) for noise in (FORCE_NOISE, TORQUE_NOISE)])
     return SimulatedCell(WorldModel(state))
 
 

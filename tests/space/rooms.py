@@ -43,7 +43,7 @@ def linked(subject: str, relation: str, object_: str) -> AddRelation:
 
 def world(*changes: list[Change]) -> WorldState:
     """Return the world with these changes."""
-    return EMPTY.changed([change for each in changes for change in each])
+    return EMPTY.with_changes([change for each in changes for change in each])
 
 
 def at(x: float, y: float, z: float) -> Pose:

@@ -75,7 +75,7 @@ def test_conditions_read_it(condition: Condition, true: bool) -> None:
 
 def test_moving_a_thing_changes_it_in_the_next_version_alone() -> None:
     there = Holds(i("Cup"), ON, i("Bench"))
-    moved = ROOM.changed(placement_changes(lab("Cup"), at(3, 0, 0.45)))
+    moved = ROOM.with_changes(placement_changes(lab("Cup"), at(3, 0, 0.45)))
     assert evaluate(there, moved, {}) and not evaluate(there, ROOM, {})
 
 
@@ -90,7 +90,7 @@ def test_why_it_does_not_hold_is_told_with_numbers_and_what_decided_is_told_as_a
     assert told.endswith("restsOn " + lab("Table") + f"` does not hold: {lab('Lamp')} is 1.200 m above {lab('Table')}")
     decided = deciding_facts([condition], ROOM, {})
     assert tuple(map(format_fact, decided)) == (f"not {lab('Lamp')} restsOn {lab('Table')}",)
-    lost = ROOM.changed(placement_changes(lab("Lamp"), at(0, 0, 0), "Lamp"))
+    lost = ROOM.with_changes(placement_changes(lab("Lamp"), at(0, 0, 0), "Lamp"))
     assert deciding_facts([condition], lost, {}) == ()
     with pytest.raises(EvaluationError, match="form a circle"):
         evaluate(condition, lost, {})
@@ -163,7 +163,7 @@ def test_plans_read_what_no_skill_changes_and_say_by_how_much_it_fails() -> None
     result = planned(BOARD, CLEAN)
     assert isinstance(result, Solved) and [step.skill for step in result.plan.steps] == ["Polish"]
     assert result.plan.steps[0].arguments["arm"] == lab("Ur5e-1")
-    far = BOARD.changed(placement_changes(lab("Whiteboard-1"), at(5, 5, 1)))
+    far = BOARD.with_changes(placement_changes(lab("Whiteboard-1"), at(5, 5, 1)))
     result = planned(far, CLEAN)
     assert isinstance(result, Unsolvable)
     assert "Polish needs arm canReach surface" in result.why and "lab:Ur5e-1 reaches 0.85 m" in result.why
@@ -285,8 +285,8 @@ class Shorter:
 )
 def test_a_vocabulary_may_bring_a_reasoner_of_its_own(python: str, answer: bool | str) -> None:
     terms = load([Source("lab.ttl", VOCABULARY.format(axiom="", python=python, more=""))]).value
-    state = WorldModel(WorldState.empty(terms)).snapshot().changed([*(thing("a", cls=lab("Cup"))[:1])])
-    state = state.changed(thing("b", cls=lab("Cup"))[:1])
+    state = WorldModel(WorldState.empty(terms)).snapshot().with_changes([*(thing("a", cls=lab("Cup"))[:1])])
+    state = state.with_changes(thing("b", cls=lab("Cup"))[:1])
     condition = Holds(i("a"), lab("beside"), i("b"))
     if answer is True:
         assert evaluate(condition, state, {}) and not evaluate(Holds(i("b"), lab("beside"), i("a")), state, {})

@@ -85,7 +85,7 @@ def test_a_thing_put_somewhere_is_there_and_all_else_keeps_its_own_pose(
     drawn: tuple[WorldState, dict[str, tuple[str, Pose]]], name: str, viewer: str, goal: Pose
 ) -> None:
     state, placings = drawn
-    after = state.changed(move_changes(state, lab(name), goal, lab(viewer)))
+    after = state.with_changes(move_changes(state, lab(name), goal, lab(viewer)))
     assert same(relative_pose(after, lab(viewer), lab(name)), goal)
     assert after.value(lab(name), BASE_FRAME_ID) == placings[name][0]
     assert same(pose(after, lab(viewer)), pose(state, lab(viewer)))
@@ -97,30 +97,32 @@ def test_what_is_carried_stays_where_it_is_and_then_moves_along(
     drawn: tuple[WorldState, object], name: str, carrier: str, goal: Pose
 ) -> None:
     state = drawn[0]
-    carried = state.changed(attachment_changes(state, lab(name), lab(carrier)))
+    carried = state.with_changes(attachment_changes(state, lab(name), lab(carrier)))
     assert same(pose(carried, lab(name)), pose(state, lab(name)))
     held = relative_pose(carried, lab(carrier), lab(name))
-    driven = carried.changed(placement_changes(lab(carrier), goal))
+    driven = carried.with_changes(placement_changes(lab(carrier), goal))
     assert same(pose(driven, lab(name)), goal @ held)
 
 
 def test_a_thing_without_a_pose_of_its_own_is_where_that_is_which_carries_it() -> None:
     base = world(thing("Station", TURNED), thing("Robot"), thing("Arm", at(0, 1, 0), "Robot"), thing("Box"))
-    state = base.changed(
+    state = base.with_changes(
         [linked("Robot", AT, "Station"), linked("Robot", HAS_A, "Box"), linked("Robot", HAS_ARM, "Arm")]
     )
     assert same(pose(state, lab("Robot")), TURNED)
     assert same(pose(state, lab("Box")), TURNED)
     assert np.allclose(pose(state, lab("Arm")).position, (0, 2, 0))
-    held = state.changed([linked("Station", CONTAIN, "Box"), *placement_changes(lab("Robot"), at(9, 9, 9))])
+    held = state.with_changes([linked("Station", CONTAIN, "Box"), *placement_changes(lab("Robot"), at(9, 9, 9))])
     assert same(pose(held, lab("Box")), TURNED), "what contains a thing says where it is before what it is a part of"
 
 
 def test_what_an_arm_carries_is_nowhere_unless_something_says_so() -> None:
-    state = world(thing("Arm", at(0, 0, 1), cls=skillc("Ur5e")), thing("Hand")).changed([linked("Arm", HAS_A, "Hand")])
+    state = world(thing("Arm", at(0, 0, 1), cls=skillc("Ur5e")), thing("Hand")).with_changes(
+        [linked("Arm", HAS_A, "Hand")]
+    )
     with pytest.raises(Unplaced, match=r"does not say where .*Hand is: .*Arm carries it"):
         pose(state, lab("Hand"))
-    told = state.changed(placement_changes(lab("Hand"), at(0, 0, 0.5), "Arm"))
+    told = state.with_changes(placement_changes(lab("Hand"), at(0, 0, 0.5), "Arm"))
     assert np.allclose(pose(told, lab("Hand")).position, (0, 0, 1.5))
 
 
@@ -165,7 +167,7 @@ def test_what_moves_with_a_thing_cannot_carry_it_or_say_where_it_is() -> None:
         attachment_changes(state, lab("a"), lab("c"))
     with pytest.raises(FrameError, match=r"c moves with .*a, so its place cannot say where that is"):
         move_changes(state, lab("a"), at(0, 0, 0), lab("c"))
-    nameless = state.changed([ClearProperty(lab("c"), FRAME_ID), *thing("d", at(1, 0, 0))])
+    nameless = state.with_changes([ClearProperty(lab("c"), FRAME_ID), *thing("d", at(1, 0, 0))])
     with pytest.raises(FrameError, match="c has no FrameId, so nothing can be placed in its frame"):
         attachment_changes(nameless, lab("d"), lab("c"))
 
@@ -173,9 +175,9 @@ def test_what_moves_with_a_thing_cannot_carry_it_or_say_where_it_is() -> None:
 def test_versions_that_agree_about_space_share_its_tree_and_no_version_is_kept_for_it() -> None:
     state = world(thing("a", at(0, 0, 0)), thing("b", at(0, 0, 1), "a"))
     pose(state, lab("b"))
-    told = state.changed([SetProperty(lab("a"), SKIROS + "Weight", 1.0)])
+    told = state.with_changes([SetProperty(lab("a"), SKIROS + "Weight", 1.0)])
     assert frame_tree_of(told) is frame_tree_of(state)
-    lifted = state.changed(placement_changes(lab("a"), at(0, 0, 5)))
+    lifted = state.with_changes(placement_changes(lab("a"), at(0, 0, 5)))
     assert frame_tree_of(lifted) is not frame_tree_of(state)
     assert np.allclose(pose(lifted, lab("b")).position, (0, 0, 6))
     assert np.allclose(pose(state, lab("b")).position, (0, 0, 1))
@@ -194,8 +196,8 @@ def test_poses_cannot_be_changed_by_who_reads_them() -> None:
 def test_a_frame_that_gets_another_name_is_found_by_that_name_alone() -> None:
     state = world(thing("a", at(0, 0, 1)), thing("b", at(0, 0, 1), "a"))
     assert np.allclose(pose(state, lab("b")).position, (0, 0, 2))
-    renamed = state.changed([SetProperty(lab("a"), FRAME_ID, "new")])
+    renamed = state.with_changes([SetProperty(lab("a"), FRAME_ID, "new")])
     with pytest.raises(FrameError, match="nothing has this FrameId"):
         pose(renamed, lab("b"))
-    told = renamed.changed([SetProperty(lab("b"), BASE_FRAME_ID, "new")])
+    told = renamed.with_changes([SetProperty(lab("b"), BASE_FRAME_ID, "new")])
     assert np.allclose(pose(told, lab("b")).position, (0, 0, 2))

@@ -72,17 +72,17 @@ def test_what_keeps_it_from_holding_is_told_with_numbers() -> None:
 
 
 def test_where_too_little_is_known_nothing_holds_and_what_is_missing_is_told() -> None:
-    state = on_a_table(0, 0, 0.35).changed([*thing("Lost"), *thing("Point", at(0, 0, 0.3))])
+    state = on_a_table(0, 0, 0.35).with_changes([*thing("Lost"), *thing("Point", at(0, 0, 0.3))])
     assert holds(state, INSIDE, "Point", "Table") and not holds(state, INSIDE, "Lost", "Table")
     assert "does not say where" in why(state, INSIDE, "Lost", "Table")
     assert "Point has no" in why(state, INSIDE, "Table", "Point")
-    half = state.changed([ClearProperty(lab("Cube"), SIZE[2])])
+    half = state.with_changes([ClearProperty(lab("Cube"), SIZE[2])])
     assert "Cube has no" in why(half, INSIDE, "Cube", "Table")
     assert state.subjects(INSIDE, lab("Table")) == {lab("Cube"), lab("Point")}
 
 
 def test_what_is_wrong_with_a_frame_is_no_answer() -> None:
-    state = on_a_table(0, 0, 0.8).changed(placement_changes(lab("Cube"), at(0, 0, 0), "Cube"))
+    state = on_a_table(0, 0, 0.8).with_changes(placement_changes(lab("Cube"), at(0, 0, 0), "Cube"))
     with pytest.raises(EvaluationError, match=r"isInside\(Cube, Table\) failed: .* form a circle"):
         holds(state, INSIDE, "Cube", "Table")
 
@@ -129,7 +129,7 @@ def rigid(state: WorldState, by: Pose) -> WorldState:
     """Return the world in which everything that is placed in the map has been moved."""
     roots = [each for each in sorted(state.individuals) if state.value(each, BASE_FRAME_ID) == "map"]
     assert roots
-    return state.changed([change for each in roots for change in placement_changes(each, by @ pose(state, each))])
+    return state.with_changes([change for each in roots for change in placement_changes(each, by @ pose(state, each))])
 
 
 SCENES = [load_scene(catalogue.scene(name), EMPTY.vocabulary) for name in ("ur5e_whiteboard.ttl", "iiwa_table.ttl")]
@@ -169,14 +169,16 @@ def board_at(distance_m: float, station: str = "BoardStation") -> WorldState:
     """Return the whiteboard scene with the board so far in front of the arm once the robot stands at its station."""
     state = SCENES[0]
     board = Pose(np.array([3.2 + distance_m, 0.4, 1.05]), pose(state, lab("Whiteboard-1")).rotation)
-    return state.changed([*placement_changes(lab("Whiteboard-1"), board), linked(station, CONTAIN, "Whiteboard-1")])
+    return state.with_changes(
+        [*placement_changes(lab("Whiteboard-1"), board), linked(station, CONTAIN, "Whiteboard-1")]
+    )
 
 
 def test_an_arm_reaches_as_far_as_its_data_sheet_says() -> None:
     for margin_m, true in ((-0.001, True), (0.001, False)):
         state = board_at(FURTHEST_M + margin_m)
         assert holds(state, CAN_REACH, "Ur5e-1", "Whiteboard-1") is true
-        there = state.changed([linked("Heron-1", AT, "BoardStation")])
+        there = state.with_changes([linked("Heron-1", AT, "BoardStation")])
         assert holds(there, REACHES, "Ur5e-1", "Whiteboard-1") is true
         assert not holds(state, REACHES, "Ur5e-1", "Whiteboard-1")
     assert why(board_at(0.9), CAN_REACH, "Ur5e-1", "Whiteboard-1") == (
@@ -186,11 +188,11 @@ def test_an_arm_reaches_as_far_as_its_data_sheet_says() -> None:
 
 def test_a_robot_that_drives_works_from_the_station_of_the_surface_and_from_any_where_none_has_it() -> None:
     assert not holds(board_at(0.6, "Dock"), CAN_REACH, "Ur5e-1", "Whiteboard-1")
-    free = board_at(0.6).changed([RemoveRelation(lab("BoardStation"), CONTAIN, lab("Whiteboard-1"))])
+    free = board_at(0.6).with_changes([RemoveRelation(lab("BoardStation"), CONTAIN, lab("Whiteboard-1"))])
     assert holds(free, CAN_REACH, "Ur5e-1", "Whiteboard-1")
-    nowhere = free.changed([RemoveIndividual(each) for each in free.instances(WORKSTATION) - {lab("Dock")}])
+    nowhere = free.with_changes([RemoveIndividual(each) for each in free.instances(WORKSTATION) - {lab("Dock")}])
     assert why(nowhere, CAN_REACH, "Ur5e-1", "Whiteboard-1").startswith("at lab:Dock: ")
-    there = nowhere.changed([*placement_changes(lab("Heron-1"), at(3, 0.4, 0)), RemoveIndividual(lab("Dock"))])
+    there = nowhere.with_changes([*placement_changes(lab("Heron-1"), at(3, 0.4, 0)), RemoveIndividual(lab("Dock"))])
     assert why(there, CAN_REACH, "Ur5e-1", "Whiteboard-1") == (
         "there is no workstation at which lab:Heron-1 could stand"
     )
@@ -198,7 +200,7 @@ def test_a_robot_that_drives_works_from_the_station_of_the_surface_and_from_any_
 
 
 def test_an_arm_without_a_data_sheet_reaches_nothing_and_says_so() -> None:
-    bare = SCENES[1].changed([RemoveRelation(lab("Iiwa-1"), HAS_SHEET, skillc("iiwa14-sheet"))])
+    bare = SCENES[1].with_changes([RemoveRelation(lab("Iiwa-1"), HAS_SHEET, skillc("iiwa14-sheet"))])
     assert not holds(bare, CAN_REACH, "Iiwa-1", "Table-1")
     assert "Iiwa-1 has no data sheet" in why(bare, CAN_REACH, "Iiwa-1", "Table-1")
     assert "takes (rparts:ArmDevice, skillc:Surface)" in why(bare, CAN_REACH, "Table-1", "Iiwa-1")

@@ -74,7 +74,7 @@ def test_classes_and_prefixes_of_a_scene_are_kept_with_its_facts() -> None:
     vocabulary = msgspec.structs.replace(
         VOCABULARY, classes={**VOCABULARY.classes, own.iri: own}, prefixes={**VOCABULARY.prefixes, "lab": "http://lab/"}
     )
-    state = WorldState.empty(vocabulary).changed([AddIndividual("http://lab/cup", (own.iri,))])
+    state = WorldState.empty(vocabulary).with_changes([AddIndividual("http://lab/cup", (own.iri,))])
     again = build_world(triple_difference(filling(state)).added, VOCABULARY, "it")
     assert again.is_a("http://lab/cup", iri("Product")) and again.vocabulary.short("http://lab/cup") == "lab:cup"
 
@@ -107,6 +107,6 @@ def test_many_problems_are_counted() -> None:
 
 @pytest.mark.parametrize("change", [individual("a b", "Product"), SetProperty(iri("box"), iri("label"), SCENE)])  # type: ignore[arg-type]
 def test_what_no_triple_can_state_is_refused(change: Change) -> None:
-    after = SCENE.changed([change, assign("box", "weight", 1.0)])
+    after = SCENE.with_changes([change, assign("box", "weight", 1.0)])
     with pytest.raises(StoreError, match="no store can keep"):
         triple_difference(filling(after))

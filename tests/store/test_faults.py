@@ -62,7 +62,7 @@ def test_a_passing_fault_is_not_noticed(server: str, proxy: Proxy, fault: Fault,
     proxy.fail(fault, times)
     model.commit([assign("box", "weight", 8.0)], "weighing")
     heard: list[ChangeEvent] = []
-    other.listen(heard.append)
+    other.subscribe(heard.append)
     other.follow()
     assert [event.origin for event in heard] == ["weighing"]
     assert proxy.next_fault() is None, "all faults happened"
@@ -72,7 +72,7 @@ def test_a_passing_fault_is_not_noticed(server: str, proxy: Proxy, fault: Fault,
 def test_a_lasting_fault_is_told_and_over_when_it_is_over(server: str, proxy: Proxy, fault: Fault) -> None:
     model, other = model_of(store_at(proxy.address, patience_s=0.2)), model_of(store_at(server))
     before, heard = model.snapshot(), list[str]()
-    other.listen(lambda event: heard.append(event.origin))
+    other.subscribe(lambda event: heard.append(event.origin))
     proxy.fail(fault, 1000)
     with pytest.raises(ServerUnreachable, match=WORDS[fault]):
         model.commit([assign("box", "weight", 8.0)], "first")
@@ -201,7 +201,13 @@ def test_credentials_are_in_no_message(proxy: Proxy, fault: Fault, address: str)
     place = address.format(host=urlsplit(proxy.address).netloc)
     endpoint = HttpEndpoint(place, "/query", "/update", 0.05)
     proxy.fail(fault, 100)
-    shown = [str(endpoint), repr(endpoint), repr(StoreChoice(place)), StoreChoice(place).name, repr(Address.of(place))]
+    shown = [
+        str(endpoint),
+        repr(endpoint),
+        repr(StoreChoice(place)),
+        StoreChoice(place).name,
+        repr(Address.parse(place)),
+    ]
     for ask in (lambda: endpoint.query("ASK {}", "text/csv"), lambda: SparqlStore(endpoint, patience_s=0.0).read()):
         try:
             ask()

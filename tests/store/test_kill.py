@@ -22,7 +22,7 @@ KILLS = int(os.environ.get("SKILLC_STORE_KILLS", "1"))
 def replayed(transactions: tuple[Transaction, ...]) -> WorldState:
     state = SCENE
     for each in transactions:
-        state = state.changed(each.changes)
+        state = state.with_changes(each.changes)
     return state
 
 

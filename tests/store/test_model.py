@@ -17,7 +17,7 @@ def two() -> tuple[WorldModel, WorldModel, MemoryStore]:
 def test_what_one_writes_the_other_hears_of_in_order() -> None:
     one, other, _ = two()
     heard: list[ChangeEvent] = []
-    other.listen(heard.append)
+    other.subscribe(heard.append)
     first = one.commit([assign("box", "weight", 4.0)], "weighing")
     second = one.commit([fact("shelf", "contain", "box")], "moving")
     assert not heard
@@ -31,7 +31,7 @@ def test_a_write_that_comes_second_is_made_to_what_the_first_left() -> None:
     one, other, store = two()
     store.interfere = lambda: one.commit([assign("arm", "state", "Fault")], "breaking") and None
     heard: list[str] = []
-    other.listen(lambda event: heard.append(event.origin))
+    other.subscribe(lambda event: heard.append(event.origin))
     event = other.commit([fact("table", "contain", "eraser")], "placing")
     assert heard == ["breaking", "placing"]
     assert event.before.value(iri("arm"), iri("state")) == "Fault"
@@ -50,7 +50,7 @@ def test_a_write_that_the_first_made_impossible_is_refused_and_not_kept() -> Non
 def test_a_store_that_cannot_keep_a_write_leaves_the_world_as_it_was() -> None:
     one, _, store = two()
     before, heard = one.snapshot(), list[ChangeEvent]()
-    one.listen(heard.append)
+    one.subscribe(heard.append)
     store.broken = True
     with pytest.raises(StoreError, match="gone"):
         one.commit([assign("box", "weight", 5.0)])

@@ -16,7 +16,7 @@ def test_processes_that_write_at_once_agree_on_one_order(tmp_path: Path) -> None
     model = model_of(store)
     writers = [Actor(write, str(tmp_path / "store"), seed, WRITES, f"writer-{seed}") for seed in range(WRITERS)]
     heard: list[str] = []
-    model.listen(lambda event: heard.append(event.origin))
+    model.subscribe(lambda event: heard.append(event.origin))
     while any(writer.process.is_alive() for writer in writers):
         model.follow()
     model.follow()

@@ -54,7 +54,7 @@ def test_those_who_write_at_once_agree_on_one_order(empty: str) -> None:
     models = [model_of(open_store(empty)) for _ in range(THREADS)]
     heard: list[list[str]] = [[] for _ in models]
     for model, origins in zip(models, heard, strict=True):
-        model.listen(lambda event, origins=origins: origins.append(event.origin))  # type: ignore[misc]
+        model.subscribe(lambda event, origins=origins: origins.append(event.origin))  # type: ignore[misc]
     with ThreadPoolExecutor() as threads:
         list(threads.map(_write, models, range(THREADS)))
     for model in models:

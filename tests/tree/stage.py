@@ -175,7 +175,7 @@ def world() -> WorldModel:
     """Return a world of flags, all on, and devices."""
     flags = [change for iri in FLAGS for change in (AddIndividual(iri, (FLAG,)), SetProperty(iri, ON, True))]
     devices = [AddIndividual(iri, (DEVICE,)) for iri in DEVICES]
-    return WorldModel(WorldState.empty(VOCABULARY).changed([*flags, *devices]))
+    return WorldModel(WorldState.empty(VOCABULARY).with_changes([*flags, *devices]))
 
 
 class Library:

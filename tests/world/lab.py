@@ -136,7 +136,7 @@ def parameter(name: str, type_: str, direction: str = "infer", any_: bool = Fals
     return Parameter(name=name, direction=direction, type=ClassType(iri(type_)), any_=any_, source=HERE)  # type: ignore[arg-type]
 
 
-SCENE = WorldState.empty(VOCABULARY).changed(
+SCENE = WorldState.empty(VOCABULARY).with_changes(
     (
         individual("shelf", "Location"),
         individual("table", "Location"),

@@ -14,7 +14,7 @@ def everything(state: WorldState) -> dict[str, Any]:
     return {
         "direct": dict(state.direct.items()),
         "classes": dict(state.classes.items()),
-        "members": {cls: members.all() for cls, members in state.members.items() if members.all()},
+        "members": {cls: members.members() for cls, members in state.members.items() if members.members()},
         "asserted": {iri: _both_ways(state, state.asserted, iri) for iri in relations},
         "facts": {iri: _both_ways(state, state.facts, iri) for iri in relations},
         "stored": {iri: _values(table.items()) for iri, table in state.stored.items()},

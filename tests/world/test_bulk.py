@@ -41,7 +41,7 @@ def test_a_state_made_at_once_is_that_made_by_changes(
     vocabulary: Vocabulary, added: list[AddRelation], chance: Random
 ) -> None:
     types = {iri(name): [iri(each) for each in chance.sample(CLASSES, chance.randint(1, 2))] for name in NAMES}
-    one_by_one = WorldState.empty(vocabulary).changed(
+    one_by_one = WorldState.empty(vocabulary).with_changes(
         [*(AddIndividual(name, tuple(of)) for name, of in types.items()), *added]
     )
     related = {relation: [(a.subject, a.object) for a in added if a.relation == relation] for relation in NAMES_OF}
@@ -158,5 +158,5 @@ UNSOUND = [
 
 def test_a_sound_world_is_one_whose_every_fact_obeys() -> None:
     empty = WorldState.empty(VOCABULARY)
-    assert satisfies_axioms(empty.changed(SOUND))
-    assert UNSOUND and not any(satisfies_axioms(empty.changed([*SOUND, *changes])) for changes in UNSOUND)  # type: ignore[list-item]
+    assert satisfies_axioms(empty.with_changes(SOUND))
+    assert UNSOUND and not any(satisfies_axioms(empty.with_changes([*SOUND, *changes])) for changes in UNSOUND)  # type: ignore[list-item]

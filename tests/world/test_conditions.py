@@ -29,7 +29,7 @@ from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.state.python_calls import EvaluationError
 from world.lab import SCENE, VOCABULARY, assign, fact, holds, individual, iri
 
-STATE = SCENE.changed([fact("gripper", "contain", "eraser"), individual("shelf-2", "Location")])
+STATE = SCENE.with_changes([fact("gripper", "contain", "eraser"), individual("shelf-2", "Location")])
 
 
 def i(name: str) -> Individual:
@@ -179,5 +179,5 @@ def test_what_cannot_be_decided_is_an_error_and_neither_true_nor_false(condition
 def test_a_value_that_is_missing_is_named() -> None:
     with pytest.raises(EvaluationError, match="eraser has no weight in the world model"):
         value_of(Arithmetic("+", Literal(1.0), PropertyOf(i("eraser"), iri("weight"))), STATE, {})
-    state = STATE.changed([assign("eraser", "weight", 0.1)])
+    state = STATE.with_changes([assign("eraser", "weight", 0.1)])
     assert value_of(Invoke("heavier", (PropertyOf(i("eraser"), iri("weight")),)), state, {}) == 1.1

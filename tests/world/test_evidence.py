@@ -36,7 +36,7 @@ def related(subject: str, relation: str, object_: str, holds: bool = True) -> Re
 
 def known(world: WorldModel, about: Fact) -> Evidence | str | None:
     """Return the evidence of a fact, `given` where no write concerns it."""
-    found = world.known(about)
+    found = world.deciding_write(about)
     return "given" if found is None else found.evidence
 
 
@@ -45,13 +45,13 @@ def test_the_last_write_decides_also_when_it_changes_nothing() -> None:
     assert known(world, weight) == "given"
     world.commit([assign("box", "weight", 4.0)])
     assert known(world, weight) == "assumed", "who does not say how it is known has not looked"
-    world.commit([assign("box", "weight", 4.0)], known="sensed")
+    world.commit([assign("box", "weight", 4.0)], evidence="sensed")
     assert known(world, weight) == "sensed"
-    world.commit([assign("box", "weight", 4.0)], known="reported")
+    world.commit([assign("box", "weight", 4.0)], evidence="reported")
     assert known(world, weight) == "reported"
     world.commit([ClearProperty(iri("box"), iri("weight"))], "Forget")
     assert known(world, weight) == "assumed"
-    assert world.known(weight).origin == "Forget"
+    assert world.deciding_write(weight).origin == "Forget"
 
 
 def test_what_a_write_displaces_is_known_by_it() -> None:
@@ -96,26 +96,26 @@ def test_a_chain_is_as_weak_as_its_weakest_link() -> None:
 def test_computed_values_are_known_as_what_changed_them() -> None:
     world, load = WorldModel(SCENE), PropertyFact(iri("shelf"), iri("load"))
     assert known(world, load) == "given"
-    world.commit([fact("shelf", "contain", "eraser")], known="sensed")
+    world.commit([fact("shelf", "contain", "eraser")], evidence="sensed")
     assert known(world, load) == "given", "it was there"
-    world.commit([fact("shelf", "contain", "box")], known="reported")
+    world.commit([fact("shelf", "contain", "box")], evidence="reported")
     assert known(world, load) == "reported"
 
 
 def test_individuals_come_and_go_with_their_facts() -> None:
     world = WorldModel(SCENE)
-    world.commit([AddIndividual(iri("new"), (iri("Eraser"),))], known="sensed")
+    world.commit([AddIndividual(iri("new"), (iri("Eraser"),))], evidence="sensed")
     assert known(world, ClassFact(iri("new"), iri("Product"))) == "sensed"
-    world.commit([assign("new", "weight", 1.0)], known="sensed")
-    world.commit([RemoveIndividual(iri("new"))], known="assumed")
+    world.commit([assign("new", "weight", 1.0)], evidence="sensed")
+    world.commit([RemoveIndividual(iri("new"))], evidence="assumed")
     assert known(world, PropertyFact(iri("new"), iri("weight"))) == "assumed"
     assert known(world, ClassFact(iri("new"), iri("Product"), holds=False)) == "assumed"
 
 
 def test_what_is_taken_back_is_known_as_before() -> None:
     world, weight = WorldModel(SCENE), PropertyFact(iri("box"), iri("weight"))
-    world.commit([assign("box", "weight", 4.0)], known="sensed")
-    world.commit([assign("box", "weight", 5.0)], known="assumed")
+    world.commit([assign("box", "weight", 4.0)], evidence="sensed")
+    world.commit([assign("box", "weight", 5.0)], evidence="assumed")
     world.undo()
     assert known(world, weight) == "sensed"
     world.undo()
@@ -125,21 +125,21 @@ def test_what_is_taken_back_is_known_as_before() -> None:
 def test_what_others_write_is_no_claim_of_this_run() -> None:
     store = MemoryStore()
     one, other = model_of(store), model_of(store)
-    one.commit([assign("box", "weight", 4.0)], known="assumed")
-    other.commit([assign("box", "weight", 5.0)], known="assumed")
+    one.commit([assign("box", "weight", 4.0)], evidence="assumed")
+    other.commit([assign("box", "weight", 5.0)], evidence="assumed")
     one.follow()
     assert known(one, PropertyFact(iri("box"), iri("weight"))) is None
     assert known(other, PropertyFact(iri("box"), iri("weight"))) == "assumed"
 
 
 def test_old_writes_are_taken_together_and_the_weakest_counts(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(evidence, "LIMIT", 3)
+    monkeypatch.setattr(evidence, "MAX_WRITES", 3)
     world, weight = WorldModel(SCENE), PropertyFact(iri("box"), iri("weight"))
     world.commit([assign("box", "weight", 4.0)], "Weigh", "sensed")
     world.commit([assign("board", "isClean", True)], "Guess", "assumed")
     assert known(world, weight) == "sensed"
     for number in range(3):
-        world.commit([assign("eraser", "weight", float(number))], known="sensed")
+        world.commit([assign("eraser", "weight", float(number))], evidence="sensed")
     assert known(world, weight) == "assumed", "rather too weak than too strong"
     assert known(world, PropertyFact(iri("eraser"), iri("weight"))) == "sensed"
 
@@ -174,11 +174,11 @@ def test_a_condition_rests_on_the_facts_that_decide_it(condition: Condition, exp
     world.commit([fact("shelf", "contain", "eraser")], "Place", "assumed")
     found = find_grounds(condition, world, {})
     told = {
-        format_fact(label_fact(each.fact, world.snapshot())): each.established.evidence
+        format_fact(label_fact(each.fact, world.snapshot())): each.write.evidence
         for each in found
-        if each.established is not None
+        if each.write is not None
     }
     if expected is not None:
         assert told == expected
     else:
-        assert [each for each in found if each.assumed], "the last place is only assumed"
+        assert [each for each in found if each.is_assumed], "the last place is only assumed"

@@ -21,7 +21,7 @@ def test_no_parameters_need_no_answer() -> None:
 
 
 def test_the_requirement_that_left_none_is_named_with_what_holds_instead() -> None:
-    state = SCENE.changed([fact("gripper", "contain", "box")])
+    state = SCENE.with_changes([fact("gripper", "contain", "box")])
     answer = infer(WANTED, PICK, BINDINGS, state)
     assert isinstance(answer, NoneFound)
     assert (answer.requirement, answer.reason) == (EMPTY, "t:gripper contain t:box; needed: nothing")
@@ -31,14 +31,14 @@ def test_the_requirement_that_left_none_is_named_with_what_holds_instead() -> No
 
 
 def test_an_answer_of_another_class_is_none() -> None:
-    answer = infer(WANTED, PICK, BINDINGS, SCENE.changed([fact("robot", "contain", "eraser")]))
+    answer = infer(WANTED, PICK, BINDINGS, SCENE.with_changes([fact("robot", "contain", "eraser")]))
     assert isinstance(answer, NoneFound) and answer.requirement == THERE
     assert answer.reason == "t:robot contain t:eraser; needed: a t:Location contain t:eraser"
 
 
 def test_what_is_of_another_is_named_as_the_nearest() -> None:
     changes = (individual("arm-2", "Arm"), individual("gripper-2", "Gripper"), fact("arm-2", "hasGripper", "gripper-2"))
-    state = SCENE.changed([*changes, individual("arm-3", "Arm"), fact("gripper", "contain", "box")])
+    state = SCENE.with_changes([*changes, individual("arm-3", "Arm"), fact("gripper", "contain", "box")])
     answer = infer(WANTED, PICK, {**BINDINGS, "arm": iri("arm-3")}, state)
     assert isinstance(answer, NoneFound) and answer.requirement == MOUNTED
     (near,) = answer.nearest
@@ -47,14 +47,14 @@ def test_what_is_of_another_is_named_as_the_nearest() -> None:
 
 
 def test_what_is_of_another_class_is_named_as_the_nearest() -> None:
-    answer = infer(WANTED, PICK, BINDINGS, SCENE.changed([fact("robot", "contain", "eraser")]))
+    answer = infer(WANTED, PICK, BINDINGS, SCENE.with_changes([fact("robot", "contain", "eraser")]))
     assert isinstance(answer, NoneFound)
     other = [near.reason for near in answer.nearest if near.requirement is None]
     assert other == ["t:robot is a t:Robot; needed: t:Location"]
 
 
 def test_what_many_would_do_for_is_near_to_none() -> None:
-    crowd = SCENE.changed([individual(f"place-{n}", "Location") for n in range(9)])
+    crowd = SCENE.with_changes([individual(f"place-{n}", "Location") for n in range(9)])
     for state, count in ((SCENE, 2), (crowd, 0)):
         answer = infer(WANTED, PICK, {**BINDINGS, "object": iri("robot")}, state)
         assert isinstance(answer, NoneFound) and len(answer.nearest) == count
@@ -86,7 +86,7 @@ def test_any_takes_the_first_in_order_and_names_the_others() -> None:
 
 
 def test_the_join_agrees_with_trying_everything() -> None:
-    state = SCENE.changed(
+    state = SCENE.with_changes(
         [
             *(individual(f"box-{n}", "Product") for n in range(9)),
             *(individual(f"place-{n}", "Location") for n in range(3)),

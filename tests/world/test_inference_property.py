@@ -79,7 +79,7 @@ facts = st.one_of(
     st.builds(assign, st.sampled_from(PRODUCTS), st.just("weight"), st.sampled_from((0.5, 1.0, 2.0))),
 )
 added = (individual("place-1", "Location"), individual("part-1", "Product"), individual("gripper-1", "Gripper"))
-scenes = st.lists(facts, max_size=6).map(lambda changes: SCENE.changed((*added, *changes)))
+scenes = st.lists(facts, max_size=6).map(lambda changes: SCENE.with_changes((*added, *changes)))
 wanted = st.lists(
     st.builds(parameter, st.sampled_from(NAMES), st.sampled_from(CLASSES), st.just("infer"), st.booleans()),
     min_size=1,

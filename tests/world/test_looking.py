@@ -21,10 +21,10 @@ def test_an_element_shows_what_is_known_of_it() -> None:
         True,
         False,
     )
-    assert box.quantities == (PropertyValue(iri("label"), ("red", "heavy"), ""), PropertyValue(iri("weight"), 3, "kg"))
-    assert str(box.quantity("t:weight")) == "3 kg" and box.quantity("t:label") == box.quantities[0]
-    assert find_element(SCENE, "t:arm").quantity("t:isClean") is None
-    assert str(find_element(SCENE, "t:table").quantity("t:load")) == "1"
+    assert box.properties == (PropertyValue(iri("label"), ("red", "heavy"), ""), PropertyValue(iri("weight"), 3, "kg"))
+    assert str(box.property_value("t:weight")) == "3 kg" and box.property_value("t:label") == box.properties[0]
+    assert find_element(SCENE, "t:arm").property_value("t:isClean") is None
+    assert str(find_element(SCENE, "t:table").property_value("t:load")) == "1"
     assert [str(each) for each in robot.objects("t:within-it")] == ["t:arm", "t:gripper"]
     assert robot.relations == ((iri("at"), iri("table")), (iri("hasA"), iri("arm")))
     assert [str(each) for each in box.subjects("t:contain")] == ["t:table"]
@@ -62,10 +62,12 @@ def test_names_of_nothing_are_told(look: object, words: str) -> None:
     assert words in str(caught.value)
 
 
-SHEETS = WorldState.empty(VOCABULARY).changed(
+SHEETS = WorldState.empty(VOCABULARY).with_changes(
     [individual("arm", "Arm"), individual("gripper", "WsgGripper"), fact("arm", "hasGripper", "gripper")]
 )
-LATER = SCENE.changed([fact("table", "contain", "eraser"), assign("box", "weight", 5.0), individual("box", "Eraser")])
+LATER = SCENE.with_changes(
+    [fact("table", "contain", "eraser"), assign("box", "weight", 5.0), individual("box", "Eraser")]
+)
 
 
 def test_facts_come_from_sheets_scene_run_or_axioms() -> None:
@@ -100,7 +102,7 @@ def test_every_fact_comes_from_one_place() -> None:
 
 
 def test_a_fact_of_the_scene_that_comes_back_is_one_of_the_scene() -> None:
-    gone = SCENE.changed([RemoveRelation(iri("table"), iri("contain"), iri("box"))])
-    back = gone.changed([AddRelation(iri("table"), iri("contain"), iri("box"))])
+    gone = SCENE.with_changes([RemoveRelation(iri("table"), iri("contain"), iri("box"))])
+    back = gone.with_changes([AddRelation(iri("table"), iri("contain"), iri("box"))])
     contexts, contain = Provenance(SHEETS, SCENE), (iri("table"), iri("contain"), iri("box"))
     assert contexts.of_relation(gone, *contain) is None and contexts.of_relation(back, *contain) is FactSource.SCENE

@@ -16,9 +16,9 @@ def test_every_version_has_its_members(base: frozenset[str], writes: list[tuple[
     versions, expected = [VersionedSet(base)], [base]
     for changes, looked_at in writes:
         if looked_at:
-            assert versions[-1].all() == expected[-1]
-        versions.append(versions[-1].updated(changes))
+            assert versions[-1].members() == expected[-1]
+        versions.append(versions[-1].with_changes(changes))
         gone = {name for name, is_in in changes.items() if not is_in}
         expected.append(expected[-1] - gone | (changes.keys() - gone))
-    assert [version.all() for version in versions] == expected and len(versions) == len(writes) + 1
-    assert all(type(version.all()) is frozenset for version in versions)
+    assert [version.members() for version in versions] == expected and len(versions) == len(writes) + 1
+    assert all(type(version.members()) is frozenset for version in versions)

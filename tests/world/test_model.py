@@ -7,7 +7,8 @@ import pytest
 from skillc_model.conditions import Anything, Assert, Assign, Individual, Literal, Retract, Variable
 from skillc_runtime.world.eval.effects import changes_of
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation
-from skillc_runtime.world.state.model import ChangeEvent, WorldError, WorldModel
+from skillc_runtime.world.state.model import WorldError, WorldModel
+from skillc_runtime.world.state.transactions import ChangeEvent
 from world.lab import SCENE, VOCABULARY, assign, fact, individual, iri
 
 REFUSED = [
@@ -34,7 +35,7 @@ REFUSED = [
 def test_a_write_that_breaks_an_axiom_is_refused_whole(change: Change, words: str) -> None:
     model = WorldModel(SCENE)
     events: list[ChangeEvent] = []
-    model.listen(events.append)
+    model.subscribe(events.append)
     with pytest.raises(WorldError) as caught:
         model.commit([assign("box", "weight", 4.0), change])
     assert words in str(caught.value)
@@ -42,7 +43,9 @@ def test_a_write_that_breaks_an_axiom_is_refused_whole(change: Change, words: st
 
 
 def test_asymmetry_is_kept() -> None:
-    state = SCENE.changed([individual("crate", "Holder"), individual("bin", "Holder"), fact("bin", "contain", "crate")])
+    state = SCENE.with_changes(
+        [individual("crate", "Holder"), individual("bin", "Holder"), fact("bin", "contain", "crate")]
+    )
     with pytest.raises(WorldError, match="asymmetric, and `t:bin t:contain t:crate` holds"):
         WorldModel(state).commit([fact("crate", "contain", "bin")])
 
@@ -57,7 +60,7 @@ def test_one_write_cannot_give_a_functional_relation_two_values() -> None:
 
 def test_a_write_is_told_with_before_and_after_until_nobody_listens() -> None:
     model, events = WorldModel(SCENE), list[ChangeEvent]()
-    stop = model.listen(events.append)
+    stop = model.subscribe(events.append)
     event = model.commit([fact("gripper", "contain", "eraser")], origin="Pick")
     stop()
     model.commit([fact("shelf", "contain", "eraser")])
@@ -82,7 +85,7 @@ def test_effects_become_changes_with_removals_first() -> None:
     state = WorldModel(SCENE).commit(changes).after
     assert state.subjects(iri("contain"), iri("eraser")) == {iri("gripper")}
     assert state.value(iri("board"), iri("isClean")) is True
-    assert state.having(iri("isClean"), True) == (iri("board"),)
+    assert state.individuals_with(iri("isClean"), True) == (iri("board"),)
 
 
 def test_retracting_a_relation_retracts_what_it_follows_from() -> None:

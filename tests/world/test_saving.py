@@ -47,7 +47,7 @@ def test_no_fact_is_lost(seed: int) -> None:
 @given(st.floats(allow_nan=False, allow_infinity=False), st.lists(st.text(st.characters(exclude_categories=["Cs"]))))
 def test_no_number_or_text_is_changed(number: float, texts: list[str]) -> None:
     labels = tuple(dict.fromkeys(texts)) or ("none",)
-    state = SCENE.changed([assign("box", "weight", number), assign("box", "label", labels)])
+    state = SCENE.with_changes([assign("box", "weight", number), assign("box", "label", labels)])
     found = again(state)
     assert repr(found.value(iri("box"), iri("weight"))) == repr(number)
     assert sorted(found.value(iri("box"), iri("label"))) == sorted(labels)  # type: ignore[arg-type]
@@ -100,14 +100,14 @@ def test_a_file_is_replaced_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
 
     monkeypatch.setattr(saving.os, "fsync", full)
     with pytest.raises(OSError, match="No space"):
-        save_scene(EMPTY.changed([individual("box", "Product")]), path, EMPTY)
+        save_scene(EMPTY.with_changes([individual("box", "Product")]), path, EMPTY)
     assert path.read_text("utf-8") == written and list(tmp_path.iterdir()) == [path]
 
 
 def test_what_no_scene_can_say_is_refused() -> None:
     with pytest.raises(SaveError, match="it is no IRI"):
-        format_scene(SCENE.changed([AddIndividual("a b", (iri("Product"),))]), EMPTY)
+        format_scene(SCENE.with_changes([AddIndividual("a b", (iri("Product"),))]), EMPTY)
     with pytest.raises(SaveError, match="nan is no number"):
-        format_scene(SCENE.changed([assign("box", "weight", float("nan"))]), EMPTY)
+        format_scene(SCENE.with_changes([assign("box", "weight", float("nan"))]), EMPTY)
     with pytest.raises(SaveError, match="cannot take back what data sheets say"):
-        format_scene(SCENE.changed([assign("box", "weight", 1.0)]), SCENE)
+        format_scene(SCENE.with_changes([assign("box", "weight", 1.0)]), SCENE)

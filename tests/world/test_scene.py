@@ -7,7 +7,7 @@ import pytest
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document, SceneError
 from skillc_runtime.scene.load import load_documents, load_scene
-from skillc_runtime.world.state.listing import list_entries
+from skillc_runtime.world.state.elements import elements_of
 from skillc_runtime.world.state.world_state import WorldState
 from world.lab import NS, VOCABULARY, iri
 
@@ -154,7 +154,7 @@ def test_a_file_that_cannot_be_read_is_an_error_of_the_scene(tmp_path: Path, con
 
 def test_the_listing_shows_what_was_written() -> None:
     state = world(GOOD)
-    entries = {entry.individual: entry for entry in list_entries(state, state.individuals)}
-    assert entries[LAB + "Table"].relations == ((iri("contain"), LAB + "Box"), (iri("contain"), LAB + "Eraser"))
-    assert entries[LAB + "Eraser"].types == (iri("Eraser"),)
-    assert entries[LAB + "Eraser"].properties == ((iri("weight"), 0.5),)
+    listed = {each.iri: each for each in elements_of(state, state.individuals)}
+    assert listed[LAB + "Table"].relations == ((iri("contain"), LAB + "Box"), (iri("contain"), LAB + "Eraser"))
+    assert listed[LAB + "Eraser"].types == (iri("Eraser"),)
+    assert [(each.property, each.value) for each in listed[LAB + "Eraser"].properties] == [(iri("weight"), 0.5)]

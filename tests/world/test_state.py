@@ -91,7 +91,7 @@ def test_every_version_holds_exactly_what_follows(vocabulary: Vocabulary, writes
     state, facts, types = WorldState.empty(vocabulary), set[Fact](), dict[str, set[str]]()
     versions = []
     for write in writes:
-        state = state.changed(write)
+        state = state.with_changes(write)
         for change in write:
             facts = applied(facts, change, vocabulary)
             if isinstance(change, AddIndividual):
@@ -118,7 +118,7 @@ def assert_same(state: WorldState, expected: set[Fact], types: dict[str, set[str
 
 
 def test_a_functional_relation_loses_its_former_value_and_an_inverse_functional_one_its_holder() -> None:
-    state = SCENE.changed([fact("robot", "at", "shelf"), fact("gripper", "contain", "eraser")])
+    state = SCENE.with_changes([fact("robot", "at", "shelf"), fact("gripper", "contain", "eraser")])
     assert state.objects(iri("robot"), iri("at")) == {iri("shelf")}
     assert state.objects(iri("eraser"), iri("containedIn")) == {iri("gripper")}
     assert SCENE.objects(iri("eraser"), iri("containedIn")) == {iri("shelf")}
@@ -127,7 +127,7 @@ def test_a_functional_relation_loses_its_former_value_and_an_inverse_functional_
 
 
 def test_versions_share_what_did_not_change() -> None:
-    state = SCENE.changed([fact("robot", "at", "shelf")])
+    state = SCENE.with_changes([fact("robot", "at", "shelf")])
     untouched = [r for r in state.facts if r != iri("at")]
     assert untouched and all(state.facts[r] is SCENE.facts[r] for r in untouched)
     assert state.members is SCENE.members and state.stored is SCENE.stored

@@ -9,8 +9,9 @@ from threading import Event, Thread
 import pytest
 
 from skillc_runtime.world.state.difference import changes_between
-from skillc_runtime.world.state.model import UNDOABLE, ChangeEvent, WorldError, WorldModel
+from skillc_runtime.world.state.model import MAX_UNDO, WorldError, WorldModel
 from skillc_runtime.world.state.names import NoSuchName
+from skillc_runtime.world.state.transactions import ChangeEvent
 from store.test_model import two
 from store.worlds import commits
 from world.lab import SCENE, assign, fact, individual, iri
@@ -21,7 +22,7 @@ SEEDS = range(int(os.environ.get("WORLD_SEEDS", "15")))
 
 def test_a_transaction_is_one_write() -> None:
     model, events = WorldModel(SCENE), list[ChangeEvent]()
-    model.listen(events.append)
+    model.subscribe(events.append)
     with model.transaction("tidy") as now:
         made = now.create("t:crate", "t:Product")
         now.set("t:crate", "t:weight", 2.0)
@@ -105,7 +106,7 @@ def test_changes_between_two_versions_lead_from_one_to_the_other(seed: int) -> N
     *_, one = commits(WorldModel(SCENE), Random(seed), 10)
     *_, other = commits(WorldModel(SCENE), Random(seed + 1000), 10)
     found = changes_between(one.after, other.after)
-    assert everything(one.after.changed(found)) == everything(other.after)
+    assert everything(one.after.with_changes(found)) == everything(other.after)
     assert changes_between(one.after, one.after) == () and found == changes_between(one.after, other.after)
 
 
@@ -130,16 +131,16 @@ def test_a_class_and_what_was_implied_are_taken_back() -> None:
 
 def test_only_the_last_writes_can_be_taken_back() -> None:
     model = WorldModel(SCENE)
-    for number in range(UNDOABLE + 5):
+    for number in range(MAX_UNDO + 5):
         model.commit([assign("box", "weight", float(number))])
     taken = 0
-    while taken <= UNDOABLE:
+    while taken <= MAX_UNDO:
         try:
             model.undo()
         except WorldError:
             break
         taken += 1
-    assert taken == UNDOABLE and model.snapshot().value(iri("box"), iri("weight")) == 4.0
+    assert taken == MAX_UNDO and model.snapshot().value(iri("box"), iri("weight")) == 4.0
 
 
 def test_a_version_never_changes() -> None:

@@ -8,15 +8,15 @@ from typing import Any
 
 from skillc.services.scenes import Individual, OpenScene, SceneDiff
 from skillc_runtime.scene.query import QueryResult, QueryValue
-from skillc_runtime.world.state.listing import ListingEntry
+from skillc_runtime.world.state.elements import Element
 from skillc_runtime.world.state.values import show, to_json
 
 
-def format_entries(entries: Iterable[ListingEntry], scene: OpenScene, as_json: bool) -> str:
+def format_elements(elements: Iterable[Element], scene: OpenScene, as_json: bool) -> str:
     """Return what is written of individuals: as text a paragraph for each, as JSON a list of objects."""
     if as_json:
-        return _json([_entry_data(entry, scene) for entry in entries])
-    return "\n\n".join(_entry_text(entry, scene) for entry in entries)
+        return _json([_element_data(each, scene) for each in elements])
+    return "\n\n".join(_element_text(each, scene) for each in elements)
 
 
 def format_individuals(individuals: Iterable[Individual], scene: OpenScene, as_json: bool) -> str:
@@ -43,33 +43,33 @@ def format_diff(diff: SceneDiff, as_json: bool) -> str:
     return "\n".join(f"{'-+'[sign]} {s} {p} {value}" for s, p, sign, value in sorted(lines)) or "no differences"
 
 
-def _entry_text(entry: ListingEntry, scene: OpenScene) -> str:
+def _element_text(element: Element, scene: OpenScene) -> str:
     """Return what is written of an individual, one statement to a line."""
-    short, label = scene.state.vocabulary.short, scene.labels.get(entry.individual)
+    short, label = scene.state.vocabulary.short, scene.labels.get(element.iri)
     called = "" if label is None else f'  "{label}"'
-    lines = [f"{short(entry.individual)}{called}  a {_names(entry.types, scene)}"]
-    lines += [f"    {short(relation)} {short(other)}" for relation, other in entry.relations]
-    lines += [f"    {short(name)} {show(value)}" for name, value in entry.properties]
+    lines = [f"{short(element.iri)}{called}  a {_names(element.types, scene)}"]
+    lines += [f"    {short(relation)} {short(other)}" for relation, other in element.relations]
+    lines += [f"    {short(each.property)} {show(each.value)}" for each in element.properties]
     return "\n".join(lines)
 
 
-def _entry_data(entry: ListingEntry, scene: OpenScene) -> dict[str, object]:
+def _element_data(element: Element, scene: OpenScene) -> dict[str, object]:
     short = scene.state.vocabulary.short
     related: dict[str, list[str]] = {}
-    for relation, other in entry.relations:
+    for relation, other in element.relations:
         related.setdefault(short(relation), []).append(short(other))
     return {
-        "individual": short(entry.individual),
-        "label": scene.labels.get(entry.individual),
-        "types": [short(each) for each in entry.types],
+        "individual": short(element.iri),
+        "label": scene.labels.get(element.iri),
+        "types": [short(each) for each in element.types],
         "relations": related,
-        "properties": {short(name): to_json(value) for name, value in entry.properties},
+        "properties": {short(each.property): to_json(each.value) for each in element.properties},
     }
 
 
 def _individual_text(known: Individual, scene: OpenScene) -> str:
     short = scene.state.vocabulary.short
-    lines = [_entry_text(known.entry, scene)]
+    lines = [_element_text(known.element, scene)]
     lines += [f"  also a   {_names(known.classes, scene)}"] if known.classes else []
     lines += [f"  from     {short(other)} {short(relation)}" for other, relation in known.leading]
     lines += [f"  follows  {short(relation)} {short(other)}" for relation, other in known.follows]
@@ -79,7 +79,7 @@ def _individual_text(known: Individual, scene: OpenScene) -> str:
 def _individual_data(known: Individual, scene: OpenScene) -> dict[str, object]:
     short = scene.state.vocabulary.short
     return {
-        **_entry_data(known.entry, scene),
+        **_element_data(known.element, scene),
         "also": [short(cls) for cls in known.classes],
         "from": [[short(other), short(relation)] for other, relation in known.leading],
         "follows": [[short(relation), short(other)] for relation, other in known.follows],

@@ -25,8 +25,7 @@ from skillc_runtime.scene.load import load_documents, sheet_documents
 from skillc_runtime.scene.query import QueryError, QueryResult, run_query
 from skillc_runtime.scene.statements import read_contents
 from skillc_runtime.store.triples import all_triples
-from skillc_runtime.world.state.elements import search_elements
-from skillc_runtime.world.state.listing import ListingEntry, list_entries
+from skillc_runtime.world.state.elements import Element, elements_of, search_elements
 from skillc_runtime.world.state.names import NoSuchName, resolve_individual
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -50,7 +49,7 @@ class OpenScene:
 class Individual:
     """All that is known of an individual: what is written of it, further classes, what leads to it, what follows."""
 
-    entry: ListingEntry
+    element: Element
     classes: tuple[str, ...]
     leading: tuple[tuple[str, str], ...]
     follows: tuple[tuple[str, str], ...]
@@ -93,16 +92,16 @@ def open_scene(
         yield OpenScene(path, compiled.vocabulary, document, state, labels, meant)
 
 
-def find_individuals(scene: OpenScene, words: str | None) -> tuple[ListingEntry, ...]:
+def find_individuals(scene: OpenScene, words: str | None) -> tuple[Element, ...]:
     """Return what is written of the individuals, or of those in whose names, labels, classes or texts words occur."""
     if words is None:
-        return list_entries(scene.state, scene.individuals)
+        return elements_of(scene.state, scene.individuals)
     wanted = words.casefold().split()
     labelled = {iri for iri, label in scene.labels.items() if all(word in label.casefold() for word in wanted)}
     found = ({each.iri for each in search_elements(scene.state, words)} | labelled) & scene.individuals
     if not found:
         raise ServiceError(f"nothing in the scene is called, or of a class called, or says `{words}`")
-    return list_entries(scene.state, found)
+    return elements_of(scene.state, found)
 
 
 def describe_individuals(scene: OpenScene, names: Sequence[str]) -> list[Individual]:
@@ -111,7 +110,7 @@ def describe_individuals(scene: OpenScene, names: Sequence[str]) -> list[Individ
         chosen = [resolve_individual(name, scene.state) for name in names]
     except NoSuchName as error:
         raise ServiceError(str(error)) from error
-    return [_describe(entry, scene.state) for entry in list_entries(scene.state, chosen)]
+    return [_describe(each) for each in elements_of(scene.state, chosen)]
 
 
 def query_scene(scene: OpenScene, sparql: str) -> QueryResult:
@@ -157,13 +156,13 @@ def _stored_document(place: str, state: WorldState) -> Document:
     return Document(place, "".join(sorted(f"{fact} .\n" for fact in all_triples(state) if fact not in shipped)))
 
 
-def _describe(entry: ListingEntry, state: WorldState) -> Individual:
-    one, written = entry.individual, set(entry.relations)
+def _describe(element: Element) -> Individual:
+    state, one, written = element.state, element.iri, set(element.relations)
     types = state.types(one)
     implied = ((relation, other) for relation in state.facts for other in state.objects(one, relation))
     leading = ((other, relation) for relation, links in state.asserted.items() for other in links.backward.get(one))
     return Individual(
-        entry,
+        element,
         tuple(sorted(state.axioms.superclasses(types) - types)),
         tuple(sorted(leading)),
         tuple(sorted(pair for pair in implied if pair not in written)),

@@ -31,7 +31,7 @@ def collect_success_facts(claims: Iterable[Claim], world: WorldModel) -> tuple[K
 
 
 def _make_known_fact(ground: Ground, state: WorldState) -> KnownFact:
-    fact, established = label_fact(ground.fact, state), ground.established
+    fact, established = label_fact(ground.fact, state), ground.write
     if established is None or established.evidence is None:
         return KnownFact(fact=fact, known="given")
     return KnownFact(fact=fact, known=established.evidence, by=established.origin)

@@ -57,12 +57,12 @@ class FactMonitor:
         found = []
         for expected in self._expected:
             said = expected.reading()
-            if said is not None and (expected.also_given or self._cell.world.known(expected.fact) is not None):
+            if said is not None and (expected.also_given or self._cell.world.deciding_write(expected.fact) is not None):
                 found.append(self._withdraw(expected.fact, said, state))
         return "; ".join(found) or None
 
     def _withdraw(self, fact: RelationFact, said: str, state: WorldState) -> str:
-        known = self._cell.world.known(fact)
+        known = self._cell.world.deciding_write(fact)
         change = RemoveRelation(fact.subject, fact.relation, fact.object)
         self._cell.world.commit([change], said, "reported")
         return f"{said}, but the world model said `{format_fact(label_fact(fact, state))}` ({describe_evidence(known)})"

@@ -93,7 +93,7 @@ def load_in_bulk(documents: Sequence[Document], vocabulary: Vocabulary) -> World
             table = read_table(documents, vocabulary)
         except (SyntaxError, UnicodeEncodeError):
             return None
-        if table.unusual:
+        if table.is_unusual:
             return None
         prefixes = {**table.prefixes, **vocabulary.prefixes}
         extended = with_classes(vocabulary, table.named[RDF_TYPE], table.named[SUBCLASS])
@@ -173,7 +173,7 @@ def _build_scene(
 ) -> Scene:
     placed = LocatedFacts(said, vocabulary)
     written = placed.changes()
-    state = WorldState.empty(vocabulary).changed(change for change, _ in written)
+    state = WorldState.empty(vocabulary).with_changes(change for change, _ in written)
     wrong = [*problems, *placed.problems(doubtful), *report_axiom_violations(state, written)]
     wrong += report_scene_violations(state, said, wrong, doubtful)
     return Scene(state, _sort_problems(wrong), said, doubtful)
@@ -183,7 +183,7 @@ def _with_scene_warnings(scene: Scene, written: Sequence[Statement], own: frozen
     """Return the scene with what is wrong with those of its statements that are no facts, and which have no effect."""
     vocabulary = scene.state.vocabulary
     claims = IdentityChecker(written, scene.state)
-    found = [*claims.problems(), *check_missing_classes(written, vocabulary), *check_language_tags(written, vocabulary)]
+    found = [*claims.check(), *check_missing_classes(written, vocabulary), *check_language_tags(written, vocabulary)]
     found += check_ineffective(written, select_facts(written, vocabulary), vocabulary, own, claims.used)
     return replace(scene, problems=_sort_problems([*scene.problems, *found]))
 

@@ -55,15 +55,15 @@ def format_scene(state: WorldState, without: WorldState, source: Document | None
     written = _TurtleWriter(state.vocabulary)
     for subject, predicate, object_ in _links(state):
         if not _is_asserted(without, subject, predicate, object_):
-            written.link(subject, predicate, object_)
+            written.add_link(subject, predicate, object_)
     for subject, property_, value in _values(state):
         if not has_value(without.value(subject, property_), value):
-            written.value(subject, property_, value)
+            written.add_value(subject, property_, value)
     for triple in (
         *_classes(state, without.vocabulary),
         *(_other_statements(source, state) if source is not None else ()),
     ):
-        written.triple(triple)
+        written.add_triple(triple)
     return written.text()
 
 
@@ -130,11 +130,11 @@ class _TurtleWriter:
         self._blank: dict[ox.BlankNode, str] = {}
         self._said: dict[str, dict[str, list[str]]] = defaultdict(lambda: defaultdict(list))
 
-    def link(self, subject: str, predicate: str, object_: str) -> None:
+    def add_link(self, subject: str, predicate: str, object_: str) -> None:
         """Say that a relation holds, or what something is."""
         self._said[self._name(subject)][predicate].append(self._name(object_))
 
-    def value(self, individual: str, property_: str, value: Value) -> None:
+    def add_value(self, individual: str, property_: str, value: Value) -> None:
         """Say a value; numbers are doubles, whatever they were written as."""
         counted = isinstance(self._vocabulary.properties[property_].type, NumberType)
         match value:
@@ -154,7 +154,7 @@ class _TurtleWriter:
                 )
         self._said[self._name(individual)][property_].append(text)
 
-    def triple(self, triple: ox.Triple) -> None:
+    def add_triple(self, triple: ox.Triple) -> None:
         """Say what a triple says."""
         self._said[self._term(triple.subject)][triple.predicate.value].append(self._term(triple.object))
 

@@ -39,7 +39,7 @@ class StatementTable:
     literal: dict[str, Literals] = field(default_factory=lambda: defaultdict(list))
     prefixes: dict[str, str] = field(default_factory=dict)
     nameless: set[str] = field(default_factory=set)
-    unusual: bool = False
+    is_unusual: bool = False
 
 
 def tabulate(statements: Iterable[Statement]) -> StatementTable:
@@ -63,15 +63,15 @@ def read_table(documents: Sequence[Document], vocabulary: Vocabulary) -> Stateme
         while _add(islice(parser, AT_ONCE), vocabulary.aliases, names, table):
             guard.check()
         if document is documents[0]:
-            table.unusual = not _is_plain(table, vocabulary)
+            table.is_unusual = not _is_plain(table, vocabulary)
         for prefix, base in parser.prefixes.items():
             other = vocabulary.namespaces.get(prefix, base) != base
-            table.unusual |= other and base not in vocabulary.namespaces.values()  # it may be misspelt
+            table.is_unusual |= other and base not in vocabulary.namespaces.values()  # it may be misspelt
             if prefix:
                 table.prefixes.setdefault(prefix, base)
-        if table.unusual:
+        if table.is_unusual:
             return table
-    table.unusual = _has_odd_terms(table, vocabulary)
+    table.is_unusual = _has_odd_terms(table, vocabulary)
     return table
 
 

@@ -67,9 +67,9 @@ def _violates_alone(state: WorldState, fact: IriTriple) -> bool:
 
 def _violating_facts(violation: AxiomViolation, own: IriTriple | None) -> frozenset[IriTriple]:
     """Return the facts that violate the axiom together."""
-    if own is None or own in violation.rivals or violation.axiom == "disjoint-classes":
-        return frozenset(violation.rivals)
-    return frozenset({own, *violation.rivals})
+    if own is None or own in violation.conflicting or violation.axiom == "disjoint-classes":
+        return frozenset(violation.conflicting)
+    return frozenset({own, *violation.conflicting})
 
 
 def _axiom_problem(
@@ -92,8 +92,8 @@ def _axiom_problem(
 
 def _violating_term(violation: AxiomViolation, own: Statement) -> Span:
     """Return the term that is wrong: the predicate where it does not fit what it is said of, else the object."""
-    subject_is_wrong = violation.misfit is not None and violation.misfit == iri_of(own.subject)
-    return own.predicate_place if subject_is_wrong and violation.misfit != iri_of(own.object) else own.object_place
+    subject_is_wrong = violation.mistyped is not None and violation.mistyped == iri_of(own.subject)
+    return own.predicate_place if subject_is_wrong and violation.mistyped != iri_of(own.object) else own.object_place
 
 
 def _help(violation: AxiomViolation) -> str:

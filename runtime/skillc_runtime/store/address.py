@@ -31,7 +31,7 @@ class Address:
     _parts: SplitResult = field(repr=False)
 
     @staticmethod
-    def of(text: str) -> Address:
+    def parse(text: str) -> Address:
         """Return the address that a text is; StoreError where it is none."""
         name = without_credentials(text)
         try:
@@ -51,7 +51,7 @@ class Address:
     def __str__(self) -> str:
         return self.name
 
-    def below(self, path: str) -> Address:
+    def append_path(self, path: str) -> Address:
         """Return the address with a path behind its own."""
         return replace(self, name=self.name + path, _parts=self._parts._replace(path=self._parts.path + path))
 

@@ -50,14 +50,14 @@ class DiskStore:
 
     def close(self) -> None:
         """Leave the store, tidied up if nobody else uses it."""
-        if self._users.alone():
+        if self._users.try_exclusive():
             self._tidy_up()
         self._leave()
 
     def read(self) -> StoredWorld:
         """Return the facts as they are now."""
         kept = base.read(self._facts)
-        self._journal.begin(kept.sequence)
+        self._journal.start_after(kept.sequence)
         entries = self._journal.since(kept.sequence)
         if not entries:
             return kept
@@ -85,28 +85,28 @@ class DiskStore:
         return tuple(Transaction(each.sequence, each.origin, decode_changes(each.changes)) for each in entries)
 
     def _enter(self, reset: bool) -> None:
-        alone = self._users.alone()
+        alone = self._users.try_exclusive()
         if reset:
             self._reset(alone)
         elif alone:
             self._tidy_up()
-        self._users.join()
+        self._users.acquire_shared()
 
     def _leave(self) -> None:
         self._journal.close()
-        self._users.leave()
+        self._users.release()
 
     def _fill(self, origin: str, triples: Iterable[ox.Triple]) -> bool:
         with self._journal.locked():
             if self._facts.exists():
                 return False
             base.create(self._facts, triples, 1, origin)
-        self._journal.begin(1)
+        self._journal.start_after(1)
         return True
 
     def _reset(self, alone: bool) -> None:
         if not alone:
-            raise StoreError(f"{self._folder} cannot be reset while {self._users.others()} uses it")
+            raise StoreError(f"{self._folder} cannot be reset while {self._users.describe_others()} uses it")
         try:
             self._journal.clear()
             if self._facts.exists():
@@ -120,7 +120,7 @@ class DiskStore:
             return
         with contextlib.suppress(StoreError, OSError):
             before = base.sequence(self._facts)
-            self._journal.begin(before)
+            self._journal.start_after(before)
             entries = self._journal.since(before)
             if entries:
                 net = _net(entries)

@@ -75,8 +75,8 @@ class HttpEndpoint:
 
         A server is waited for `timeout_s` to say something, and TOTAL times that long for a whole answer.
         """
-        self._address, self._timeout_s = Address.of(address), timeout_s
-        self._query, self._update = self._address.below(query), self._address.below(update)
+        self._address, self._timeout_s = Address.parse(address), timeout_s
+        self._query, self._update = self._address.append_path(query), self._address.append_path(update)
         self._connection: http.client.HTTPConnection | None = None
 
     def __str__(self) -> str:
@@ -195,7 +195,7 @@ ROWS = "application/sparql-results+json"
 
 def find_endpoint(address: str, timeout_s: float = TIMEOUT_S) -> HttpEndpoint:
     """Return a server that answers queries and makes updates; StoreError when there is none at the address."""
-    name = Address.of(address)
+    name = Address.parse(address)
     refusals: list[StoreError] = []
     for query, update in FORMS:
         endpoint = HttpEndpoint(address, query, update, timeout_s)

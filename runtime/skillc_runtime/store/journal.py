@@ -48,7 +48,7 @@ class TransactionJournal:
         self._file = os.open(path, flags | os.O_CLOEXEC, 0o666)
         self._start = self._seen = _Place(0, 0)
 
-    def begin(self, sequence: int) -> None:
+    def start_after(self, sequence: int) -> None:
         """Read from the first line on; what goes up to the transaction of that number is kept elsewhere."""
         self._start = self._seen = _Place(sequence, 0)
 

@@ -22,23 +22,23 @@ class StoreLock:
         self._path = path
         self._file = os.open(path, os.O_RDONLY | os.O_CLOEXEC)
 
-    def join(self) -> None:
+    def acquire_shared(self) -> None:
         """Become a user, beside others; StoreError when somebody stays alone with the store for PATIENCE_S."""
         began = time.monotonic()
         while not self._lock(fcntl.LOCK_SH):
             if time.monotonic() - began > PATIENCE_S:
-                raise StoreError(f"{self._path.parent} is kept busy by {self.others()}; try again later")
+                raise StoreError(f"{self._path.parent} is kept busy by {self.describe_others()}; try again later")
             time.sleep(PAUSE_S)
 
-    def alone(self) -> bool:
+    def try_exclusive(self) -> bool:
         """Try to become the only user and say whether that worked; if not, this is no user any more."""
         return self._lock(fcntl.LOCK_EX)
 
-    def leave(self) -> None:
+    def release(self) -> None:
         """Be no user any more."""
         os.close(self._file)
 
-    def others(self) -> str:
+    def describe_others(self) -> str:
         """Return who else uses the store, in words: by number where the system tells."""
         try:
             locks = Path("/proc/locks").read_text(encoding="ascii")

@@ -40,7 +40,7 @@ def build_world(triples: Iterable[ox.Triple], library: Vocabulary, store: str) -
     vocabulary = msgspec.structs.replace(library, prefixes=prefixes, classes=classes)
     problems: list[str] = []
     changes = tuple(_changes(contents, vocabulary, problems))
-    state = WorldState.empty(vocabulary).changed(changes)
+    state = WorldState.empty(vocabulary).with_changes(changes)
     problems += [breach.message for change in changes for breach in axiom_violations(state, change)]
     if problems:
         distinct = list(dict.fromkeys(problems))

@@ -101,7 +101,7 @@ class Domains(Dice):
     def scene(self) -> WorldState:
         """Draw the facts of a small world that breaks no axiom."""
         people = [AddIndividual(iri(name), tuple(map(iri, classes))) for name, classes in self._typed.items()]
-        model = WorldModel(WorldState.empty(self.vocabulary).changed(people))
+        model = WorldModel(WorldState.empty(self.vocabulary).with_changes(people))
         names = list(self._typed)
         for _ in range(self._random.randint(1, 6)):
             subject, object_ = self._random.choice(names), self._random.choice(names)
@@ -109,7 +109,7 @@ class Domains(Dice):
                 model.commit((AddRelation(iri(subject), iri(self._random.choice(self.relations)), iri(object_)),))
         sizes = [SetProperty(iri(name), iri("size"), n) for n, name in enumerate(names) if self._random.random() < 0.8]
         modes = [SetProperty(iri(name), iri("mode"), "c") for name in names if self._random.random() < 0.5]
-        return model.snapshot().changed([*sizes, *modes])
+        return model.snapshot().with_changes([*sizes, *modes])
 
     def literal(self, names: list[str], anything: bool) -> Condition:
         """Draw a relation or property, mostly of variables, else of an individual that the scene may lack."""

@@ -75,4 +75,4 @@ def command(
             found = scenes.describe_individuals(opened, names)
             click.echo(scene_output.format_individuals(found, opened, as_json))
         else:
-            click.echo(scene_output.format_entries(scenes.find_individuals(opened, words), opened, as_json))
+            click.echo(scene_output.format_elements(scenes.find_individuals(opened, words), opened, as_json))

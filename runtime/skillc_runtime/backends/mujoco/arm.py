@@ -235,6 +235,6 @@ def _limits(model: Any, joints: list[int], actuator: int, facts: ArmSpec) -> Arm
     force, control = model.actuator_forcerange[span, 1], model.actuator_ctrlrange[span, 1]
     effort = force if facts.has_servos else control
     sheet, count = facts.sheet, len(joints)
-    stated = sheet.states("jointAccelerations")
+    stated = sheet.has("jointAccelerations")
     fastest = sheet.limits("jointAccelerations", count) if stated else np.full(count, np.inf)
     return ArmLimits(model.jnt_range[joints].copy(), sheet.limits("jointSpeeds", count), effort.copy(), fastest)

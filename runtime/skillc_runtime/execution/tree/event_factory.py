@@ -100,4 +100,4 @@ def collect_facts_at_failure(
 def make_change_event(event: ChangeEvent, time: float) -> WorldChanged:
     """Return the event of a change of the world model; `time` in seconds of the cell's clock."""
     changes = tuple(label_change(change, event.after.vocabulary) for change in event.changes)
-    return WorldChanged(time=time, origin=event.origin, changes=changes, known=event.known)
+    return WorldChanged(time=time, origin=event.origin, changes=changes, known=event.evidence)

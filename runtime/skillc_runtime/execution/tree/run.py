@@ -56,7 +56,7 @@ class TreeRun:
             library, cell, self._listeners if listeners else None, locks or DeviceLocks(), nodes_before
         )
         self._undo = UndoStack()
-        self._stop_listening = cell.world.listen(self._emit_world_change) if listeners else None
+        self._stop_listening = cell.world.subscribe(self._emit_world_change) if listeners else None
         self._root = build_node(body, self._context, LexicalScope(self._undo, failures=failures))
         self._path = ActivePath(self._root)
         self._paused_at: float | None = None
@@ -131,7 +131,7 @@ class TreeRun:
         """After the end: turn a success into a failure if a device contradicts the world model."""
         if self.status is not Status.SUCCESS:
             return
-        stop_listening = self._context.cell.world.listen(self._emit_world_change)
+        stop_listening = self._context.cell.world.subscribe(self._emit_world_change)
         try:
             contradiction = self._devices.withdraw_contradicted()
         finally:

@@ -28,10 +28,10 @@ def explain_not_sensed(post: Post, world: WorldModel, frame: Frame, writes_befor
     """Explain why a `sensed` post that holds was not measured since write number `writes_before`; None if it was."""
     for literal in conjuncts(post.condition):
         found = find_grounds(literal, world, frame)
-        assumed = next((ground for ground in found if ground.assumed), None)
+        assumed = next((ground for ground in found if ground.is_assumed), None)
         if assumed is not None:
             return f"`{post.text}` must be sensed, but {_describe_ground(assumed, world)}"
-        if not any(_is_sensed_since(ground.established, writes_before) for ground in found):
+        if not any(_is_sensed_since(ground.write, writes_before) for ground in found):
             old = f": {'; '.join(_describe_ground(ground, world) for ground in found)}" if found else ""
             return f"`{post.text}` must be sensed, and nothing has sensed it since the skill started{old}"
     return None
@@ -47,7 +47,7 @@ def _is_sensed(change: Change, world: WorldModel, writes_before: int) -> bool:
             holds = present is not None and are_equal(present, value)
         case _:
             return False
-    return holds and fact is not None and _is_sensed_since(world.known(fact), writes_before)
+    return holds and fact is not None and _is_sensed_since(world.deciding_write(fact), writes_before)
 
 
 def _is_sensed_since(established: DecidingWrite | None, writes_before: int) -> bool:
@@ -59,7 +59,7 @@ def _is_sensed_since(established: DecidingWrite | None, writes_before: int) -> b
 def _describe_ground(ground: Ground, world: WorldModel) -> str:
     """Return a fact with its evidence, for example "`lab:A contain lab:B` was assumed by Place"."""
     fact = format_fact(label_fact(ground.fact, world.snapshot()))
-    known = ground.established
+    known = ground.write
     if known is None or known.evidence is None:
         return f"`{fact}` was so before"
     by = f" by {known.origin}" if known.origin else ""

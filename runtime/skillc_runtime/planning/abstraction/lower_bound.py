@@ -127,7 +127,7 @@ class _StandIns:
     def _valued(self, property_: str, value: bool | str) -> Iterable[str]:
         """Return the stand-ins for somebody of whom a property may have a value."""
         if self._state.vocabulary.properties[property_].computed_by is None:
-            return {self._others[iri] for iri in self._state.having(property_, value) if iri in self._others}
+            return {self._others[iri] for iri in self._state.individuals_with(property_, value) if iri in self._others}
         return self._of_some(self._members, lambda iri: has_value(property_of(self._state, iri, property_), value))
 
     def _of_some(self, names: Iterable[str], holds: Callable[[str], bool]) -> Iterator[str]:

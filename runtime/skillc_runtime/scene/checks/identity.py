@@ -37,7 +37,7 @@ class IdentityChecker:
             self._about[each.subject].append(each)
         self.used: set[Node] = set()
 
-    def problems(self) -> Iterator[Diagnostic]:
+    def check(self) -> Iterator[Diagnostic]:
         """Yield what is wrong; `used` is complete afterwards."""
         for each in self._said:
             if each.predicate == SAME:

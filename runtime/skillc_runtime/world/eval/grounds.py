@@ -40,12 +40,12 @@ class Ground:
     """A fact that something rests on; `established` is None where it was given with the scene."""
 
     fact: Fact
-    established: DecidingWrite | None
+    write: DecidingWrite | None
 
     @property
-    def assumed(self) -> bool:
+    def is_assumed(self) -> bool:
         """Whether this run says so and nothing looked."""
-        return self.established is not None and self.established.evidence == "assumed"
+        return self.write is not None and self.write.evidence == "assumed"
 
 
 Grounds: TypeAlias = tuple[Ground, ...]
@@ -108,11 +108,11 @@ class _Finder:
         there = sorted(pairs(self._state, relation, subject, object_))
         if there:
             return _least_assumed([self._known([RelationFact(start, relation, end)]) for start, end in there])
-        gone = sorted(self._world.ledger.once_true(relation, subject, object_))
+        gone = sorted(self._world.ledger.formerly_true(relation, subject, object_))
         return self._known([RelationFact(start, relation, end, holds=False) for start, end in gone])
 
     def _known(self, facts: Iterable[Fact]) -> Grounds:
-        return tuple(Ground(fact, self._world.known(fact)) for fact in facts)
+        return tuple(Ground(fact, self._world.deciding_write(fact)) for fact in facts)
 
     def _true(self, condition: Condition, bindings: Bindings) -> bool | None:
         try:
@@ -122,7 +122,7 @@ class _Finder:
 
 
 def _least_assumed(alternatives: list[Grounds]) -> Grounds:
-    return min(alternatives, key=lambda found: sum(ground.assumed for ground in found))
+    return min(alternatives, key=lambda found: sum(ground.is_assumed for ground in found))
 
 
 def _each_once(found: Iterable[Ground]) -> Grounds:

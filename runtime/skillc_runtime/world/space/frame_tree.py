@@ -72,7 +72,7 @@ class FrameTree:
         renamed = former is None or former._values[FRAME_ID] is not self._values[FRAME_ID]
         self._owners: dict[str, list[str]] | None = None if former is None or renamed else former._owners
 
-    def serves(self, state: WorldState) -> bool:
+    def is_valid_for(self, state: WorldState) -> bool:
         """Whether everything is in the same place in that version."""
         return (
             state.classes is self._classes
@@ -166,7 +166,7 @@ class _FrameTrees:
         space = self._known.get(state)
         if space is None:
             latest = self._latest() or next(iter(self._known.values()), None)
-            space = latest if latest is not None and latest.serves(state) else FrameTree(state, latest)
+            space = latest if latest is not None and latest.is_valid_for(state) else FrameTree(state, latest)
             self._known[state] = space
             self._latest = ref(space)
         return space

@@ -36,9 +36,9 @@ class AxiomViolation:
 
     axiom: str
     message: str
-    rivals: tuple[IriTriple, ...] = ()
+    conflicting: tuple[IriTriple, ...] = ()
     causes: tuple[IriTriple, ...] = ()
-    misfit: str | None = None
+    mistyped: str | None = None
 
 
 def axiom_violations(state: WorldState, change: Change) -> Iterator[AxiomViolation]:
@@ -90,7 +90,7 @@ def _signature_violation(state: WorldState, term: RelationTerm, subject: str, ob
         "relation-domain" if wrong_subject else "relation-range",
         f"{short(term.iri)} takes {accepted}; {_describe_types(state, subject)}, {_describe_types(state, object_)}",
         causes=_types(state, misfit),
-        misfit=misfit,
+        mistyped=misfit,
     )
 
 
@@ -105,7 +105,7 @@ def _class_violations(state: WorldState, individual: str, types: tuple[str, ...]
         one, other = map(short, clash)
         both = f"{short(individual)} cannot be both a {one} and a {other}"
         facts = tuple((individual, RDF_TYPE, cls) for cls in clash)
-        yield AxiomViolation("disjoint-classes", f"{both}: the classes are disjoint", rivals=facts)
+        yield AxiomViolation("disjoint-classes", f"{both}: the classes are disjoint", conflicting=facts)
 
 
 def _relation_violations(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
@@ -123,7 +123,7 @@ def _relation_violations(state: WorldState, subject: str, relation: str, object_
     rivalry = _functional_conflict(state, fact)
     if rivalry is not None:
         reason, rivals = rivalry
-        yield AxiomViolation("functional-relation", f"{_format_fact(state, fact)}: {reason}", rivals=rivals)
+        yield AxiomViolation("functional-relation", f"{_format_fact(state, fact)}: {reason}", conflicting=rivals)
         return
     violation = standalone_violation(state, fact) or _with_fact(
         state, fact, next(_asymmetry_violations(state, *fact), None)
@@ -228,7 +228,7 @@ def _property_violations(state: WorldState, individual: str, property_: str, val
     if term.domains and not any(state.is_a(individual, domain) for domain in term.domains):
         owners = " or ".join(_class_name(state, domain) for domain in term.domains)
         message = stating(f"it belongs to {owners}; {_describe_types(state, individual)}")
-        yield AxiomViolation("property-domain", message, causes=_types(state, individual), misfit=individual)
+        yield AxiomViolation("property-domain", message, causes=_types(state, individual), mistyped=individual)
     for one in value if isinstance(value, tuple) and not term.functional else (value,):
         wrong = value_error(term, one)
         if wrong:

@@ -31,7 +31,7 @@ def build_world_state(vocabulary: Vocabulary, said: FactTables) -> WorldState:
     """Return the world of these facts, unchecked; none may take the place of another, as a functional relation's do."""
     empty = WorldState.empty(vocabulary)
     sets = _SetInterner()
-    direct = {individual: sets.same(frozenset(types)) for individual, types in said.types.items()}
+    direct = {individual: sets.intern(frozenset(types)) for individual, types in said.types.items()}
     classes = {individual: empty.axioms.superclasses(types) for individual, types in direct.items()}
     asserted = {**empty.asserted, **{iri: _links(pairs, sets) for iri, pairs in said.related.items()}}
     return WorldState(
@@ -53,11 +53,11 @@ class _SetInterner:
         self._one: dict[str, frozenset[str]] = {}
         self._all: dict[frozenset[str], frozenset[str]] = {}
 
-    def same(self, members: frozenset[str]) -> frozenset[str]:
+    def intern(self, members: frozenset[str]) -> frozenset[str]:
         """Return the set that is equal to this one."""
         return self._all.setdefault(members, members)
 
-    def grouped(self, pairs: Pairs) -> _Sets:
+    def group_pairs(self, pairs: Pairs) -> _Sets:
         """Return the second members of the pairs by the first."""
         one, found = self._one, dict[str, frozenset[str]]()
         several: dict[str, set[str]] = {}
@@ -117,7 +117,7 @@ class _RelationClosure:
 
 def _links(pairs: Pairs, sets: _SetInterner) -> PairIndex:
     listed = list(pairs)
-    forward, backward = sets.grouped(listed), sets.grouped((second, first) for first, second in listed)
+    forward, backward = sets.group_pairs(listed), sets.group_pairs((second, first) for first, second in listed)
     return PairIndex(VersionedMap(EMPTY, forward), VersionedMap(EMPTY, backward))
 
 

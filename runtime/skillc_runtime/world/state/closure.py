@@ -56,12 +56,12 @@ class ClosureBuilder:
             if end in self._assertions(source).objects(start):
                 self._retract(start, source, end)
 
-    def frozen(self) -> tuple[dict[str, PairIndex], dict[str, PairIndex]]:
+    def build(self) -> tuple[dict[str, PairIndex], dict[str, PairIndex]]:
         """Return the asserted relations and the facts of the finished version."""
         if not self._asserting:
             return self._asserted, self._facts
-        asserted = {**self._asserted, **{iri: draft.frozen() for iri, draft in self._asserting.items()}}
-        facts = {**self._facts, **{iri: draft.frozen() for iri, draft in self._following.items()}}
+        asserted = {**self._asserted, **{iri: draft.build() for iri, draft in self._asserting.items()}}
+        facts = {**self._facts, **{iri: draft.build() for iri, draft in self._following.items()}}
         facts.update((iri, asserted[iri]) for iri in self._asserting if iri in self._axioms.plain)
         return asserted, facts
 

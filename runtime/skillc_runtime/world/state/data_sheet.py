@@ -52,7 +52,7 @@ class DataSheet:
             raise SheetError(f"{what} must be {count} numbers above 0, one for each joint: {self.text(name)!r}")
         return found
 
-    def states(self, name: str) -> bool:
+    def has(self, name: str) -> bool:
         """Whether the sheet says something."""
         return self.state.value(self.individual, SKILLC + name) is not None
 

@@ -29,7 +29,7 @@ def changes_between(before: WorldState, after: WorldState, about: Iterable[str] 
     existing = list(_individual_changes(before, after, individuals))
     lost = _asserted_relations(before, individuals) - _asserted_relations(after, individuals)
     changes = [*existing, *(RemoveRelation(*fact) for fact in sorted(lost))]
-    midway = before.changed(changes)
+    midway = before.with_changes(changes)
     missing = _asserted_relations(after, individuals) - _asserted_relations(midway, individuals)
     return (*changes, *(AddRelation(*fact) for fact in sorted(missing)), *_property_changes(midway, after, individuals))
 

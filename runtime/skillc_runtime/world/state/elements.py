@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from skillc_model.words import SI_UNITS
@@ -47,7 +47,7 @@ class Element:
         return tuple((name, each) for name, pairs in links for each in sorted(pairs.forward.get(self.iri)))
 
     @property
-    def quantities(self) -> tuple[PropertyValue, ...]:
+    def properties(self) -> tuple[PropertyValue, ...]:
         """The properties that are stored of it, sorted."""
         found = ((name, table.get(self.iri)) for name, table in sorted(self.state.stored.items()))
         known = self.state.vocabulary
@@ -60,18 +60,23 @@ class Element:
     def objects(self, relation: str) -> tuple[Element, ...]:
         """Return all that it has the relation to, what follows from axioms too, sorted by IRI."""
         found = self.state.objects(self.iri, _relation(relation, self.state.vocabulary))
-        return tuple(Element(self.state, each) for each in sorted(found))
+        return elements_of(self.state, found)
 
     def subjects(self, relation: str) -> tuple[Element, ...]:
         """Return all that have the relation to it, what follows from axioms too, sorted by IRI."""
         found = self.state.subjects(_relation(relation, self.state.vocabulary), self.iri)
-        return tuple(Element(self.state, each) for each in sorted(found))
+        return elements_of(self.state, found)
 
-    def quantity(self, property_: str) -> PropertyValue | None:
+    def property_value(self, property_: str) -> PropertyValue | None:
         """Return a property with its unit, computed if it is so declared; None when it has none."""
         iri = _property(property_, self.state.vocabulary)
         value = property_of(self.state, self.iri, iri)
         return None if value is None else PropertyValue(iri, value, unit_of(iri, self.state.vocabulary))
+
+
+def elements_of(state: WorldState, individuals: Iterable[str]) -> tuple[Element, ...]:
+    """Return individuals, given by IRI, sorted by IRI."""
+    return tuple(Element(state, each) for each in sorted(individuals))
 
 
 def find_element(state: WorldState, name: str) -> Element:
@@ -93,7 +98,7 @@ def find_elements(
     for name, value in (having or {}).items():
         table = state.stored[_property(name, known)]
         found = frozenset(each for each in found if has_value(table.get(each), value))
-    return tuple(Element(state, each) for each in sorted(found))
+    return elements_of(state, found)
 
 
 def search_elements(state: WorldState, words: str) -> tuple[Element, ...]:
@@ -114,7 +119,7 @@ def unit_of(property_: str, vocabulary: Vocabulary) -> str:
 
 def _text(each: Element) -> str:
     short = each.state.vocabulary.short
-    texts = [show(quantity.value) for quantity in each.quantities]
+    texts = [show(quantity.value) for quantity in each.properties]
     return " ".join([str(each), *map(short, each.types), *texts]).casefold()
 
 

@@ -48,7 +48,7 @@ class DecidingWrite:
 
 @dataclass(frozen=True, slots=True)
 class _Entry:
-    established: DecidingWrite
+    write: DecidingWrite
     changes: tuple[Change, ...]
     before: WorldState
     after: WorldState
@@ -79,7 +79,7 @@ class EvidenceLedger:
         """Forget the last write, which was taken back: what it concerned is known again as it was before."""
         self._entries.pop()
 
-    def established(self, fact: Fact, state: WorldState) -> DecidingWrite | None:
+    def deciding_write(self, fact: Fact, state: WorldState) -> DecidingWrite | None:
         """Return the write that decides how a fact, true in the present `state`, is known; None where it was given."""
         match fact:
             case RelationFact(relation=relation) if relation in state.axioms.computed:
@@ -90,14 +90,14 @@ class EvidenceLedger:
             case RelationFact() if fact.holds:
                 return weakest(map(self._last, _premises(fact, state)))
             case RelationFact():
-                excluding = (self.established(each, state) for each in _excluding_facts(fact, state))
+                excluding = (self.deciding_write(each, state) for each in _excluding_facts(fact, state))
                 return strongest((self._last(fact), *excluding))
             case PropertyFact() | ClassFact():
                 return self._last(fact)
             case _:
                 assert_never(fact)
 
-    def once_true(self, relation: str, subject: str | None, object_: str | None) -> set[tuple[str, str]]:
+    def formerly_true(self, relation: str, subject: str | None, object_: str | None) -> set[tuple[str, str]]:
         """Return the pairs of a relation, with a subject or an object, that held before some write."""
         found = set[tuple[str, str]]()
         for entry in self._entries:
@@ -107,7 +107,7 @@ class EvidenceLedger:
     def _last(self, fact: Fact) -> DecidingWrite | None:
         for entry in reversed(self._entries):
             if any(_is_stated_by(change, fact, entry.after) for change in entry.changes) or _is_changed_by(fact, entry):
-                return entry.established
+                return entry.write
         return None
 
 
@@ -217,11 +217,11 @@ def _excluding_facts(fact: RelationFact, state: WorldState) -> Iterator[Relation
 
 
 def _merge(one: _Entry, other: _Entry) -> _Entry:
-    weaker = one.established if _is_weaker(one, other) else other.established
-    kept = replace(weaker, number=other.established.number)
+    weaker = one.write if _is_weaker(one, other) else other.write
+    kept = replace(weaker, number=other.write.number)
     changes = {stated_fact(each) or each: each for each in (*one.changes, *other.changes)}
     return _Entry(kept, tuple(changes.values()), one.before, other.after)
 
 
 def _is_weaker(one: _Entry, other: _Entry) -> bool:
-    return _STRENGTH[one.established.evidence] < _STRENGTH[other.established.evidence]
+    return _STRENGTH[one.write.evidence] < _STRENGTH[other.write.evidence]

@@ -24,9 +24,7 @@ from skillc_runtime.world.state.open_transaction import OpenTransaction
 from skillc_runtime.world.state.transactions import ChangeEvent, Listener, NullStore, StoreError, TransactionLog
 from skillc_runtime.world.state.world_state import WorldState
 
-__all__ = ["UNDOABLE", "ChangeEvent", "Listener", "WorldError", "WorldModel"]
-
-UNDOABLE = 100
+MAX_UNDO = 100
 """So many of the last writes can be taken back."""
 
 
@@ -44,24 +42,24 @@ class WorldModel:
         self._sequence = sequence
         self._listeners: list[Listener] = []
         self._lock = RLock()
-        self._gathering = False
-        self._past: deque[ChangeEvent] = deque(maxlen=UNDOABLE)
+        self._in_transaction = False
+        self._past: deque[ChangeEvent] = deque(maxlen=MAX_UNDO)
         self.ledger = EvidenceLedger()
 
     def snapshot(self) -> WorldState:
         """Return the current version, which never changes."""
         return self._state
 
-    def listen(self, listener: Listener) -> Callable[[], None]:
+    def subscribe(self, listener: Listener) -> Callable[[], None]:
         """Call the listener after every write; return what ends that."""
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener)
 
-    def known(self, fact: Fact) -> DecidingWrite | None:
+    def deciding_write(self, fact: Fact) -> DecidingWrite | None:
         """Return the write that decides how a fact of the current version is known; None for one given at the start."""
-        return self.ledger.established(fact, self._state)
+        return self.ledger.deciding_write(fact, self._state)
 
-    def commit(self, changes: Iterable[Change], origin: str = "", known: Evidence = "assumed") -> ChangeEvent:
+    def commit(self, changes: Iterable[Change], origin: str = "", evidence: Evidence = "assumed") -> ChangeEvent:
         """Make all the changes or, when the world would break an axiom, none: WorldError says which.
 
         `known` is `sensed` or `reported` only where a device was read for them, now.
@@ -69,51 +67,51 @@ class WorldModel:
         store cannot keep the changes, and then the world stays as it was.
         """
         with self._lock:
-            if self._gathering:
+            if self._in_transaction:
                 raise WorldError("a transaction is open: write to it")
-            event = self._written(tuple(changes), origin, known)
-        self._tell(event)
+            event = self._commit(tuple(changes), origin, evidence)
+        self._notify(event)
         return event
 
     @contextmanager
-    def transaction(self, origin: str = "", known: Evidence = "assumed") -> Iterator[OpenTransaction]:
+    def transaction(self, origin: str = "", evidence: Evidence = "assumed") -> Iterator[OpenTransaction]:
         """Gather writes and commit them all when the block ends; none when it raises, nor when they are refused.
 
         Other threads wait with their writes for its end, and go on reading. WorldError for one within another.
         """
         with self._lock:
-            if self._gathering:
+            if self._in_transaction:
                 raise WorldError("a transaction is open already: write to it")
-            self._gathering = True
+            self._in_transaction = True
             try:
                 gathered = OpenTransaction(self._state)
                 yield gathered
             finally:
-                self._gathering = False
-            event = self._written(tuple(gathered.changes), origin, known) if gathered.changes else None
+                self._in_transaction = False
+            event = self._commit(tuple(gathered.changes), origin, evidence) if gathered.changes else None
         if event is not None:
-            self._tell(event)
+            self._notify(event)
 
     def undo(self, origin: str = "undo") -> ChangeEvent:
         """Take back the last write that is not taken back yet, as a write of its own; facts are known as before it.
 
-        WorldError when there is none: nothing was written here, others wrote since, or it is more than UNDOABLE ago.
+        WorldError when there is none: nothing was written here, others wrote since, or it is more than MAX_UNDO ago.
         """
         with self._lock:
-            if self._gathering:
+            if self._in_transaction:
                 raise WorldError("a transaction is open: end it first")
             self.follow()
             if not self._past:
                 raise WorldError("there is nothing to take back: nothing was written here since others wrote")
             last = self._past[-1]
             named = {individual for change in last.changes for individual in named_individuals(change)}
-            event = self._checked(changes_between(self._state, last.before, named), origin, None)
+            event = self._check(changes_between(self._state, last.before, named), origin, None)
             if not self._store.append(event, self._sequence):
                 raise WorldError("others wrote to the world meanwhile: nothing was taken back")
             self._advance(event)
             self._past.pop()
             self.ledger.drop_last()
-        self._tell(event)
+        self._notify(event)
         return event
 
     def follow(self) -> None:
@@ -122,47 +120,47 @@ class WorldModel:
         with self._lock:
             for transaction in self._store.since(self._sequence):
                 before, self._sequence = self._state, transaction.sequence
-                self._state = before.changed(transaction.changes)
+                self._state = before.with_changes(transaction.changes)
                 event = ChangeEvent(transaction.changes, transaction.origin, before, self._state, None)
                 events.append(event)
-                self._enter(event)
+                self._record(event)
                 self._past.clear()
         for event in events:
-            self._tell(event)
+            self._notify(event)
 
-    def _written(self, changes: tuple[Change, ...], origin: str, known: Evidence) -> ChangeEvent:
-        event = self._checked(changes, origin, known)
+    def _commit(self, changes: tuple[Change, ...], origin: str, evidence: Evidence) -> ChangeEvent:
+        event = self._check(changes, origin, evidence)
         while not self._store.append(event, self._sequence):
             before = self._sequence
             self.follow()
             if self._sequence == before:
                 raise StoreError(f"{self._store} refuses a write, although nobody else has written")
-            event = self._checked(changes, origin, known)
+            event = self._check(changes, origin, evidence)
         self._advance(event)
         self._past.append(event)
-        self._enter(event)
+        self._record(event)
         return event
 
     def _advance(self, event: ChangeEvent) -> None:
         self._state = event.after
         self._sequence += 1
 
-    def _enter(self, event: ChangeEvent) -> None:
-        self.ledger.add(event.changes, event.before, event.after, event.known, event.origin)
+    def _record(self, event: ChangeEvent) -> None:
+        self.ledger.add(event.changes, event.before, event.after, event.evidence, event.origin)
 
-    def _checked(self, made: tuple[Change, ...], origin: str, known: Evidence | None) -> ChangeEvent:
+    def _check(self, made: tuple[Change, ...], origin: str, evidence: Evidence | None) -> ChangeEvent:
         """Return what the changes would make of the current version; WorldError when that is refused."""
         before = self._state
         strange = [iri for change in made if (iri := unknown_term(before, change)) is not None]
         if strange:
             raise WorldError(f"there is no relation or property {before.vocabulary.short(strange[0])}")
-        after = before.changed(made)
+        after = before.with_changes(made)
         problems = [breach.message for change in _effective_changes(made) for breach in axiom_violations(after, change)]
         if problems:
             raise WorldError("; ".join(dict.fromkeys(problems)))
-        return ChangeEvent(made, origin, before, after, known)
+        return ChangeEvent(made, origin, before, after, evidence)
 
-    def _tell(self, event: ChangeEvent) -> None:
+    def _notify(self, event: ChangeEvent) -> None:
         for listener in tuple(self._listeners):
             listener(event)
 

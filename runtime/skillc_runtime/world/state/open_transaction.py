@@ -75,7 +75,7 @@ class OpenTransaction:
         strange = [iri for change in changes if (iri := unknown_term(self._begun, change)) is not None]
         if strange:
             raise ValueError(f"there is no relation or property {short(strange[0])}")
-        self._state = self._state.changed(changes)
+        self._state = self._state.with_changes(changes)
         self.changes += changes
 
     def _iri(self, name: str) -> str:

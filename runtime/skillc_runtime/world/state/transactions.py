@@ -22,7 +22,7 @@ class ChangeEvent:
     origin: str
     before: WorldState
     after: WorldState
-    known: Evidence | None = "assumed"
+    evidence: Evidence | None = "assumed"
 
 
 Listener: TypeAlias = Callable[[ChangeEvent], None]

@@ -45,7 +45,7 @@ class VersionedMap(Generic[K, V]):
         yield from (entry for entry in self._base.items() if entry[0] not in recent)
         yield from (entry for entry in recent.items() if entry[1] is not empty)
 
-    def updated(self, changes: Mapping[K, V]) -> VersionedMap[K, V]:
+    def with_changes(self, changes: Mapping[K, V]) -> VersionedMap[K, V]:
         """Return the next version; this one stays as it is."""
         recent = {**self._recent, **changes}
         if len(recent) <= 16 + 2 * isqrt(len(self._base)):
@@ -67,21 +67,21 @@ class VersionedSet:
         self._recent = recent or {}
         self._all = None if recent else base
 
-    def all(self) -> frozenset[str]:
+    def members(self) -> frozenset[str]:
         """Return the members."""
         if self._all is None:
             present = {individual for individual, is_in in self._recent.items() if is_in}
             self._all = self._base.difference(self._recent) | present
         return self._all
 
-    def updated(self, changes: Mapping[str, bool]) -> VersionedSet:
+    def with_changes(self, changes: Mapping[str, bool]) -> VersionedSet:
         """Return the next version with individuals that are in it now, or are not; this one stays as it is."""
         if self._all is not None:
             return VersionedSet(self._all, changes)
         recent = {**self._recent, **changes}
         if len(recent) <= 16 + 2 * isqrt(len(self._base)):
             return VersionedSet(self._base, recent)
-        return VersionedSet(VersionedSet(self._base, recent).all())
+        return VersionedSet(VersionedSet(self._base, recent).members())
 
 
 EMPTY: frozenset[str] = frozenset()
@@ -138,12 +138,13 @@ class PairIndexBuilder:
             _writable(self._forward, self._links.forward, subject).discard(object_)
             _writable(self._backward, self._links.backward, object_).discard(subject)
 
-    def frozen(self) -> PairIndex:
+    def build(self) -> PairIndex:
         """Return the version written, the former one where nothing was."""
         if not self._forward:
             return self._links
         return PairIndex(
-            self._links.forward.updated(_sets(self._forward)), self._links.backward.updated(_sets(self._backward))
+            self._links.forward.with_changes(_sets(self._forward)),
+            self._links.backward.with_changes(_sets(self._backward)),
         )
 
 

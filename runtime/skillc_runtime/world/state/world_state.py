@@ -76,7 +76,7 @@ class WorldState:
 
     def instances(self, cls: str) -> frozenset[str]:
         """Return all individuals of a class and its subclasses."""
-        return self.members[cls].all() if cls in self.members else EMPTY
+        return self.members[cls].members() if cls in self.members else EMPTY
 
     def holds(self, subject: str, relation: str, object_: str) -> bool:
         """Whether the relation holds; KeyError for one the vocabulary lacks."""
@@ -110,20 +110,20 @@ class WorldState:
         """Return the stored value, None when missing; a tuple of all values for a property that is not functional."""
         return self.stored[property_].get(individual)
 
-    def having(self, property_: str, value: Value) -> tuple[str, ...]:
+    def individuals_with(self, property_: str, value: Value) -> tuple[str, ...]:
         """Return the individuals whose stored property has the value, sorted by IRI."""
         return tuple(
             sorted(individual for individual, found in self.stored[property_].items() if has_value(found, value))
         )
 
-    def changed(self, changes: Iterable[Change]) -> WorldState:
+    def with_changes(self, changes: Iterable[Change]) -> WorldState:
         """Return the next version with the changes made in order, unchecked (WorldModel.commit checks them).
 
         A functional relation loses the former value, an inverse functional one the former holder.
         """
         builder = WorldStateBuilder(self)
         for change in changes:
-            builder.make(change)
+            builder.apply(change)
         return builder.build()
 
 
@@ -138,7 +138,7 @@ class WorldStateBuilder:
         self._members: dict[str, dict[str, bool]] = {}
         self._values: dict[str, dict[str, Value | None]] = {}
 
-    def make(self, change: Change) -> None:
+    def apply(self, change: Change) -> None:
         """Make one change, unchecked."""
         match change:
             case AddRelation(subject, relation, object_):
@@ -159,17 +159,17 @@ class WorldStateBuilder:
     def build(self) -> WorldState:
         """Return the finished version."""
         state = self._state
-        asserted, facts = self._closure.frozen()
+        asserted, facts = self._closure.build()
         stored = state.stored
         if self._values:
-            stored = {**stored, **{iri: stored[iri].updated(values) for iri, values in self._values.items()}}
+            stored = {**stored, **{iri: stored[iri].with_changes(values) for iri, values in self._values.items()}}
         state = replace(state, asserted=asserted, facts=facts, stored=stored)
         if not self._direct:
             return state
         return replace(
             state,
-            direct=state.direct.updated(self._direct),
-            classes=state.classes.updated(self._classes),
+            direct=state.direct.with_changes(self._direct),
+            classes=state.classes.with_changes(self._classes),
             members={**state.members, **{cls: self._members_of(cls) for cls in self._members}},
         )
 
@@ -202,7 +202,7 @@ class WorldStateBuilder:
         self._classes[individual] = present
 
     def _members_of(self, cls: str) -> VersionedSet:
-        return self._state.members.get(cls, VersionedSet()).updated(self._members[cls])
+        return self._state.members.get(cls, VersionedSet()).with_changes(self._members[cls])
 
     def _remove_individual(self, individual: str) -> None:
         for relation in self._state.vocabulary.relations:
