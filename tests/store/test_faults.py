@@ -164,7 +164,7 @@ def test_an_answer_that_never_ends_is_given_up(proxy: Proxy, fault: Fault) -> No
 
 
 def test_an_answer_that_is_too_large_is_not_read(proxy: Proxy, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(http, "LARGEST", 10)
+    monkeypatch.setattr(http, "MAX_ANSWER_BYTES", 10)
     with pytest.raises(InvalidAnswer, match=r"answers with more than 0 MB, which is no world"):
         HttpEndpoint(proxy.address, "/query", "/update").query("ASK {}", "application/sparql-results+json")
 

@@ -26,7 +26,7 @@ def scene(folder: Path, size: int) -> Path:
 
 def test_a_file_too_large_for_the_memory_is_not_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = scene(tmp_path, MEGABYTE)
-    monkeypatch.setattr(room, "available", lambda: 10 * MEGABYTE)
+    monkeypatch.setattr(room, "available_bytes", lambda: 10 * MEGABYTE)
     with pytest.raises(SceneError) as caught:
         load_scene(path, VOCABULARY)
     (problem,) = caught.value.problems
@@ -36,7 +36,7 @@ def test_a_file_too_large_for_the_memory_is_not_read(tmp_path: Path, monkeypatch
 
 def test_a_scene_that_turns_out_to_be_too_large_is_given_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     left = iter((90 * MEGABYTE, 80 * MEGABYTE, 30 * MEGABYTE))
-    monkeypatch.setattr(room, "available", lambda: next(left))
+    monkeypatch.setattr(room, "available_bytes", lambda: next(left))
     with pytest.raises(SceneError, match=r"a part of it took 0\.05 GB of memory, and 0\.03 GB are free"):
         load_scene(scene(tmp_path, MEGABYTE // 100), VOCABULARY)
 
@@ -46,7 +46,7 @@ def test_mistakes_that_take_too_much_memory_to_find_are_said_to_be_there(
 ) -> None:
     path = scene(tmp_path, MEGABYTE)
     path.write_text(path.read_text("utf-8") + ":box-1 t:wieght 3 .\n", "utf-8")
-    monkeypatch.setattr(room, "available", lambda: 50 * MEGABYTE)
+    monkeypatch.setattr(room, "available_bytes", lambda: 50 * MEGABYTE)
     for reading in (load_scene, read_scene):
         with pytest.raises(SceneError, match="something may be wrong with it, and to find what"):
             reading(path, VOCABULARY)
