@@ -90,19 +90,19 @@ def test_pddl_means_what_the_world_model_means(seed: int) -> None:
 @pytest.mark.parametrize("seed", range(EXAMPLES or 5))
 def test_nothing_wrong_is_said_of_a_scene_from_a_part_of_it(seed: int) -> None:
     skills, state, goal = drawn(Dice(seed, CROWD))
-    breadth = AbstractionSize(1 + seed % 3, 1)
-    narrow = pose_problem(skills, state, goal, (), breadth)
+    size = AbstractionSize(1 + seed % 3, 1)
+    narrow = pose_problem(skills, state, goal, (), size)
     whole = AStar().plan(pose_problem(skills, state, goal).problem, LONG_S)
     bound = relax_scene(narrow, state)
     if bound is not None:
         assert cost_of(AStar().plan(bound, LONG_S)) <= cost_of(whole) + 1e-9
-    first = solve(skills, state, goal, (AStar(),), LONG_S, breadth=breadth)
+    first = solve(skills, state, goal, (AStar(),), LONG_S, size=size)
     if isinstance(first, Solved) and first.optimal != "proven":
         assert first.optimal == "optimal for the filtered problem"
         assert (first.at_least_s or 0.0) <= cost_of(whole) <= first.plan.duration_s
     else:
         assert cost_of(first) == pytest.approx(cost_of(whole))
-    proven = solve(skills, state, goal, (AStar(),), LONG_S, breadth=breadth, prove=True)
+    proven = solve(skills, state, goal, (AStar(),), LONG_S, size=size, prove=True)
     assert cost_of(proven) == pytest.approx(cost_of(whole))
     assert explain_unreachable(skills, state, goal) is None or isinstance(whole, Unsolvable)
 

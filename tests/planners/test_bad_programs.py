@@ -40,7 +40,7 @@ PLACES = (translating, searching, scheduling)
 BROKEN = {
     CRASH: "ended by signal 11",
     GARBAGE: "",
-    HANG: "time was up",
+    HANG: "ran out of time",
     ENDLESS: "",
     FILL: "",
     HOG: "MemoryError",
@@ -71,5 +71,5 @@ def test_without_a_place_to_work_in_a_planner_gives_up(
 ) -> None:
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "missing"))
     answer = place(tmp_path, "exit 0")
-    assert isinstance(answer, GaveUp) and "has no place to work in" in answer.why
+    assert isinstance(answer, GaveUp) and "cannot use its working folder" in answer.why
     assert not started(tmp_path)

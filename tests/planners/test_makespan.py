@@ -23,6 +23,7 @@ from skillc_runtime.execution.assignment import AchieveGoal, Assignment, Execute
 from skillc_runtime.planning.aries.solver import Aries, find_aries
 from skillc_runtime.planning.fast_downward import solver as fast_downward
 from skillc_runtime.planning.fast_downward.solver import FastDownward
+from skillc_runtime.planning.makespan.lower_bound import price_device_work
 from skillc_runtime.planning.makespan.minimise import ScheduleResult, minimise_makespan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule
 from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Unsolvable
@@ -30,7 +31,6 @@ from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.planning.schedule import Schedule, Scheduled
 from skillc_runtime.planning.search.astar import AStar
-from skillc_runtime.planning.search.device_work import price_device_work
 from skillc_runtime.planning.search.h_max import critical_path_s
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import validate
@@ -106,16 +106,16 @@ def test_a_better_schedule_is_taken_and_tightened() -> None:
 
 
 def test_a_wrong_schedule_is_rejected_and_reported() -> None:
-    wrong = (GaveUp("its time was up"), GOOD, Schedule(()), Schedule(QUICK.steps[:-1]))
+    wrong = (GaveUp("it ran out of time"), GOOD, Schedule(()), Schedule(QUICK.steps[:-1]))
     for each in wrong:
         answer = ask(each)
         assert isinstance(answer, Scheduled) and answer.planner == "built-in A*"
-        why = "its time was up" if isinstance(each, GaveUp) else "somebody returned a schedule that does not work"
+        why = "it ran out of time" if isinstance(each, GaveUp) else "somebody returned a schedule that does not work"
         assert why in (answer.note or "")
     assert len(wrong) == 4
 
 
-def test_effects_that_depend_on_what_there_is_are_refused_with_who_takes_them() -> None:
+def test_conditional_effects_are_refused_with_a_hint_at_other_planners() -> None:
     jump = skill(
         "Jump", (parameter("robot", "Robot"), parameter("to", "Location")), (), (post(holds("robot", "at", "to")),), 1.0
     )
@@ -124,7 +124,7 @@ def test_effects_that_depend_on_what_there_is_are_refused_with_who_takes_them() 
     assert isinstance(AStar().plan(problem, 20.0), Solved)
     refused = Aries("never started").schedule(problem, 20.0)
     assert isinstance(refused, GaveUp)
-    assert "Jump changes depends on what there is" in refused.why and "--minimise work do" in refused.why
+    assert "Jump changes depends on the state" in refused.why and "--minimise work do" in refused.why
 
 
 def test_what_has_no_plan_has_no_schedule() -> None:

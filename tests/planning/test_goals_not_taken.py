@@ -99,7 +99,7 @@ def test_a_goal_that_holds_takes_no_steps(lib: Path, goal: str, options: tuple[s
 @pytest.mark.parametrize("options", [(), ("--minimise", "makespan"), ("--prove",)])
 def test_a_goal_that_no_planner_can_take_is_no_claim(lib: Path, goal: str, options: tuple[str, ...]) -> None:
     said = plan(lib, goal, *options)
-    assert said.exit_code == 3 and said.stdout.startswith(f"no plan was looked for: {NOT_TAKEN[goal]}"), said.output
+    assert said.exit_code == 3 and said.stdout.startswith(f"no plan was searched for: {NOT_TAKEN[goal]}"), said.output
 
 
 def test_machines_are_told_whether_a_plan_was_looked_for(lib: Path) -> None:
@@ -126,6 +126,6 @@ def test_a_task_that_no_planner_can_take_is_told_before_it_runs(lib: Path, goal:
     checked = run("check", str(lib))
     assert f"`t` has a goal that no plan can be made for in its scene: {NOT_TAKEN[goal]}" in checked.output
     drawn = run("graph", str(lib), "t", "--plan")
-    assert drawn.exit_code == 3 and drawn.stderr.startswith("no plan was looked for: ")
+    assert drawn.exit_code == 3 and drawn.stderr.startswith("no plan was searched for: ")
     ran = run("run", task, "--json")
-    assert ran.exit_code == 3 and f"no plan was looked for: {NOT_TAKEN[goal]}" in ran.output
+    assert ran.exit_code == 3 and f"no plan was searched for: {NOT_TAKEN[goal]}" in ran.output

@@ -33,12 +33,12 @@ HEAVY = CROWD.with_changes([assign("eraser", "weight", 3.0)])
 
 
 def test_a_part_of_the_scene_is_enough_and_nothing_left_out_could_make_the_plan_shorter() -> None:
-    result = solve(WIPING, CROWD, CLEANED, (AStar(),), breadth=SMALL)
+    result = solve(WIPING, CROWD, CLEANED, (AStar(),), size=SMALL)
     assert isinstance(result, Solved)
     assert [step.skill for step in result.plan.steps] == ["Drive", "Pick", "Drive", "Clean"]
     assert result.optimal == "proven"
     far = [each for each in result.left_out if not each.harmless]
-    assert len(far) == 1 and len(far[0].what) > 12 and "far from what the goal speaks of" in far[0].why
+    assert len(far) == 1 and len(far[0].what) > 12 and "far from what the goal refers to" in far[0].why
 
 
 def test_a_plan_that_may_not_be_the_shortest_is_labelled_and_with_a_proof_the_scene_is_widened() -> None:
@@ -52,9 +52,9 @@ def test_a_plan_that_may_not_be_the_shortest_is_labelled_and_with_a_proof_the_sc
             assign("wiper-7", "weight", 0.2),
         ]
     )
-    narrow = solve(skills, light, CLEANED, (AStar(),), breadth=SMALL)
+    narrow = solve(skills, light, CLEANED, (AStar(),), size=SMALL)
     assert isinstance(narrow, Solved) and narrow.optimal == "optimal for the filtered problem"
-    proven = solve(skills, light, CLEANED, (AStar(),), breadth=SMALL, prove=True)
+    proven = solve(skills, light, CLEANED, (AStar(),), size=SMALL, prove=True)
     assert isinstance(proven, Solved) and proven.optimal == "proven"
     assert proven.plan.duration_s == pytest.approx(0.2 + 12 + 40)
     assert narrow.at_least_s is not None
@@ -72,16 +72,16 @@ def test_a_small_scene_is_widened_until_the_plan_is_proven() -> None:
         ]
     )
     skills, things = library(DRIVE, quick, CLEAN), len(light.individuals)
-    proven = solve(skills, light, CLEANED, (AStar(),), breadth=AbstractionSize(10, 2, things))
+    proven = solve(skills, light, CLEANED, (AStar(),), size=AbstractionSize(10, 2, things))
     assert isinstance(proven, Solved) and proven.optimal == "proven"
     assert proven.plan.duration_s == pytest.approx(0.2 + 12 + 40)
-    larger = solve(skills, light, CLEANED, (AStar(),), breadth=AbstractionSize(10, 2, 10))
+    larger = solve(skills, light, CLEANED, (AStar(),), size=AbstractionSize(10, 2, 10))
     assert isinstance(larger, Solved) and larger.optimal == "optimal for the filtered problem"
 
 
-def test_a_stand_in_has_what_one_of_those_has_whom_it_stands_for() -> None:
+def test_an_abstract_object_has_the_facts_of_each_of_its_members() -> None:
     narrow = pose_problem(WIPING, HEAVY.with_changes([assign("board", "isClean", True)]), CLEANED, (), SMALL)
-    assert narrow.narrowed and narrow.things == len(narrow.problem.objects) + len(
+    assert narrow.narrowed and narrow.candidate_count == len(narrow.problem.objects) + len(
         next(each for each in narrow.left_out if not each.harmless).what
     )
     bound = relax_scene(narrow, CROWD)
@@ -91,7 +91,7 @@ def test_a_stand_in_has_what_one_of_those_has_whom_it_stands_for() -> None:
 
 
 def test_that_a_large_scene_has_no_plan_is_proved_from_a_part_and_said_of_the_whole() -> None:
-    result = solve(WIPING, HEAVY, CLEANED, (AStar(),), breadth=SMALL)
+    result = solve(WIPING, HEAVY, CLEANED, (AStar(),), size=SMALL)
     assert isinstance(result, Unsolvable)
     assert "Pick needs light for t:eraser, which nothing fulfils" in result.why
     assert explain_unreachable(WIPING, HEAVY, CLEANED) is not None
@@ -100,16 +100,16 @@ def test_that_a_large_scene_has_no_plan_is_proved_from_a_part_and_said_of_the_wh
 
 def test_a_part_without_a_plan_is_widened() -> None:
     goal = Forall("x", iri("Eraser"), Not(Holds(Variable("x"), iri("containedIn"), Individual(iri("shelf")))))
-    result = solve(WIPING, CROWD, goal, (AStar(),), breadth=AbstractionSize(1, 1))
+    result = solve(WIPING, CROWD, goal, (AStar(),), size=AbstractionSize(1, 1))
     assert isinstance(result, Solved) and result.optimal == "proven"
     assert [step.skill for step in result.plan.steps] == ["Drive", "Pick"]
 
 
-def test_what_would_have_to_be_worked_out_for_too_many_things_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(initial, "MOST_VALUES", 10)
+def test_a_condition_with_too_many_combinations_of_objects_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(initial, "MAX_VALUES", 10)
     result = solve(WIPING, CROWD, CLEANED, (AStar(),))
     assert isinstance(result, GaveUp)
-    assert result.why == "condition `light` of Pick would have to be worked out for 13 things"
+    assert result.why == "condition `light` of Pick would have to be evaluated for 13 objects"
     assert explain_unreachable(WIPING, CROWD, CLEANED) is None
 
 

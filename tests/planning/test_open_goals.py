@@ -45,9 +45,9 @@ def test_an_open_goal_counts_everybody(goal: Condition, expected: list[str], pla
 
 def test_of_a_part_of_the_scene_nothing_is_claimed_about_who_was_left_out() -> None:
     goal = And((FULL, Not(Holds(ROBOT, AT, Anything()))))
-    narrow = solve(library(DRIVE, PICK, LIFT), LAB, goal, breadth=AbstractionSize(1, 1))
+    narrow = solve(library(DRIVE, PICK, LIFT), LAB, goal, size=AbstractionSize(1, 1))
     assert isinstance(narrow, Solved) and narrow.plan.duration_s == 29.5
-    whole = solve(library(DRIVE, PICK, LIFT), LAB, goal, breadth=AbstractionSize(1, 1), prove=True)
+    whole = solve(library(DRIVE, PICK, LIFT), LAB, goal, size=AbstractionSize(1, 1), prove=True)
     assert isinstance(whole, Solved) and whole.optimal == "proven"
 
 

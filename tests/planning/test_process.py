@@ -38,15 +38,15 @@ def plan(
 
 
 BROKEN = [
-    ({"translate": 'echo "undeclared object"; exit 31'}, "did not take the problem", "undeclared object"),
-    ({"translate": "kill -SEGV $$"}, "did not take the problem", "signal 11"),
+    ({"translate": 'echo "undeclared object"; exit 31'}, "did not accept the problem", "undeclared object"),
+    ({"translate": "kill -SEGV $$"}, "did not accept the problem", "signal 11"),
     ({"search": "kill -SEGV $$"}, "gave up", "signal 11"),
     ({"search": "exit 22"}, "gave up", "out of memory"),
     ({"search": "exit 34"}, "gave up", "heuristic does not support"),
     ({"search": "head -c 100 /dev/urandom; exit 99"}, "gave up", "code 99"),
-    ({"search": 'echo "(fly to the moon)" > proved'}, "no plan", "`fly to the moon` is no action"),
-    ({"search": "head -c 1000 /dev/urandom > proved; printf '(\\377' >> proved"}, "no plan", ""),
-    ({"search": "exit 22", "driver": 'echo "(drive)" > found.1; exit 23'}, "no plan", "`drive` is no action"),
+    ({"search": 'echo "(fly to the moon)" > proved'}, "invalid plan", "`fly to the moon` is not an action"),
+    ({"search": "head -c 1000 /dev/urandom > proved; printf '(\\377' >> proved"}, "invalid plan", ""),
+    ({"search": "exit 22", "driver": 'echo "(drive)" > found.1; exit 23'}, "invalid plan", "`drive` is not an action"),
 ]
 
 
@@ -100,7 +100,7 @@ def test_what_a_program_leaves_running_is_killed_too(tmp_path: Path) -> None:
 
 def test_a_planner_that_hangs_gives_up_in_time(tmp_path: Path) -> None:
     result = plan(tmp_path, search="sleep 60", driver="sleep 60", seconds=0.5)
-    assert isinstance(result, GaveUp) and "time was up" in result.why
+    assert isinstance(result, GaveUp) and "ran out of time" in result.why
 
 
 def test_a_program_that_is_missing_is_not_started(tmp_path: Path) -> None:

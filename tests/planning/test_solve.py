@@ -102,14 +102,14 @@ def test_a_skill_left_out_of_planning_is_named_when_the_goal_needs_it() -> None:
 @pytest.mark.parametrize(
     ("goal", "words"),
     [
-        (Holds(i("ghost"), iri("at"), i("dock")), "the goal speaks of t:ghost, which is not in the world model"),
+        (Holds(i("ghost"), iri("at"), i("dock")), "the goal names t:ghost, which is not in the world model"),
         (Holds(i("robot"), iri("near"), i("eraser")), "the goal reads `t:near`"),
     ],
 )
 def test_for_a_goal_that_cannot_be_planned_for_nothing_is_searched(goal: Condition, words: str) -> None:
     answer = solve(WIPING, LAB, goal)
     assert isinstance(answer, GaveUp) and not answer.searched
-    assert answer.message.startswith(f"no plan was looked for: {words}")
+    assert answer.message.startswith(f"no plan was searched for: {words}")
 
 
 def test_every_object_stands_once_with_its_most_specific_type_and_irrelevant_ones_are_left_out() -> None:
@@ -156,7 +156,7 @@ def test_a_plan_that_does_not_work_is_refused() -> None:
         "step 3, Clean: `here` does not hold": (*steps[:2], steps[3]),
         "the goal does not hold after the plan: board has no isClean": steps[:3],
         "step 1, Fly: there is no such skill": (Step("Fly", {}), *steps),
-        "step 1, Drive: `to` is t:arm, which is no t:Location": (
+        "step 1, Drive: `to` is t:arm, which is not a t:Location": (
             Step("Drive", {**steps[0].arguments, "to": iri("arm")}),
             *steps[1:],
         ),

@@ -152,7 +152,7 @@ def test_what_the_last_round_assigned_is_kept_and_the_variable_is_not() -> None:
 
 
 def inferring() -> Library:
-    """Return a library with a skill that turns off the one flag that is on, found anew at each start."""
+    """Return a library with a skill that turns off the one flag that is on, inferred again at each start."""
     library = Library()
     found = Parameter(name="flag", direction="infer", type=ClassType(FLAG), any_=True, source=here())
     off = Post(

@@ -1,1 +1,5 @@
-"""From a goal to a plan: the problem, the planners behind one seam, and the check of every plan."""
+"""From a goal to a validated plan. Start at `solve.solve`, or at `makespan.minimise` for plans with a short makespan.
+
+`problem` makes the planning problem; `search`, `fast_downward` and `aries` are the planners behind the protocols of
+`plan` and `schedule`; `abstraction` handles large scenes; `validation` executes every plan in the world model.
+"""

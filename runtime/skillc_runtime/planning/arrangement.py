@@ -1,4 +1,4 @@
-"""Arranges the steps of a plan in series and in parallel, by which step has to wait for which."""
+"""Arranges the steps of a plan in series and in parallel, by the order that their effects and devices require."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from skillc_model.read_write import ReadWriteSet, facts_read
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.planning.validation import apply_step, compute_effects
-from skillc_runtime.planning.world_changes import changed_between, settled_by
+from skillc_runtime.planning.world_changes import find_changed_facts, find_settled_facts
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -31,7 +31,7 @@ class InParallel:
 
 
 Arrangement: TypeAlias = "int | InSeries | InParallel"
-"""Steps by their index in the plan."""
+"""A series-parallel order of steps, which are given by their index in the plan."""
 
 
 def arrange_plan(plan: Plan, library: SkillLibrary, state: WorldState) -> Arrangement:
@@ -109,20 +109,20 @@ def _read_write_sets(steps: Iterable[Step], library: SkillLibrary, state: WorldS
 def read_write_set(
     step: Step, library: SkillLibrary, locked: Mapping[str, tuple[str, ...]], before: WorldState, after: WorldState
 ) -> ReadWriteSet:
-    """Return what a step reads and writes between two versions of the world; `locked` as of `devices`."""
+    """Return what a step reads and writes between two versions of the world; `locked`: device parameters by skill."""
     vocabulary = before.vocabulary
     reads = (fact for each in _conditions(step, library) for fact in facts_read(each, step.arguments, vocabulary))
-    settles = (fact for each in compute_effects(step, library, before) for fact in settled_by(each, before))
+    settles = (fact for each in compute_effects(step, library, before) for fact in find_settled_facts(each, before))
     return ReadWriteSet(
         reads=frozenset(reads),
-        writes=frozenset(changed_between(before, after)),
+        writes=frozenset(find_changed_facts(before, after)),
         settles=frozenset(settles),
         devices=frozenset(step.arguments[name] for name in locked[step.skill] if name in step.arguments),
     )
 
 
 def _conditions(step: Step, library: SkillLibrary) -> Iterator[Condition]:
-    """Yield what must hold when a step starts and while it runs, for all implementations."""
+    """Yield the preconditions and hold conditions of a step's skill and of all its implementations."""
     skill = library.skills[step.skill]
     alternatives = ((each.pre, each.hold) for each in library.implementations_of(skill.name))
     for requirements in ((skill.pre, skill.hold), *alternatives):

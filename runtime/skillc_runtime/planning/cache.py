@@ -1,7 +1,7 @@
-"""Planners that remember: the same problem, given to the same program, is not solved twice.
+"""Planners with a cache: the same problem, given to the same program, is not solved twice.
 
-An answer is found by all that it depends on: the problem as text, the names of its things, the program, its version and
-limits. One that was found in the last moment is good enough only for those who have no more time.
+The key of an answer covers everything that it depends on: the problem as text, the names of its objects, the program,
+its version and its limits. An answer that used up its time limit is reused only by callers who have no more time.
 """
 
 from __future__ import annotations
@@ -19,103 +19,106 @@ from skillc_model.pddl.text import domain_text, problem_text, temporal_problem_t
 from skillc_runtime.planning.plan import GaveUp, Planner, PlanResult, Solved
 from skillc_runtime.planning.schedule import Schedule, Scheduler
 
-FORMAT = 2
-"""Counts up when the meaning of what is kept changes."""
+FORMAT = 3
+"""Raised with every change of what cached answers mean."""
 
-SLACK = 0.95
-"""An answer that took more of its time may have been cut short; so little more time is no reason to look again."""
+FULL_SHARE = 0.95
+"""A planner that used more than this share of its time limit may have been stopped by it."""
 
-
-Kept = TypeVar("Kept", "CachedPlan", "CachedSchedule")
+Entry = TypeVar("Entry", "CachedPlan", "CachedSchedule")
 
 
 class PlanCache(Protocol):
-    """A place where answers are kept, whole or not at all."""
+    """A persistent store of answers; an entry is stored completely or not at all."""
 
     def get(self, key: str) -> bytes | None:
-        """Return what was kept under a key, None where there is nothing or where it is damaged."""
+        """Return the content that is stored under a key, or None if it is missing or damaged."""
         ...
 
     def put(self, key: str, content: bytes) -> None:
-        """Keep something; never raises where it cannot."""
+        """Store content under a key; a failure to store it is ignored."""
         ...
 
 
 class CachedPlan(msgspec.Struct, frozen=True):
-    """A plan, the time there was to find it, in seconds, and whether that was more than needed."""
+    """A plan, the time limit for finding it in s, and whether the planner ended before that limit."""
 
     solved: Solved
     deadline_s: float
-    unhurried: bool
+    ended_early: bool
 
 
 class CachedSchedule(msgspec.Struct, frozen=True):
-    """A schedule, the time there was to find it, in seconds, and whether that was more than needed."""
+    """A schedule, the time limit for finding it in s, and whether the scheduler ended before that limit."""
 
     schedule: Schedule
     deadline_s: float
-    unhurried: bool
+    ended_early: bool
 
 
 class CachingPlanner:
-    """A planner whose plans are kept; `who` tells programs, versions and limits apart."""
+    """A planner whose plans are cached; `program` identifies the program, its version and its limits."""
 
-    def __init__(self, planner: Planner, shelf: PlanCache, who: str) -> None:
-        self._planner, self._shelf, self._who = planner, shelf, who
+    def __init__(self, planner: Planner, cache: PlanCache, program: str) -> None:
+        self._planner, self._cache, self._program = planner, cache, program
 
     @property
     def name(self) -> str:
-        """What users know the planner by."""
+        """The name that is shown to users."""
         return self._planner.name
 
     def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
-        """Return what was found before, or solve the problem."""
+        """Return the cached plan, or solve the problem and store the plan."""
         if problem.goal == FALSE:
             return self._planner.plan(problem, deadline_s)
-        key = _key(self._who, domain_text(problem.domain), problem_text(problem), *_names(problem))
-        kept = _read(self._shelf.get(key), CachedPlan)
-        if kept is not None and _is_enough(kept, deadline_s):
-            return kept.solved
+        key = _key(self._program, domain_text(problem.domain), problem_text(problem), *_cached_names(problem))
+        cached = _decode(self._cache.get(key), CachedPlan)
+        if cached is not None and _is_reusable(cached, deadline_s):
+            return cached.solved
         begin = time.monotonic()
         answer = self._planner.plan(problem, deadline_s)
         if isinstance(answer, Solved):
-            self._shelf.put(key, msgspec.json.encode(CachedPlan(answer, deadline_s, _unhurried(begin, deadline_s))))
+            entry = CachedPlan(answer, deadline_s, _ended_early(begin, deadline_s))
+            self._cache.put(key, msgspec.json.encode(entry))
         return answer
 
 
 class CachingScheduler:
-    """A scheduler whose schedules are kept; `who` tells programs, versions and limits apart."""
+    """A scheduler whose schedules are cached; `program` identifies the program, its version and its limits."""
 
-    def __init__(self, scheduler: Scheduler, shelf: PlanCache, who: str) -> None:
-        self._scheduler, self._shelf, self._who = scheduler, shelf, who
+    def __init__(self, scheduler: Scheduler, cache: PlanCache, program: str) -> None:
+        self._scheduler, self._cache, self._program = scheduler, cache, program
 
     @property
     def name(self) -> str:
-        """What users know the scheduler by."""
+        """The name that is shown to users."""
         return self._scheduler.name
 
     def schedule(self, problem: Problem, deadline_s: float) -> Schedule | GaveUp:
-        """Return what was found before, or solve the problem."""
+        """Return the cached schedule, or solve the problem and store the schedule."""
         if problem.goal == FALSE:
             return self._scheduler.schedule(problem, deadline_s)
-        key = _key(self._who, temporal_text(problem.domain), temporal_problem_text(problem), *_names(problem))
-        kept = _read(self._shelf.get(key), CachedSchedule)
-        if kept is not None and _is_enough(kept, deadline_s):
-            return kept.schedule
+        key = _key(
+            self._program, temporal_text(problem.domain), temporal_problem_text(problem), *_cached_names(problem)
+        )
+        cached = _decode(self._cache.get(key), CachedSchedule)
+        if cached is not None and _is_reusable(cached, deadline_s):
+            return cached.schedule
         begin = time.monotonic()
         answer = self._scheduler.schedule(problem, deadline_s)
         if isinstance(answer, Schedule):
-            self._shelf.put(key, msgspec.json.encode(CachedSchedule(answer, deadline_s, _unhurried(begin, deadline_s))))
+            entry = CachedSchedule(answer, deadline_s, _ended_early(begin, deadline_s))
+            self._cache.put(key, msgspec.json.encode(entry))
         return answer
 
 
-def _is_enough(kept: CachedPlan | CachedSchedule, deadline_s: float) -> bool:
-    return kept.unhurried or SLACK * deadline_s <= kept.deadline_s
+def _is_reusable(cached: CachedPlan | CachedSchedule, deadline_s: float) -> bool:
+    return cached.ended_early or FULL_SHARE * deadline_s <= cached.deadline_s
 
 
-def _unhurried(begin: float, deadline_s: float) -> bool:
-    """Whether the program stopped by itself, and would have with more time."""
-    return time.monotonic() - begin < SLACK * deadline_s
+def _ended_early(begin: float, deadline_s: float) -> bool:
+    """Whether the program ended before its time limit, so that more time would not have changed its answer."""
+    return time.monotonic() - begin < FULL_SHARE * deadline_s
 
 
 def _key(*parts: str) -> str:
@@ -125,8 +128,8 @@ def _key(*parts: str) -> str:
     return digest.hexdigest()
 
 
-def _names(problem: Problem) -> Iterator[str]:
-    """Yield what the names of the problem stand for, and what its actions bind: plans are kept in these words."""
+def _cached_names(problem: Problem) -> Iterator[str]:
+    """Yield the IRIs of the problem's names and the parameters that its actions bind: cached plans contain these."""
     for name, iri in sorted(problem.names.items()):
         yield f"{name} {iri}"
     for action in problem.domain.actions:
@@ -136,7 +139,7 @@ def _names(problem: Problem) -> Iterator[str]:
         yield from (f"{each.function} {each.arguments} {each.seconds}" for each in problem.costs)
 
 
-def _read(content: bytes | None, kind: type[Kept]) -> Kept | None:
+def _decode(content: bytes | None, kind: type[Entry]) -> Entry | None:
     if content is None:
         return None
     try:

@@ -1,4 +1,4 @@
-"""Formulas of a problem in the author's words: individuals and terms by their names, variables by their parameters."""
+"""Formats formulas of a planning problem for people: objects and terms by short names, variables by parameters."""
 
 from __future__ import annotations
 
@@ -21,50 +21,52 @@ from skillc_runtime.world.state.values import show
 
 
 class FormulaFormatter:
-    """Writes formulas for people."""
+    """Formats formulas, types and objects of one problem with the names of a library."""
 
     def __init__(self, problem: Problem, library: SkillLibrary) -> None:
         self._problem = problem
         self._short = library.vocabulary.short
         self._texts = {
-            (each.skill, label): text for each in library.implementations.values() for label, text in _labelled(each)
+            (each.skill, label): text
+            for each in library.implementations.values()
+            for label, text in _labelled_texts(each)
         }
         self._classes = {each.name: each.cls for each in problem.domain.types}
 
-    def type_(self, name: str) -> str:
-        """Return what a type is called."""
+    def format_type(self, name: str) -> str:
+        """Return the short name of a type's class."""
         return "thing" if name == ROOT else self._short(self._classes[name])
 
-    def object_(self, name: str) -> str:
-        """Return what an object is called."""
+    def format_object(self, name: str) -> str:
+        """Return the short name of an object's individual."""
         return self._short(self._problem.names[name])
 
-    def formula(self, formula: Formula, names: Mapping[str, str] | None = None) -> str:
-        """Return a formula; `names` says what its variables are called."""
-        known = names or {}
+    def format(self, formula: Formula, names: Mapping[str, str] | None = None) -> str:
+        """Return a formula as text; `names` maps its variables to the names to show."""
+        shown = names or {}
         match formula:
             case Atom():
-                return self._atom(formula, known)
+                return self._format_atom(formula, shown)
             case Equal(left, right):
-                return f"{self._term(left, known)} == {self._term(right, known)}"
+                return f"{self._format_term(left, shown)} == {self._format_term(right, shown)}"
             case Negation(body):
-                return f"not {self.formula(body, known)}"
+                return f"not {self.format(body, shown)}"
             case Conjunction(parts):
-                return format_all(self.formula(part, known) for part in parts)
+                return format_all(self.format(part, shown) for part in parts)
             case Disjunction(parts):
-                return format_any(self.formula(part, known) for part in parts)
+                return format_any(self.format(part, shown) for part in parts)
             case Existential(variable, body):
-                return self._quantified("exists", variable.name, variable.type, body, known)
+                return self._format_quantified("exists", variable.name, variable.type, body, shown)
             case Universal(variable, body):
-                return self._quantified("forall", variable.name, variable.type, body, known)
+                return self._format_quantified("forall", variable.name, variable.type, body, shown)
             case _:
                 assert_never(formula)
 
-    def _quantified(self, word: str, variable: str, type_: str, body: Formula, names: Mapping[str, str]) -> str:
-        return format_quantified(word, variable.removeprefix("?"), self.type_(type_), self.formula(body, names))
+    def _format_quantified(self, word: str, variable: str, type_: str, body: Formula, names: Mapping[str, str]) -> str:
+        return format_quantified(word, variable.removeprefix("?"), self.format_type(type_), self.format(body, names))
 
-    def _atom(self, atom: Atom, names: Mapping[str, str]) -> str:
-        terms = [self._term(term, names) for term in atom.terms]
+    def _format_atom(self, atom: Atom, names: Mapping[str, str]) -> str:
+        terms = [self._format_term(term, names) for term in atom.terms]
         meaning = self._problem.domain.predicate[atom.predicate].meaning
         match meaning:
             case RelationFact(relation):
@@ -81,11 +83,12 @@ class FormulaFormatter:
             case _:
                 assert_never(meaning)
 
-    def _term(self, term: str, names: Mapping[str, str]) -> str:
+    def _format_term(self, term: str, names: Mapping[str, str]) -> str:
         if term in self._problem.names:
             return self._short(self._problem.names[term])
         return names.get(term, term.removeprefix("?"))
 
 
-def _labelled(implementation: Implementation) -> Iterator[tuple[str, str]]:
+def _labelled_texts(implementation: Implementation) -> Iterator[tuple[str, str]]:
+    """Yield the label and the source text of each condition."""
     yield from ((each.label, each.text) for each in (*implementation.pre, *implementation.hold))

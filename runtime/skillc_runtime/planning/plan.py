@@ -1,4 +1,4 @@
-"""Plans, what planners answer, and what is claimed of a plan."""
+"""Plans, the answers of planners, and how good a plan is known to be."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from skillc_model.pddl.problem import Problem
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """A skill with the individuals (IRIs) of the parameters that the planner bound."""
+    """A skill with the individuals (IRIs) that the planner bound to its parameters."""
 
     skill: str
     arguments: dict[str, str]
@@ -36,7 +36,7 @@ Kind: TypeAlias = Literal["individuals", "skills", "steps"]
 class LeftOut:
     """Individuals (IRIs), skills or steps, in any order, that a problem leaves out for one reason.
 
-    `harmless` says that it is proved: with them no plan would be cheaper, and there would be none if there is none.
+    `harmless` if it is proved that leaving them out changes neither whether there is a plan nor the least cost.
     """
 
     members: Collection[str]
@@ -46,18 +46,18 @@ class LeftOut:
 
     @property
     def what(self) -> tuple[str, ...]:
-        """Return them sorted: there may be a million, and most answers show none."""
+        """The members, sorted on demand: there may be a million, and most answers show none."""
         return tuple(sorted(self.members))
 
 
 @dataclass(frozen=True, slots=True)
 class Solved:
-    """A plan; `proven` when no plan of the whole problem is shorter. `planner` is who found it.
+    """A plan, the name of the planner that found it, and what was `left_out` of the scene and the library.
 
-    It was found without what is `left_out` of the scene and the library. A shorter one than one that is `optimal for
-    the filtered problem` would have to need something of that. `optimal for approximate durations` is a plan of which
-    that is proved for durations that were rounded down to units that planners take, or estimated as the `assumptions`
-    say. Any plan takes `at_least_s`, where that is known and less than proven.
+    `optimal` is "proven" if no plan of the whole problem is shorter, and "optimal for the filtered problem" if a
+    shorter plan would need something that was left out. With "optimal for approximate durations" the proof holds for
+    durations that were rounded down to the planner's units, or estimated as `assumptions` describes. `at_least_s` is
+    a lower bound in s on the duration of any plan; None if none is known or the plan is proven to be optimal.
     """
 
     plan: Plan
@@ -69,13 +69,13 @@ class Solved:
 
     @property
     def bound_s(self) -> float:
-        """A time in seconds that every plan takes."""
+        """A lower bound on the duration of any plan, in s."""
         return self.plan.duration_s if self.optimal == "proven" else self.at_least_s or 0.0
 
 
 @dataclass(frozen=True, slots=True)
 class Unsolvable:
-    """Proof that the whole problem has no plan, and why in words, as far as it could be found out."""
+    """The whole problem is proved to have no plan; `why` is an explanation, as far as one could be found."""
 
     why: str
 
@@ -89,7 +89,7 @@ class Unsolvable:
 class GaveUp:
     """No answer, with the reason: out of time or memory, or the planner failed.
 
-    Nothing was `searched` where the goal cannot be given to a planner. That says nothing about the world.
+    `searched` is False if the goal cannot be expressed for a planner.
     """
 
     why: str
@@ -98,22 +98,22 @@ class GaveUp:
     @property
     def message(self) -> str:
         """The answer as a sentence."""
-        return f"no plan was {'found' if self.searched else 'looked for'}: {self.why}"
+        return f"no plan was {'found' if self.searched else 'searched for'}: {self.why}"
 
 
 PlanResult: TypeAlias = Solved | Unsolvable | GaveUp
 
 
 class Planner(Protocol):
-    """Something that solves planning problems."""
+    """Solves planning problems; the cost of a plan is the sum of its durations."""
 
     @property
     def name(self) -> str:
-        """What users know it by."""
+        """The name that is shown to users."""
         ...
 
     def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
-        """Solve a problem within so many seconds of wall-clock time; never raises for what the problem or time is."""
+        """Solve a problem within `deadline_s` seconds of wall-clock time; all failures are answers, not exceptions."""
         ...
 
 
@@ -125,7 +125,7 @@ PARTS: dict[Kind, str] = {
 
 
 def describe_quality(optimal: Optimal, left_out: Collection[LeftOut], at_least_s: float | None) -> str:
-    """Say how good a plan is known to be, and for what: `proved optimal` refers to the whole problem."""
+    """Return in words how good a plan is known to be; "proved optimal" refers to the whole problem."""
     known = "" if at_least_s is None else f", any plan takes at least {at_least_s:g} s"
     missing = {each.kind for each in left_out if not each.harmless}
     parts = [words for kind, words in PARTS.items() if kind in missing]

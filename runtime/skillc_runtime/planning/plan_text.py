@@ -1,4 +1,4 @@
-"""From the planner's words back to steps: names through the tables, costs from the problem."""
+"""Reads plans that planners print: action and object names to skills and IRIs, costs from the problem."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from skillc_runtime.planning.plan import Plan, Step
 
 
 class PlanTextError(ValueError):
-    """Something that is no plan of the problem; the message quotes it."""
+    """A text that is not a plan of the problem; the message quotes it."""
 
 
 def read_plan(problem: Problem, actions: Iterable[tuple[str, ...]]) -> Plan:
@@ -22,52 +22,52 @@ def read_plan(problem: Problem, actions: Iterable[tuple[str, ...]]) -> Plan:
 
 @dataclass(frozen=True, slots=True)
 class CostedPlan:
-    """A plan with what planners take for its cost, in units, which is `exact` where no duration was rounded down."""
+    """A plan with its cost in the planner's units; `exact` if no duration was rounded down."""
 
     plan: Plan
     units: int
     exact: bool
 
     def at_least_s(self, problem: Problem) -> float:
-        """Return a time in seconds that every plan takes if none costs fewer units."""
+        """Return a lower bound in s on the duration of any plan, provided that none costs fewer units."""
         return float(self.units / problem.domain.scale)
 
 
 def cost_plan(problem: Problem, actions: Iterable[tuple[str, ...]]) -> CostedPlan:
     """Return the plan of actions given as (name, object ..); PlanTextError when there is no such action or object."""
-    ground = [_action(problem, each) for each in actions]
+    ground = [_find_action(problem, each) for each in actions]
     values = {(each.function, each.arguments): each.seconds for each in problem.costs}
-    durations = [_seconds(action, arguments, values) for action, arguments in ground]
-    steps = (_step(problem, *each) for each in ground)
+    durations = [_duration_s(action, arguments, values) for action, arguments in ground]
+    steps = (_make_step(problem, *each) for each in ground)
     plan = Plan(tuple(step for step in steps if step is not None), float(sum(durations)))
     units = sum(map(problem.domain.units, durations))
     return CostedPlan(plan, units, units == problem.domain.scale * sum(durations))
 
 
 def read_step(problem: Problem, words: tuple[str, ...]) -> Step | None:
-    """Return the step that an action (name, object ..) stands for, None for one that only says that the goal holds.
+    """Return the step of an action (name, object ..); None for the auxiliary action that asserts the goal.
 
     PlanTextError when there is no such action or object.
     """
-    return _step(problem, *_action(problem, words))
+    return _make_step(problem, *_find_action(problem, words))
 
 
-def _step(problem: Problem, action: Action, arguments: tuple[str, ...]) -> Step | None:
+def _make_step(problem: Problem, action: Action, arguments: tuple[str, ...]) -> Step | None:
     if action.skill is None:
         return None
     return Step(action.skill, dict(zip(action.binds, map(problem.names.__getitem__, arguments), strict=True)))
 
 
-def _action(problem: Problem, words: tuple[str, ...]) -> tuple[Action, tuple[str, ...]]:
+def _find_action(problem: Problem, words: tuple[str, ...]) -> tuple[Action, tuple[str, ...]]:
     name, *arguments = words or ("",)
     action = problem.domain.action.get(name)
     known = all(each in problem.names for each in arguments)
     if action is None or not known or len(arguments) != len(action.parameters):
-        raise PlanTextError(f"`{' '.join(words)}` is no action of the problem")
+        raise PlanTextError(f"`{' '.join(words)}` is not an action of the problem")
     return action, tuple(arguments)
 
 
-def _seconds(
+def _duration_s(
     action: Action, arguments: tuple[str, ...], values: dict[tuple[str, tuple[str, ...]], Fraction]
 ) -> Fraction:
     match action.cost:

@@ -1,4 +1,4 @@
-"""Which planners are used: those that are there, the strongest first."""
+"""Finds the installed planners, the strongest first."""
 
 from __future__ import annotations
 
@@ -18,39 +18,39 @@ ADVICE = "the extra `planner` installs a stronger one"
 
 @dataclass(frozen=True, slots=True)
 class Planners:
-    """The planners for the least work, the strongest first, and the one for an early end, if there is one."""
+    """The planners that minimise work, the strongest first, and the scheduler that minimises the makespan, if any."""
 
     for_work: tuple[Planner, ...]
     for_makespan: Scheduler | None
 
 
-def find_planners(shelf: PlanCache | None = None) -> Planners:
-    """Return the planners of this installation; what they answer is kept on the shelf and found there again."""
-    strong = _fast_downward(shelf)
-    return Planners((*strong, AStar()) if strong else (AStar(ADVICE),), _aries(shelf))
+def find_planners(cache: PlanCache | None = None) -> Planners:
+    """Return the planners of this installation; answers of external programs are cached in `cache`."""
+    strong = _fast_downward(cache)
+    return Planners((*strong, AStar()) if strong else (AStar(ADVICE),), _aries(cache))
 
 
 def list_planners() -> tuple[Planner, ...]:
-    """Return the planners for the least work, the strongest first; the built-in one is always there."""
+    """Return the planners that minimise work, the strongest first; the built-in one is always among them."""
     return find_planners().for_work
 
 
-def _fast_downward(shelf: PlanCache | None) -> tuple[Planner, ...]:
+def _fast_downward(cache: PlanCache | None) -> tuple[Planner, ...]:
     programs = find_fast_downward()
     if programs is None:
         return ()
     planner = FastDownward(programs)
-    return (planner if shelf is None else CachingPlanner(planner, shelf, _who("up-fast-downward")),)
+    return (planner if cache is None else CachingPlanner(planner, cache, _identify_program("up-fast-downward")),)
 
 
-def _aries(shelf: PlanCache | None) -> Scheduler | None:
+def _aries(cache: PlanCache | None) -> Scheduler | None:
     program = find_aries()
     if program is None:
         return None
     scheduler = Aries(program)
-    return scheduler if shelf is None else CachingScheduler(scheduler, shelf, _who("up-aries"))
+    return scheduler if cache is None else CachingScheduler(scheduler, cache, _identify_program("up-aries"))
 
 
-def _who(package: str) -> str:
-    """Return what an answer depends on besides the problem and the time: the program and the memory it may use."""
+def _identify_program(package: str) -> str:
+    """Return a text that identifies a program, its version and the memory that it may use."""
     return f"{package} {version(package)}, {machine_limits().memory_bytes} bytes"

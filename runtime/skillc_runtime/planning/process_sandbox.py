@@ -1,9 +1,9 @@
-"""A small program that runs another one within limits, and ends all it started when that ends, or when its parent does.
+"""A small program that runs a command within limits, and ends all its descendants when it or the parent process ends.
 
-Called as a file, without the package: `python -I -S process_sandbox.py PARENT MEMORY FILE FOLDER COMMAND ..`. PARENT
-is the process that must live on, MEMORY and FILE the most bytes of address space and of a file, FOLDER what is removed
-when the parent is gone, or nothing. It ends as the command ended, by the same signal or with the same code, or with
-NOT_STARTED and the reason as its last line.
+It is started as a file, without the package: `python -I -S process_sandbox.py PARENT MEMORY FILE FOLDER COMMAND ..`.
+PARENT is the id of the process to watch, MEMORY and FILE are the limits of address space and file size in bytes,
+FOLDER is removed if the parent is gone; it may be empty. The program ends as the command did, by the same signal or
+with the same code, or with NOT_STARTED and the reason as its last line.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ from pathlib import Path
 from types import FrameType
 
 NOT_STARTED = 127
-LOOK_S = 0.1
-"""How often it looks whether its parent lives."""
+POLL_S = 0.1
+"""The interval at which it is checked whether the parent still runs."""
 
 _PR_SET_PDEATHSIG, _PR_SET_CHILD_SUBREAPER = 1, 36
 
@@ -31,14 +31,14 @@ def main(parent: int, memory: int, file: int, folder: str, command: list[str]) -
         _prctl(_PR_SET_CHILD_SUBREAPER, 1)
     pid = os.fork()
     if not pid:
-        _become(command, memory, file)
+        _exec(command, memory, file)
     _, status = os.waitpid(pid, 0)
     _end_descendants()
-    _end_as(status)
+    _end_like(status)
 
 
 def _stop_when_orphaned(parent: int, folder: str) -> None:
-    def look(_number: int, _frame: FrameType | None) -> None:
+    def check_parent(_number: int, _frame: FrameType | None) -> None:
         if os.getppid() != parent:
             _end_descendants()
             if folder:
@@ -46,8 +46,8 @@ def _stop_when_orphaned(parent: int, folder: str) -> None:
             _stop(_number, _frame)
 
     signal.signal(signal.SIGTERM, _stop)
-    signal.signal(signal.SIGALRM, look)
-    signal.setitimer(signal.ITIMER_REAL, LOOK_S, LOOK_S)
+    signal.signal(signal.SIGALRM, check_parent)
+    signal.setitimer(signal.ITIMER_REAL, POLL_S, POLL_S)
 
 
 def _stop(_number: int, _frame: FrameType | None) -> None:
@@ -61,15 +61,15 @@ def _remove(folder: str) -> None:
     shutil.rmtree(folder, ignore_errors=True)
 
 
-def _become(command: list[str], memory: int, file: int) -> None:
-    """Turn this process into the command; if the sandbox itself is killed, the kernel ends the command."""
+def _exec(command: list[str], memory: int, file: int) -> None:
+    """Replace this process by the command; the kernel ends the command if the sandbox is killed."""
     signal.setitimer(signal.ITIMER_REAL, 0.0)
     for number in (signal.SIGTERM, signal.SIGALRM):
         signal.signal(number, signal.SIG_DFL)
-    signal.signal(signal.SIGXFSZ, signal.SIG_DFL)  # Python ignores it, and what is ignored stays so in a new program
-    _limit(resource.RLIMIT_AS, memory)
-    _limit(resource.RLIMIT_FSIZE, file)
-    _limit(resource.RLIMIT_CORE, 0)
+    signal.signal(signal.SIGXFSZ, signal.SIG_DFL)  # Python ignores it, and ignored signals stay ignored after exec
+    _set_limit(resource.RLIMIT_AS, memory)
+    _set_limit(resource.RLIMIT_FSIZE, file)
+    _set_limit(resource.RLIMIT_CORE, 0)
     if sys.platform == "linux":
         _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
     try:
@@ -79,11 +79,11 @@ def _become(command: list[str], memory: int, file: int) -> None:
         os._exit(NOT_STARTED)
 
 
-def _limit(kind: int, most: int) -> None:
+def _set_limit(kind: int, maximum: int) -> None:
     _, hard = resource.getrlimit(kind)
-    most = most if hard == resource.RLIM_INFINITY else min(most, hard)
+    maximum = maximum if hard == resource.RLIM_INFINITY else min(maximum, hard)
     with contextlib.suppress(OSError, ValueError):  # a system without this limit
-        resource.setrlimit(kind, (most, most))
+        resource.setrlimit(kind, (maximum, maximum))
 
 
 def _prctl(option: int, value: int) -> None:
@@ -93,7 +93,7 @@ def _prctl(option: int, value: int) -> None:
 
 
 def _end_descendants() -> None:
-    """Kill all children until there are none; as a subreaper this process is given the children of those that end."""
+    """Kill all children until there are none; this process is a subreaper and adopts the orphans of those that end."""
     while children := tuple(_children()):
         for pid in children:
             with contextlib.suppress(ProcessLookupError):
@@ -103,7 +103,7 @@ def _end_descendants() -> None:
 
 
 def _children() -> Iterator[int]:
-    """Yield the processes that this one is the parent of, where the system tells."""
+    """Yield the ids of this process's children, on systems with /proc."""
     own = str(os.getpid())
     for folder in Path("/proc").glob("[0-9]*"):
         with contextlib.suppress(OSError):
@@ -112,13 +112,14 @@ def _children() -> Iterator[int]:
                 yield int(folder.name)
 
 
-def _end_as(status: int) -> None:
+def _end_like(status: int) -> None:
+    """End this process with the exit code or the signal of a wait status."""
     code = os.waitstatus_to_exitcode(status)
     if code < 0:
         signal.signal(signal.SIGALRM, signal.SIG_IGN)
-        _limit(resource.RLIMIT_CORE, 0)
+        _set_limit(resource.RLIMIT_CORE, 0)
         with contextlib.suppress(OSError):
-            signal.signal(-code, signal.SIG_DFL)  # those that cannot be caught need no handler
+            signal.signal(-code, signal.SIG_DFL)  # signals that cannot be caught need no handler
         os.kill(os.getpid(), -code)
     os._exit(code)
 

@@ -1,4 +1,4 @@
-"""Whether a goal can be reached at all from a world, without searching for a plan."""
+"""Decides whether a goal is unreachable from a world, without searching for a plan."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import AT_ONCE
 from skillc_runtime.planning.problem.pose import GoalError, already_holds, pose_problem
 from skillc_runtime.planning.search.grounding import Grounding, GroundingTimeout
-from skillc_runtime.planning.unsolvability import LONGEST_S, explain_unsolvable
+from skillc_runtime.planning.unsolvability import EXPLANATION_S, explain_unsolvable
 from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)
 class UnreachableGoal:
-    """Why no plan reaches a goal; `proved` unless a skill or the goal itself cannot be planned with."""
+    """Why no plan reaches a goal; not `proved` if a skill, or the goal itself, cannot be expressed for planners."""
 
     why: str
     proved: bool = True
 
 
 def explain_unreachable(library: SkillLibrary, state: WorldState, goal: Condition) -> UnreachableGoal | None:
-    """Return why no plan can reach the goal even if nothing once true were ever lost; None if one may.
+    """Return why no plan can reach the goal, even if actions deleted nothing; None if a plan may exist or if unknown.
 
-    Of a large scene the part near the goal is looked at, the rest stood in for. None also where that cannot be told.
+    In a large scene only the part near the goal is considered in detail; the rest is abstracted (`relax_scene`).
     """
     try:
         if already_holds(goal, state):
@@ -47,11 +47,11 @@ def explain_unreachable(library: SkillLibrary, state: WorldState, goal: Conditio
 
 
 def _is_reachable(problem: Problem) -> bool:
-    """Whether all parts of the goal are reachable, or there is no time to find out."""
-    grounding = Grounding(problem, time.monotonic() + LONGEST_S)
+    """Whether all parts of the goal are reachable; True also if the time limit ends before this is known."""
+    grounding = Grounding(problem, time.monotonic() + EXPLANATION_S)
     try:
         grounding.explore()
         wanted = grounding.goal()
     except GroundingTimeout:
         return True
-    return wanted != FALSE and all(grounding.possible(part) for part in conjuncts(wanted))
+    return wanted != FALSE and all(grounding.is_possible(part) for part in conjuncts(wanted))

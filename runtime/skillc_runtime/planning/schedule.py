@@ -1,4 +1,4 @@
-"""Plans with times: which step begins when, several of them at once."""
+"""Plans with times: steps that may run in parallel."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from skillc_runtime.planning.plan import GaveUp, LeftOut, Plan, Solved, Step
 
 @dataclass(frozen=True, slots=True)
 class TimedStep:
-    """A step that begins so many seconds after the plan does, and is expected to last for some."""
+    """A step, its start in s after the start of the plan, and its expected duration in s."""
 
     step: Step
     start_s: float
@@ -19,30 +19,30 @@ class TimedStep:
 
     @property
     def end_s(self) -> float:
-        """When it is expected to be over, in seconds after the plan begins."""
+        """The expected end, in s after the start of the plan."""
         return self.start_s + self.duration_s
 
 
 @dataclass(frozen=True, slots=True)
 class Schedule:
-    """Steps in the order in which they begin."""
+    """Steps in the order in which they start."""
 
     steps: tuple[TimedStep, ...]
 
     @property
     def makespan_s(self) -> float:
-        """How long after its begin all of it is over, in seconds."""
+        """The time from the start of the plan to the end of the last step, in s."""
         return max((each.end_s for each in self.steps), default=0.0)
 
 
 @dataclass(frozen=True, slots=True)
 class Scheduled:
-    """A schedule that was played in the world model; `proven` when no plan is over earlier.
+    """A schedule that was simulated in the world model; "proven" if no plan has a shorter makespan.
 
-    `plan` has the same steps in an order in which they also work one after the other; its duration is all their work.
-    `planner` is who found the plan, `times` says where the times come from. Any plan takes `at_least_s`, where that is
-    known and less than proven; `assumptions` say which durations are estimates. `note` says what else was tried,
-    or would have been.
+    `plan` has the same steps in an order that works sequentially; its duration is the sum of theirs. `planner` is the
+    name of the planner that found the plan, `times` describes where the times come from. `at_least_s` is a lower bound
+    in s on the makespan of any plan; None if none is known or the schedule is proven to be optimal. `assumptions`
+    describe which durations are estimates, `note` what else was tried.
     """
 
     schedule: Schedule
@@ -56,19 +56,19 @@ class Scheduled:
     assumptions: tuple[str, ...] = ()
 
     def as_solved(self) -> Solved:
-        """Return it as a plan that takes as long as the schedule."""
+        """Return it as a plan whose duration is the makespan of the schedule."""
         plan = Plan(self.plan.steps, self.schedule.makespan_s)
         return Solved(plan, self.optimal, self.planner, self.left_out, self.at_least_s, self.assumptions)
 
 
 class Scheduler(Protocol):
-    """Something that finds plans with times, which are over early."""
+    """Finds plans with a short makespan."""
 
     @property
     def name(self) -> str:
-        """What users know it by."""
+        """The name that is shown to users."""
         ...
 
     def schedule(self, problem: Problem, deadline_s: float) -> Schedule | GaveUp:
-        """Return a schedule within so many seconds of wall-clock time; never raises for what the problem or time is."""
+        """Return a schedule within `deadline_s` seconds of wall-clock time; failures are answers, not exceptions."""
         ...

@@ -1,4 +1,4 @@
-"""From a goal to a checked plan: pose the problem, plan, run the plan in the world model, explain if there is none."""
+"""From a goal to a validated plan: pose the problem, plan, validate in the world model, explain if there is no plan."""
 
 from __future__ import annotations
 
@@ -39,23 +39,23 @@ def solve(
     without: Sequence[Step] = (),
     *,
     prove: bool = False,
-    breadth: AbstractionSize | None = NARROW,
+    size: AbstractionSize | None = NARROW,
 ) -> PlanResult:
-    """Return a plan from a version of the world to the goal; every plan was run in the world model first.
+    """Return a plan from a version of the world to the goal, validated in the world model.
 
-    `without` are steps that the plan may not have. Of a large scene the part near the goal is planned with first, as
-    wide as `breadth` says; with `prove` more of it is taken until the plan is proven to be the shortest.
-    Where a planner gives up, the next one gets the time that is left. A goal that holds takes no steps, whatever
-    planners can express; where one does not hold and cannot be planned for, nothing is searched.
+    `without` are steps that the plan may not contain. In a large scene only the part near the goal is considered at
+    first, as large as `size` says; with `prove` the part grows until the plan is proven to be the shortest. If a
+    planner gives up, the next one gets the remaining time. A goal that already holds has the empty plan, even if
+    planners cannot express it; for one that does not hold and cannot be expressed, nothing is searched.
     """
     end = time.monotonic() + deadline_s
     chosen = tuple(list_planners() if planners is None else planners)
 
-    def pose(width: AbstractionSize | None) -> Posed:
-        return pose_problem(library, state, goal, without, width)
+    def pose(size: AbstractionSize | None) -> Posed:
+        return pose_problem(library, state, goal, without, size)
 
     def answer(posed: Posed, seconds: float) -> PlanResult:
-        return _answered(chosen, posed, state, goal, seconds)
+        return _plan_and_validate(chosen, posed, state, goal, seconds)
 
     def search(problem: Problem, seconds: float) -> PlanResult:
         return chosen[0].plan(problem, seconds)
@@ -66,18 +66,18 @@ def solve(
     try:
         if already_holds(goal, state):
             return Solved(Plan((), 0.0), "proven", "the world as it is")
-        return plan_in_stages(PlanningStages(pose, answer, search, explain), state, end, breadth, prove=prove)
+        return plan_in_stages(PlanningStages(pose, answer, search, explain), state, end, size, prove=prove)
     except GoalError as reason:
         return GaveUp(str(reason), searched=False)
 
 
-def _answered(
+def _plan_and_validate(
     planners: Sequence[Planner], posed: Posed, state: WorldState, goal: Condition, deadline_s: float
 ) -> PlanResult:
     end = time.monotonic() + deadline_s
     failures: list[str] = []
     for planner in planners:
-        result = _checked(planner.plan(posed.problem, max(end - time.monotonic(), 0.0)), posed, state, goal)
+        result = _validate(planner.plan(posed.problem, max(end - time.monotonic(), 0.0)), posed, state, goal)
         match result:
             case Solved() | Unsolvable():
                 return result
@@ -86,7 +86,7 @@ def _answered(
     return GaveUp("; ".join(failures))
 
 
-def _checked(result: PlanResult, posed: Posed, state: WorldState, goal: Condition) -> PlanResult:
+def _validate(result: PlanResult, posed: Posed, state: WorldState, goal: Condition) -> PlanResult:
     if not isinstance(result, Solved):
         return result
     try:
@@ -94,10 +94,12 @@ def _checked(result: PlanResult, posed: Posed, state: WorldState, goal: Conditio
         work_s = compute_work_s(result.plan, posed.library, state)
     except PlanError as error:
         return GaveUp(f"{result.planner} returned a plan that does not work: {error}")
-    return _estimated(result, work_s, posed.assumptions) if posed.assumptions else _timed(result, work_s)
+    return (
+        _mark_as_estimate(result, work_s, posed.assumptions) if posed.assumptions else _check_duration(result, work_s)
+    )
 
 
-def _timed(solved: Solved, work_s: float) -> PlanResult:
+def _check_duration(solved: Solved, work_s: float) -> PlanResult:
     if work_s == solved.plan.duration_s:
         return solved
     return GaveUp(
@@ -105,8 +107,8 @@ def _timed(solved: Solved, work_s: float) -> PlanResult:
     )
 
 
-def _estimated(solved: Solved, work_s: float, assumptions: tuple[str, ...]) -> Solved:
-    """Return a plan without the claims that hold only as far as durations are what they were taken for."""
+def _mark_as_estimate(solved: Solved, work_s: float, assumptions: tuple[str, ...]) -> Solved:
+    """Return a plan without the claims that depend on durations that are estimates."""
     optimal: Optimal = "best found" if solved.optimal == "best found" else "optimal for approximate durations"
     plan = replace(solved.plan, duration_s=work_s)
     return replace(solved, plan=plan, optimal=optimal, at_least_s=None, assumptions=assumptions)

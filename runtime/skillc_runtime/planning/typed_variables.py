@@ -1,4 +1,4 @@
-"""The typed variables of a domain. Objects of other types cannot change what is reachable."""
+"""Lists the typed variables of a domain. Objects of other types do not affect what is reachable."""
 
 from __future__ import annotations
 
@@ -20,23 +20,23 @@ from skillc_model.pddl.formulas import (
 
 
 def list_typed_variables(domain: PlanningDomain) -> Iterator[Typed]:
-    """Yield all parameters and quantified variables of the actions."""
+    """Yield the parameters and the quantified variables of all actions."""
     for action in domain.actions:
         yield from action.parameters
         for formula in (action.precondition, action.hold, *(change.condition for change in action.effects)):
-            yield from _quantified(formula)
+            yield from _list_quantified(formula)
         for change in action.effects:
             yield from change.variables
 
 
-def _quantified(formula: Formula) -> Iterator[Typed]:
+def _list_quantified(formula: Formula) -> Iterator[Typed]:
     match formula:
         case Existential(variable, body) | Universal(variable, body):
             yield variable
-            yield from _quantified(body)
+            yield from _list_quantified(body)
         case Conjunction(parts) | Disjunction(parts):
             for part in parts:
-                yield from _quantified(part)
+                yield from _list_quantified(part)
         case Atom() | Equal() | Negation():
             return
         case _:

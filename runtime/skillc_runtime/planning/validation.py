@@ -1,4 +1,4 @@
-"""Runs a plan in the world model before anything moves: no planner is trusted."""
+"""Executes plans in the world model before anything moves, since no planner is trusted."""
 
 from __future__ import annotations
 
@@ -23,14 +23,15 @@ from skillc_runtime.world.state.world_state import WorldState
 
 
 class PlanError(ValueError):
-    """A plan that does not work; the message names the step and the condition that fails."""
+    """A plan that does not work; the message names the step and the failing condition."""
 
 
 def validate(plan: Plan, library: SkillLibrary, state: WorldState, goal: Condition) -> WorldState:
     """Return the world after the plan.
 
-    PlanError when a step's type, precondition or hold condition fails, none of its implementations fits, its effects
-    break an axiom, a postcondition does not hold after it, or the goal does not hold in the end.
+    PlanError if the type of an argument, a precondition or a hold condition of a step fails, if none of its
+    implementations can start, if its effects violate an axiom, if a postcondition does not hold after it, or if the
+    goal does not hold at the end.
     """
     for number, step in enumerate(plan.steps, start=1):
         try:
@@ -41,7 +42,7 @@ def validate(plan: Plan, library: SkillLibrary, state: WorldState, goal: Conditi
 
 
 def check_goal_reached(goal: Condition, state: WorldState) -> WorldState:
-    """Return the world itself where the goal holds in it; PlanError where it does not, with the facts."""
+    """Return the world if the goal holds in it; else PlanError, with the facts."""
     try:
         holds = evaluate(goal, state, {})
     except EvaluationError as reason:
@@ -52,7 +53,7 @@ def check_goal_reached(goal: Condition, state: WorldState) -> WorldState:
 
 
 def apply_step(step: Step, library: SkillLibrary, state: WorldState) -> WorldState:
-    """Return the world after one step; PlanError when it cannot start or its effects break an axiom or each other."""
+    """Return the world after one step; PlanError if it cannot start or its effects are inconsistent."""
     try:
         find_startable_implementations(step, library, state)
         return check_stated_posts(step, library, apply_effects(step, library, state))
@@ -61,9 +62,9 @@ def apply_step(step: Step, library: SkillLibrary, state: WorldState) -> WorldSta
 
 
 def check_stated_posts(step: Step, library: SkillLibrary, after: WorldState) -> WorldState:
-    """Return the world after a step where all is true that its skill states; PlanError where it is not.
+    """Return the world after a step if all postconditions of its skill hold in it; else PlanError.
 
-    What is measured has no effect in the world model and is not looked at.
+    Postconditions that are only measured have no effects in the world model and are not checked.
     """
     bindings = bind_parameters(step, library, after)
     for post in library.skills[step.skill].post:
@@ -74,36 +75,35 @@ def check_stated_posts(step: Step, library: SkillLibrary, after: WorldState) -> 
 
 
 def apply_effects(step: Step, library: SkillLibrary, state: WorldState) -> WorldState:
-    """Return the world with a step's effects, whether it could start or not; EvaluationError, WorldError."""
+    """Return the world with a step's effects, whether or not it can start; EvaluationError, WorldError."""
     return WorldModel(state).commit(compute_effects(step, library, state)).after
 
 
 def compute_effects(step: Step, library: SkillLibrary, state: WorldState) -> tuple[Change, ...]:
-    """Return the changes that a step's posts stand for; EvaluationError when one cannot be computed."""
+    """Return the changes that a step's postconditions describe; EvaluationError if one cannot be computed."""
     skill = library.skills[step.skill]
     effects = [effect for post in skill.post for effect in post.effects]
     return changes_of(effects, state, bind_parameters(step, library, state))
 
 
 def compute_step_duration_s(step: Step, library: SkillLibrary, state: WorldState, before: WorldState) -> Fraction:
-    """Return how long a step that starts in `state` is expected to last, in seconds.
+    """Return the expected duration in s of a step that starts in `state`, with the first implementation that can start.
 
-    The first implementation that fits is taken. What the duration reads is taken from the world `before` the plan, as
-    planners do. PlanError when the step cannot start.
+    The duration is evaluated in the world `before` the plan, as planners do. PlanError if the step cannot start.
     """
     try:
         implementation = find_startable_implementations(step, library, state)[0]
         duration = duration_of(library.skills[step.skill], implementation)
         if duration is None:
             return ASSUMED_SECONDS
-        seconds = evaluate_duration_s(duration, before, _bindings(implementation.parameters, step, before))
+        seconds = evaluate_duration_s(duration, before, _bind(implementation.parameters, step, before))
     except EvaluationError as reason:
         raise PlanError(str(reason)) from reason
     return seconds if isinstance(seconds, Fraction) else ASSUMED_SECONDS
 
 
 def compute_work_s(plan: Plan, library: SkillLibrary, state: WorldState) -> float:
-    """Return the time that all steps of a plan take together, in seconds; PlanError when it does not work."""
+    """Return the sum of the durations of all steps of a plan in s; PlanError if the plan does not work."""
     before, work = state, Fraction(0)
     for step in plan.steps:
         work += compute_step_duration_s(step, library, state, before)
@@ -112,26 +112,26 @@ def compute_work_s(plan: Plan, library: SkillLibrary, state: WorldState) -> floa
 
 
 def bind_parameters(step: Step, library: SkillLibrary, state: WorldState) -> Bindings:
-    """Return what the skill's parameters stand for in a step: what the planner bound, defaults, or None."""
-    return _bindings(library.skills[step.skill].parameters, step, state)
+    """Return the values of the skill's parameters in a step: those that the planner bound, defaults, or None."""
+    return _bind(library.skills[step.skill].parameters, step, state)
 
 
 def find_startable_implementations(step: Step, library: SkillLibrary, state: WorldState) -> tuple[Implementation, ...]:
-    """Return the implementations with which a step can start; PlanError when it cannot, EvaluationError."""
+    """Return the implementations with which a step can start; PlanError if there is none, EvaluationError."""
     skill = library.skills.get(step.skill)
     if skill is None:
         raise PlanError("there is no such skill")
-    bindings = _bindings(skill.parameters, step, state)
-    for problem in _problems(skill.parameters, (*skill.pre, *skill.hold), bindings, state):
+    bindings = _bind(skill.parameters, step, state)
+    for problem in _find_problems(skill.parameters, (*skill.pre, *skill.hold), bindings, state):
         raise PlanError(problem)
     found: list[Implementation] = []
     refusals: list[str] = []
     for implementation in library.implementations_of(skill.name):
-        misfit = next(_implementation_problems(implementation, step, state), None)
-        if misfit is None:
+        refusal = next(_find_implementation_problems(implementation, step, state), None)
+        if refusal is None:
             found.append(implementation)
         else:
-            refusals.append(f"{implementation.name}: {misfit}")
+            refusals.append(f"{implementation.name}: {refusal}")
     if not found:
         raise PlanError("no implementation fits: " + "; ".join(refusals))
     return tuple(found)
@@ -140,28 +140,28 @@ def find_startable_implementations(step: Step, library: SkillLibrary, state: Wor
 def filter_held_implementations(
     step: Step, begun: Sequence[Implementation], library: SkillLibrary, state: WorldState
 ) -> tuple[Implementation, ...]:
-    """Return those implementations of which all hold conditions hold; PlanError when there is none, EvaluationError."""
+    """Return the implementations whose hold conditions all hold; PlanError if there is none, EvaluationError."""
     skill = library.skills[step.skill]
-    for lost in _problems((), skill.hold, _bindings(skill.parameters, step, state), state):
-        raise PlanError(lost)
-    losses = {each.name: next(_losses(each, step, state), None) for each in begun}
-    held = tuple(each for each in begun if losses[each.name] is None)
+    for problem in _find_problems((), skill.hold, _bind(skill.parameters, step, state), state):
+        raise PlanError(problem)
+    broken = {each.name: next(_find_broken_holds(each, step, state), None) for each in begun}
+    held = tuple(each for each in begun if broken[each.name] is None)
     if not held:
-        raise PlanError("; ".join(f"{name}: {loss}" for name, loss in losses.items()))
+        raise PlanError("; ".join(f"{name}: {problem}" for name, problem in broken.items()))
     return held
 
 
-def _losses(implementation: Implementation, step: Step, state: WorldState) -> Iterator[str]:
-    yield from _problems((), implementation.hold, _bindings(implementation.parameters, step, state), state)
+def _find_broken_holds(implementation: Implementation, step: Step, state: WorldState) -> Iterator[str]:
+    yield from _find_problems((), implementation.hold, _bind(implementation.parameters, step, state), state)
 
 
-def _implementation_problems(implementation: Implementation, step: Step, state: WorldState) -> Iterator[str]:
-    bindings = _bindings(implementation.parameters, step, state)
+def _find_implementation_problems(implementation: Implementation, step: Step, state: WorldState) -> Iterator[str]:
+    bindings = _bind(implementation.parameters, step, state)
     conditions = (*implementation.pre, *implementation.hold)
-    yield from _problems(implementation.parameters, conditions, bindings, state)
+    yield from _find_problems(implementation.parameters, conditions, bindings, state)
 
 
-def _bindings(parameters: tuple[Parameter, ...], step: Step, state: WorldState) -> dict[str, Value | None]:
+def _bind(parameters: tuple[Parameter, ...], step: Step, state: WorldState) -> dict[str, Value | None]:
     bindings: dict[str, Value | None] = dict(step.arguments)
     for parameter in parameters:
         if parameter.name not in bindings:
@@ -170,7 +170,7 @@ def _bindings(parameters: tuple[Parameter, ...], step: Step, state: WorldState) 
     return bindings
 
 
-def _problems(
+def _find_problems(
     parameters: tuple[Parameter, ...],
     requirements: tuple[Requirement, ...],
     bindings: dict[str, Value | None],
@@ -183,7 +183,7 @@ def _problems(
             yield f"`{parameter.name}` is not bound"
             return
         if isinstance(type_, ClassType) and isinstance(value, str) and not state.is_a(value, type_.iri):
-            yield f"`{parameter.name}` is {short(value)}, which is no {short(type_.iri)}"
+            yield f"`{parameter.name}` is {short(value)}, which is not a {short(type_.iri)}"
             return
     for requirement in requirements:
         if not evaluate(requirement.condition, state, bindings):

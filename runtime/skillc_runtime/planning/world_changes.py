@@ -1,4 +1,4 @@
-"""The facts in which versions of the world differ, and those that a change settles."""
+"""Finds the facts in which versions of the world differ, and the facts that a change determines."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from skillc_runtime.world.state.changes import AddRelation, Change, ClearPropert
 from skillc_runtime.world.state.world_state import WorldState
 
 
-def changed_between(before: WorldState, after: WorldState) -> Iterator[FactPattern]:
-    """Yield the facts in which two versions of the world differ; of a transitive relation, any."""
+def find_changed_facts(before: WorldState, after: WorldState) -> Iterator[FactPattern]:
+    """Yield the facts in which two versions of the world differ; also all facts of a transitive relation."""
     for relation, links in after.facts.items():
         if links is not before.facts[relation]:
             if relation in after.axioms.transitive:
@@ -23,19 +23,19 @@ def changed_between(before: WorldState, after: WorldState) -> Iterator[FactPatte
             yield from (FactPattern(property_, individual) for individual in {each for each, _ in changed})
 
 
-def settled_by(change: Change, state: WorldState) -> Iterator[FactPattern]:
-    """Yield all facts that a change decides, those included that it takes away."""
+def find_settled_facts(change: Change, state: WorldState) -> Iterator[FactPattern]:
+    """Yield all facts that a change makes true or false."""
     match change:
         case AddRelation(subject, relation, object_) | RemoveRelation(subject, relation, object_):
             for each in {*state.axioms.implied[relation], *state.axioms.sources[relation]}:
-                yield from _settled(each.relation, *each.ends(subject, object_), state)
+                yield from _find_settled_by_relation(each.relation, *each.ends(subject, object_), state)
         case SetProperty(individual, property_, _) | ClearProperty(individual, property_):
             yield FactPattern(property_, individual)
         case _:
             yield EVERYTHING
 
 
-def _settled(relation: str, subject: str, object_: str, state: WorldState) -> Iterator[FactPattern]:
+def _find_settled_by_relation(relation: str, subject: str, object_: str, state: WorldState) -> Iterator[FactPattern]:
     term = state.vocabulary.relations[relation]
     if relation not in state.axioms.transitive:
         yield FactPattern(relation, subject, object_)

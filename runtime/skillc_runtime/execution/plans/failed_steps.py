@@ -9,7 +9,7 @@ from skillc_model.read_write import FactPattern, facts_read
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.validation import PlanError, apply_step, find_startable_implementations
-from skillc_runtime.planning.world_changes import changed_between
+from skillc_runtime.planning.world_changes import find_changed_facts
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
@@ -85,7 +85,7 @@ class FailedSteps:
         return f"{failed.step.skill}[{failed.implementation}]({arguments}): {failed.reason}"
 
     def _has_changed(self, failed: FailedStep, state: WorldState) -> bool:
-        changed = tuple(changed_between(failed.state, state))
+        changed = tuple(find_changed_facts(failed.state, state))
         about = set(failed.step.arguments.values())
         return any(
             not about.isdisjoint((fact.subject, fact.object)) or any(fact.meets(read) for read in self._reads(failed))

@@ -1,4 +1,4 @@
-"""Large scenes: plans with the near part first, then with more of it, and a lower bound from stand-ins for the rest.
+"""Planning in large scenes: with the part near the goal, then with larger parts, and lower bounds for the whole.
 
 Start at `stages.plan_in_stages`.
 """

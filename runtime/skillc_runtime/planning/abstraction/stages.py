@@ -1,8 +1,8 @@
-"""Plans with the near part of a large scene first, then with more of it.
+"""Plans with the part of a large scene near the goal, then with larger parts.
 
-What a narrowed problem cannot tell is not claimed: its shortest plan is proven only if no plan of the whole scene can
-be shorter (see `bound`), and that it has no plan means that more of the scene is looked at, up to all of it. Nor is
-anything claimed of skills that cannot be planned with.
+Nothing is claimed that a narrowed problem does not prove: its shortest plan is proven to be optimal only if no plan of
+the whole scene can be shorter (see `lower_bound`), and if it has no plan, a larger part is considered, up to the whole
+scene. Nor is anything claimed about skills that planners cannot use.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from skillc_runtime.planning.problem.pose import Posed
 from skillc_runtime.world.state.world_state import WorldState
 
 STAGE_SHARE = 0.5
-"""Of the time that is left a narrowed problem gets this share, so that a wider one can still be tried."""
+"""The share of the remaining time for a narrowed problem, so that a larger one can still be tried."""
 
 BOUND_S = 2.0
-"""Finding out whether a plan for a part of the scene is the cheapest of all takes no longer than this."""
+"""The time limit for proving that a plan for a part of the scene is optimal for the whole scene."""
 
 Pose: TypeAlias = Callable[[AbstractionSize | None], Posed]
 Answer: TypeAlias = Callable[[Posed, float], PlanResult]
@@ -34,9 +34,9 @@ Explain: TypeAlias = Callable[[Posed], str]
 
 @dataclass(frozen=True, slots=True)
 class PlanningStages:
-    """How problems are posed, answered with a checked plan, searched without checking, and why they have no plan.
+    """Functions that pose a problem, answer it with a validated plan, search without validation, and explain failure.
 
-    Times are in seconds.
+    Times are in s.
     """
 
     pose: Pose
@@ -46,56 +46,56 @@ class PlanningStages:
 
 
 def plan_in_stages(
-    means: PlanningStages, state: WorldState, end: float, breadth: AbstractionSize | None, *, prove: bool
+    stages: PlanningStages, state: WorldState, end: float, size: AbstractionSize | None, *, prove: bool
 ) -> PlanResult:
     """Return the answer for the smallest part of the scene that has one, until the time `end` of the monotonic clock.
 
-    The first part has a `breadth`; without one it is the whole scene. With `prove`, and in a scene that is small, the
-    part is widened until a plan is proven to be the cheapest, or nothing is left out.
+    The first part is as large as `size` says; None is the whole scene. With `prove`, and in a small scene, the part
+    grows until a plan is proven to be optimal or nothing is left out.
     """
     best: Solved | None = None
     while True:
         try:
-            posed = means.pose(breadth)
+            posed = stages.pose(size)
         except TooManyValues as reason:
             return best or GaveUp(str(reason))
-        if breadth is None or not posed.narrowed:
-            return _of_all(best, posed, means, end)
-        answer = means.answer(posed, STAGE_SHARE * _left(end))
+        if size is None or not posed.narrowed:
+            return _plan_whole_scene(best, posed, stages, end)
+        answer = stages.answer(posed, STAGE_SHARE * _time_left_s(end))
         match answer:
             case Solved():
-                labelled = _labelled(answer, posed, means, state, end)
-                best = _of_these_skills(labelled, posed)
-                if labelled.optimal == "proven" or not (prove or posed.things <= breadth.whole):
+                rated = _rate(answer, posed, stages, state, end)
+                best = _limit_claims(rated, posed)
+                if rated.optimal == "proven" or not (prove or posed.candidate_count <= size.whole):
                     return best
             case Unsolvable():
-                why = _out_of_reach(posed, means, state, end)
+                why = _explain_unreachable(posed, stages, state, end)
                 if why is not None:
                     return _no_plan(why, posed)
             case GaveUp():
-                if _left(end) <= 0.0:
+                if _time_left_s(end) <= 0.0:
                     return best or answer
             case _:
                 assert_never(answer)
-        breadth = breadth.wider()
+        size = size.wider()
 
 
-def _of_all(best: Solved | None, posed: Posed, means: PlanningStages, end: float) -> PlanResult:
-    """Return the answer for the whole scene, or the best of the answers for its parts if there is none in time."""
-    answer = means.answer(posed, _left(end))
+def _plan_whole_scene(best: Solved | None, posed: Posed, stages: PlanningStages, end: float) -> PlanResult:
+    """Return the answer for the whole scene, or the best answer for a part if there is none in time."""
+    answer = stages.answer(posed, _time_left_s(end))
     match answer:
         case Solved():
-            return _of_these_skills(replace(answer, left_out=posed.left_out), posed)
+            return _limit_claims(replace(answer, left_out=posed.left_out), posed)
         case Unsolvable():
-            return _no_plan(means.explain(posed), posed)
+            return _no_plan(stages.explain(posed), posed)
         case GaveUp():
             return best or answer
         case _:
             assert_never(answer)
 
 
-def _of_these_skills(solved: Solved, posed: Posed) -> Solved:
-    """Return a plan without a claim on the skills and steps that it may not have; nothing takes less than no steps."""
+def _limit_claims(solved: Solved, posed: Posed) -> Solved:
+    """Return a plan without claims about the skills and steps that were left out; an empty plan is always optimal."""
     if not posed.restricted or not solved.plan.steps:
         return solved
     if solved.optimal == "proven":
@@ -104,34 +104,34 @@ def _of_these_skills(solved: Solved, posed: Posed) -> Solved:
 
 
 def _no_plan(why: str, posed: Posed) -> Unsolvable | GaveUp:
-    """Return that there is no plan, which is proved only where every skill could be planned with."""
+    """Return that there is no plan; this is a proof only if no skill or step was left out."""
     return GaveUp(why) if posed.restricted else Unsolvable(why)
 
 
-def _labelled(solved: Solved, posed: Posed, means: PlanningStages, state: WorldState, end: float) -> Solved:
-    """Return a plan of a narrowed problem with what is known about it in the whole scene."""
+def _rate(solved: Solved, posed: Posed, stages: PlanningStages, state: WorldState, end: float) -> Solved:
+    """Return a plan of a narrowed problem, rated for the whole scene."""
     found = replace(solved, left_out=posed.left_out, at_least_s=None)
     if solved.optimal != "proven":
         return replace(found, optimal="best found")
-    bound = _bound(posed, means, state, end)
+    bound = _search_lower_bound(posed, stages, state, end)
     least_s = bound.bound_s if isinstance(bound, Solved) else 0.0
     if least_s >= solved.plan.duration_s:
         return found
     return replace(found, optimal="optimal for the filtered problem", at_least_s=least_s or None)
 
 
-def _out_of_reach(posed: Posed, means: PlanningStages, state: WorldState, end: float) -> str | None:
-    """Return why the whole scene has no plan, None if it may have one."""
+def _explain_unreachable(posed: Posed, stages: PlanningStages, state: WorldState, end: float) -> str | None:
+    """Return why the whole scene has no plan; None if it may have one."""
     relaxed = relax_scene(posed, state)
-    if relaxed is None or not isinstance(means.search(relaxed, STAGE_SHARE * _left(end)), Unsolvable):
+    if relaxed is None or not isinstance(stages.search(relaxed, STAGE_SHARE * _time_left_s(end)), Unsolvable):
         return None
-    return means.explain(replace(posed, problem=relaxed))
+    return stages.explain(replace(posed, problem=relaxed))
 
 
-def _bound(posed: Posed, means: PlanningStages, state: WorldState, end: float) -> PlanResult | None:
+def _search_lower_bound(posed: Posed, stages: PlanningStages, state: WorldState, end: float) -> PlanResult | None:
     problem = relax_scene(posed, state)
-    return None if problem is None else means.search(problem, min(BOUND_S, _left(end)))
+    return None if problem is None else stages.search(problem, min(BOUND_S, _time_left_s(end)))
 
 
-def _left(end: float) -> float:
+def _time_left_s(end: float) -> float:
     return max(end - time.monotonic(), 0.0)

@@ -1,1 +1,1 @@
-"""Aries, a separate program: schedules for several robots with a short makespan. Start at `solver.Aries`."""
+"""Aries, an external program: schedules for several robots with a short makespan. Start at `solver.Aries`."""

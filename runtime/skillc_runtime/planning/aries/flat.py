@@ -1,6 +1,6 @@
-"""Durative actions without quantifiers and disjunctions: all that aries takes.
+"""Translates a problem to durative actions without quantifiers and disjunctions, the only ones that aries supports.
 
-A condition is written as cases, each an action of its own; what exists in a case becomes one more parameter.
+Each disjunct of a condition becomes an action of its own; an existential variable becomes one more parameter of it.
 """
 
 from __future__ import annotations
@@ -29,18 +29,18 @@ from skillc_model.pddl.prepare import prepared
 from skillc_model.pddl.problem import Problem
 from skillc_model.pddl.text import used_up
 
-MOST_CASES = 64
+MAX_CASES = 64
 
 Literal: TypeAlias = Atom | Equal | Negation
 
 
 class NotTemporal(ValueError):
-    """A problem that aries cannot take; the message says what of it."""
+    """A problem that aries does not support; the message says what in it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Disjunct:
-    """One way for a formula to hold: all literals do, for some objects of the variables."""
+    """A disjunct of a formula: all its literals hold for some objects of its variables."""
 
     variables: tuple[Typed, ...] = ()
     literals: tuple[Literal, ...] = ()
@@ -48,7 +48,7 @@ class Disjunct:
 
 @dataclass(frozen=True, slots=True)
 class FlatAction:
-    """An action with what must hold at its start and over all of it, and what changes at its start and at its end."""
+    """An action with its conditions at the start and over its whole duration, and its effects at the start and end."""
 
     action: Action
     parameters: tuple[Typed, ...]
@@ -60,7 +60,7 @@ class FlatAction:
 
 @dataclass(frozen=True, slots=True)
 class FlatProblem:
-    """A problem for aries, whose actions are ways to do those of `problem`."""
+    """A problem for aries; each of its actions is a variant of an action of `problem`."""
 
     problem: Problem
     actions: tuple[FlatAction, ...]
@@ -68,75 +68,75 @@ class FlatProblem:
 
 
 def flatten_problem(problem: Problem) -> FlatProblem:
-    """Return a problem as aries takes it; NotTemporal when there is no such form of it."""
+    """Return a problem in the form that aries supports; NotTemporal if there is none."""
     plain = prepared(problem)
-    actions = tuple(flat for action in plain.domain.actions for flat in _flat(action))
-    (goal,) = _cases(plain.goal, count())
+    actions = tuple(flat for action in plain.domain.actions for flat in _flatten(action))
+    (goal,) = _disjuncts(plain.goal, count())
     return FlatProblem(plain, actions, goal.literals)
 
 
-def _flat(action: Action) -> Iterator[FlatAction]:
-    changes = tuple(_plain(change, action) for change in action.effects)
+def _flatten(action: Action) -> Iterator[FlatAction]:
+    changes = tuple(_drop_condition(change, action) for change in action.effects)
     at_start = tuple(each for each in changes if used_up(each, action))
     at_end = tuple(each for each in changes if not used_up(each, action))
     fresh = count()
-    cases = _combined((_cases(action.precondition, fresh), _cases(action.hold, fresh)))
+    cases = _combine((_disjuncts(action.precondition, fresh), _disjuncts(action.hold, fresh)))
     for start, hold in cases:
         parameters = (*action.parameters, *start.variables, *hold.variables)
         yield FlatAction(action, parameters, (*start.literals, *hold.literals), hold.literals, at_start, at_end)
 
 
-def _plain(change: Change, action: Action) -> Change:
-    """Return a change without condition; a deletion needs none that there is something to delete."""
-    of_itself = change.condition == TRUE or (not change.positive and change.condition == change.atom)
-    if change.variables or not of_itself:
-        raise NotTemporal(f"what {action.skill or 'the goal'} changes depends on what there is when it ends")
+def _drop_condition(change: Change, action: Action) -> Change:
+    """Return a change without a condition; a deletion whose only condition is its own atom needs none."""
+    unconditional = change.condition == TRUE or (not change.positive and change.condition == change.atom)
+    if change.variables or not unconditional:
+        raise NotTemporal(f"what {action.skill or 'the goal'} changes depends on the state in which it ends")
     return Change(change.atom, change.positive)
 
 
-def _cases(formula: Formula, fresh: Iterator[int]) -> tuple[Disjunct, ...]:
-    """Return the ways for a formula to hold; variables get names of their own."""
+def _disjuncts(formula: Formula, fresh: Iterator[int]) -> tuple[Disjunct, ...]:
+    """Return the disjuncts of a formula; their variables get unique names."""
     match formula:
         case Atom() | Equal() | Negation():
             return (Disjunct(literals=(formula,)),)
         case Disjunction(parts):
-            return tuple(case for part in parts for case in _cases(part, fresh))
+            return tuple(case for part in parts for case in _disjuncts(part, fresh))
         case Conjunction(parts):
-            return tuple(map(_all, _combined([_cases(part, fresh) for part in parts])))
+            return tuple(map(_conjoin, _combine([_disjuncts(part, fresh) for part in parts])))
         case Existential(variable, body):
-            return tuple(_exists(variable, case, next(fresh)) for case in _cases(body, fresh))
+            return tuple(_bind_existential(variable, case, next(fresh)) for case in _disjuncts(body, fresh))
         case Universal():
-            raise AssertionError(f"{formula} was to be written out")
+            raise AssertionError(f"{formula} should have been expanded")
         case _:
             assert_never(formula)
 
 
-def _combined(ways: Sequence[tuple[Disjunct, ...]]) -> Iterator[tuple[Disjunct, ...]]:
+def _combine(ways: Sequence[tuple[Disjunct, ...]]) -> Iterator[tuple[Disjunct, ...]]:
     cases = prod(map(len, ways))
-    if cases > MOST_CASES:
+    if cases > MAX_CASES:
         raise NotTemporal(f"a condition has {cases} cases")
     return product(*ways)
 
 
-def _all(cases: Sequence[Disjunct]) -> Disjunct:
+def _conjoin(cases: Sequence[Disjunct]) -> Disjunct:
     literals = dict.fromkeys(literal for case in cases for literal in case.literals)
     return Disjunct(tuple(variable for case in cases for variable in case.variables), tuple(literals))
 
 
-def _exists(variable: Typed, case: Disjunct, number: int) -> Disjunct:
+def _bind_existential(variable: Typed, case: Disjunct, number: int) -> Disjunct:
     own = Typed(f"{variable.name}_{number}", variable.type)
-    literals = (_with(each, {variable.name: own.name}) for each in case.literals)
+    literals = (_rename(each, {variable.name: own.name}) for each in case.literals)
     return Disjunct((own, *case.variables), tuple(literals))
 
 
-def _with(literal: Literal, names: Mapping[str, str]) -> Literal:
+def _rename(literal: Literal, names: Mapping[str, str]) -> Literal:
     match literal:
         case Atom(predicate, terms):
             return Atom(predicate, tuple(names.get(each, each) for each in terms))
         case Equal(left, right):
             return Equal(names.get(left, left), names.get(right, right))
         case Negation(body):
-            inner = _with(body, names)
+            inner = _rename(body, names)
             assert not isinstance(inner, Negation)
             return Negation(inner)
         case _:

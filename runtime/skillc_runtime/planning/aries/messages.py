@@ -1,4 +1,4 @@
-"""A problem as a message of unified-planning, which aries reads: `unified_planning.proto` of that project, 1.3."""
+"""Encodes a problem for aries: as a Protocol Buffers message of `unified_planning.proto`, version 1.3."""
 
 from __future__ import annotations
 
@@ -9,10 +9,9 @@ from skillc_model.pddl.domain import ROOT, ComputedCost, Cost, FixedCost, Planni
 from skillc_model.pddl.formulas import Atom, Change, Equal, Negation, Typed
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.planning.aries.flat import FlatAction, FlatProblem, Literal
-from skillc_runtime.planning.aries.wire import encode_message, encode_nested, encode_number, encode_text
 
 IDLE = "up_idle"
-"""The fluent that says that nothing is running that locks the device; no predicate has this name."""
+"""The fluent that no running action locks a device; no predicate has this name."""
 
 _BOOL, _INT, _OPERATOR = "up:bool", "up:integer", "up:operator"
 _CONSTANT, _PARAMETER, _FLUENT, _FUNCTION, _STATE_VARIABLE, _APPLICATION = 1, 2, 3, 4, 5, 6
@@ -23,12 +22,12 @@ _FEATURES = (0, 1, 9, 11, 17, 18, 23, 27, 63)
 
 
 def action_name(index: int) -> str:
-    """Return the name under which aries knows the flat action of this index."""
+    """Return the name of the flat action with this index in the message."""
     return f"a{index}"
 
 
 def encode_problem(flat: FlatProblem) -> bytes:
-    """Return the problem as bytes: minimise the time at which all actions have ended."""
+    """Return the problem as a message, with the makespan as the metric to minimise."""
     problem, types = flat.problem, {each.name: each.type for each in flat.problem.objects}
     return encode_message(
         encode_text(1, "domain"),
@@ -98,7 +97,7 @@ def _duration(cost: Cost, types: Mapping[str, str], domain: PlanningDomain) -> b
 
 
 def _condition(expression: bytes, first: int, last: int) -> bytes:
-    """Return a condition at a point in time, or between two without them."""
+    """Return a condition at a time point, or over the open interval between two."""
     between = encode_number(1, 1) + encode_number(3, 1) if first != last else b""
     return encode_nested(
         4,
@@ -119,7 +118,7 @@ def _effect(state: bytes, value: bool, when: int) -> bytes:
 
 
 def _at(when: int) -> bytes:
-    """Return a point in time, without delay."""
+    """Return a time point, without delay."""
     return encode_message(encode_nested(1, encode_number(1, when)), encode_nested(2, encode_number(2, 1)))
 
 
@@ -138,7 +137,7 @@ def _initial(problem: Problem, types: Mapping[str, str]) -> Iterator[bytes]:
 
 
 def list_devices(problem: Problem) -> tuple[str, ...]:
-    """Return the objects that some action may lock."""
+    """Return the objects that an action may lock as devices."""
     locks = {each.type for action in problem.domain.actions for each in action.parameters if each.name in action.uses}
     return tuple(each.name for each in problem.objects if any(problem.domain.is_a(each.type, lock) for lock in locks))
 
@@ -183,3 +182,34 @@ def _truth(value: bool) -> bytes:
 
 def _integer(value: int) -> bytes:
     return encode_message(encode_nested(1, encode_number(2, value)), encode_text(3, _INT), encode_number(4, _CONSTANT))
+
+
+_VARINT, _LENGTH_DELIMITED = 0, 2
+
+
+def encode_message(*fields: bytes) -> bytes:
+    """Return a message with the given fields."""
+    return b"".join(fields)
+
+
+def encode_number(field: int, value: int) -> bytes:
+    """Return a field with a number >= 0, a truth value or a member of an enumeration."""
+    return _varint(field << 3 | _VARINT) + _varint(value)
+
+
+def encode_text(field: int, value: str) -> bytes:
+    """Return a field with a string."""
+    return encode_nested(field, value.encode())
+
+
+def encode_nested(field: int, value: bytes) -> bytes:
+    """Return a field with a message."""
+    return _varint(field << 3 | _LENGTH_DELIMITED) + _varint(len(value)) + value
+
+
+def _varint(value: int) -> bytes:
+    """Return seven bits a byte, the lowest first; all bytes but the last have the highest bit set."""
+    groups = [value & 0x7F]
+    while value := value >> 7:
+        groups.append(value & 0x7F)
+    return bytes(group | 0x80 for group in groups[:-1]) + bytes(groups[-1:])

@@ -1,4 +1,4 @@
-"""Asks aries for a schedule that is over early: with one instance of each action, with two, and so on."""
+"""Finds schedules with aries: with one instance of each action, then two, and so on."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ from skillc_runtime.planning.process import (
     Limits,
     ProcessEnded,
     ProcessNotStarted,
+    ProcessResult,
     ProcessTimedOut,
-    Run,
     RunningProcess,
     machine_limits,
     make_workplace,
@@ -35,17 +35,17 @@ PROGRAMS = {
     ("Darwin", "arm64"): "up-aries_macos_arm64",
 }
 GRACE_S = 0.5
-"""Told to stop, it gets so long to print the best that it has found."""
+"""How long aries may take after its time limit to print its best schedule."""
 
 _ENVIRONMENT = {"ARIES_LCP_SYMMETRY_BREAKING": "simple"}
-"""Its own choice of how to break symmetries makes version 0.5.0 panic on many problems."""
+"""The default symmetry breaking of version 0.5.0 panics on many problems."""
 
-_NOTHING = "NO PLAN"
+_NO_PLAN = "NO PLAN"
 _LINE = re.compile(r"^ *(\d+\.?\d*): \((\S+)((?: [^\s()]+)*)\) \[(\d+\.?\d*)\]$", re.MULTILINE)
 
 
 def find_aries() -> str | None:
-    """Return the program in the installed package, None where there is none; nothing of it is imported."""
+    """Return the program of the installed package, or None; the package is not imported."""
     package, name = find_spec("up_aries"), PROGRAMS.get((platform.system(), platform.machine()))
     if package is None or package.origin is None or name is None:
         return None
@@ -54,12 +54,12 @@ def find_aries() -> str | None:
 
 
 @dataclass(frozen=True, slots=True)
-class _Nothing:
-    """There is no schedule with so few instances of each action."""
+class _NoSchedule:
+    """There is no schedule with this number of instances of each action."""
 
 
 class Aries:
-    """Runs the program in a temporary folder; what it prints is a schedule only once somebody has checked it."""
+    """Runs the program in a temporary folder; callers must validate the schedules that it returns."""
 
     name = "aries"
 
@@ -68,77 +68,77 @@ class Aries:
         self._limits = limits or machine_limits()
 
     def schedule(self, problem: Problem, deadline_s: float) -> Schedule | GaveUp:
-        """Return the best schedule found within so many seconds; searching ends when one more instance is no help."""
+        """Return the best schedule within `deadline_s` seconds; stop when one more instance does not shorten it."""
         end = time.monotonic() + deadline_s
         try:
             flat = flatten_problem(_with_finer_units(problem))
             with make_workplace() as folder:
                 (Path(folder) / "problem.upp").write_bytes(encode_problem(flat))
-                return self._deeper_and_deeper(flat, Path(folder), end)
+                return self._search_all_depths(flat, Path(folder), end)
         except NotTemporal as why:
-            return GaveUp(f"aries does not take the problem: {why}; the planners for --minimise work do")
+            return GaveUp(f"aries does not support the problem: {why}; the planners for --minimise work do")
         except OSError as error:
-            return GaveUp(f"aries has no place to work in: {error.filename}: {error.strerror}")
+            return GaveUp(f"aries cannot use its working folder: {error.filename}: {error.strerror}")
 
-    def _deeper_and_deeper(self, flat: FlatProblem, folder: Path, end: float) -> Schedule | GaveUp:
-        answer: Schedule | _Nothing | GaveUp = _Nothing()
+    def _search_all_depths(self, flat: FlatProblem, folder: Path, end: float) -> Schedule | GaveUp:
+        answer: Schedule | _NoSchedule | GaveUp = _NoSchedule()
         depths = count(1)
-        while isinstance(answer, _Nothing):
-            answer = self._of_depth(next(depths), flat, folder, end)
+        while isinstance(answer, _NoSchedule):
+            answer = self._search_depth(next(depths), flat, folder, end)
         while isinstance(answer, Schedule):
-            deeper = self._of_depth(next(depths), flat, folder, end)
+            deeper = self._search_depth(next(depths), flat, folder, end)
             if not isinstance(deeper, Schedule) or deeper.makespan_s >= answer.makespan_s:
                 return answer
             answer = deeper
         return answer
 
-    def _of_depth(self, depth: int, flat: FlatProblem, folder: Path, end: float) -> Schedule | _Nothing | GaveUp:
+    def _search_depth(self, depth: int, flat: FlatProblem, folder: Path, end: float) -> Schedule | _NoSchedule | GaveUp:
         seconds = int(end - time.monotonic())
         if seconds < 1:
-            return GaveUp("aries gave up: its time was up")
+            return GaveUp("aries gave up: it ran out of time")
         searching = ("solve", "--optimal", "--min-depth", str(depth), "--max-depth", str(depth))
         command = (self._program, "--log-level", "error", *searching, "--timeout", str(seconds), "problem.upp")
-        with RunningProcess(command, folder, "said.txt", self._limits, environment=_ENVIRONMENT) as search:
+        with RunningProcess(command, folder, "output.txt", self._limits, environment=_ENVIRONMENT) as search:
             wait_for_end((search,), end + GRACE_S)
-            return _understood(search.outcome(), flat)
+            return _read_result(search.outcome(), flat)
 
 
 def _with_finer_units(problem: Problem) -> Problem:
-    """Return the problem in units beside which the gaps that aries leaves between steps, .1 of one, are short."""
+    """Return the problem with finer units, as aries leaves gaps of 0.1 units between steps."""
     domain = problem.domain
     longest = max(map(domain.units, durations(problem)), default=0)
     finer = 10 if 10 * longest <= MOST_UNITS else 1
     return replace(problem, domain=replace(domain, scale=finer * domain.scale))
 
 
-def _understood(outcome: Run, flat: FlatProblem) -> Schedule | _Nothing | GaveUp:
+def _read_result(outcome: ProcessResult, flat: FlatProblem) -> Schedule | _NoSchedule | GaveUp:
     match outcome:
-        case ProcessEnded(0, said) if _LINE.search(said):
-            return _schedule(said, flat)
-        case ProcessEnded(0, said) if _NOTHING in said:
-            return _Nothing()
-        case ProcessEnded(code, said):
-            panic = next((line for line in said.splitlines() if "panicked" in line), outcome.last_line)
-            how = f"was ended by signal {-code}" if code < 0 else f"ended with code {code}, saying: {panic}"
+        case ProcessEnded(0, output) if _LINE.search(output):
+            return _read_schedule(output, flat)
+        case ProcessEnded(0, output) if _NO_PLAN in output:
+            return _NoSchedule()
+        case ProcessEnded(code, output):
+            panic = next((line for line in output.splitlines() if "panicked" in line), outcome.last_line)
+            how = f"was ended by signal {-code}" if code < 0 else f"ended with code {code}, its output: {panic}"
             return GaveUp(f"aries gave up: it {how}")
         case ProcessNotStarted(why):
             return GaveUp(f"aries cannot be started ({why})")
         case ProcessTimedOut():
-            return GaveUp("aries gave up: its time was up")
+            return GaveUp("aries gave up: it ran out of time")
 
 
-def _schedule(said: str, flat: FlatProblem) -> Schedule | GaveUp:
-    """Return the schedule that was printed, units as seconds."""
+def _read_schedule(output: str, flat: FlatProblem) -> Schedule | GaveUp:
+    """Return the schedule that aries printed, with times in s."""
     actions = {action_name(index): each.action for index, each in enumerate(flat.actions)}
     steps = []
-    for start, name, words, duration in _LINE.findall(said):
+    for start, name, words, duration in _LINE.findall(output):
         if name not in actions:
-            return GaveUp(f"aries wrote something that is no plan: `{name}` is no action of the problem")
+            return GaveUp(f"aries printed an invalid plan: `{name}` is not an action of the problem")
         action, scale = actions[name], float(flat.problem.domain.scale)
         try:
             step = read_step(flat.problem, (action.name, *words.split()[: len(action.parameters)]))
         except PlanTextError as error:
-            return GaveUp(f"aries wrote something that is no plan: {error}")
+            return GaveUp(f"aries printed an invalid plan: {error}")
         if step is not None:
             steps.append(TimedStep(step, float(start) / scale, float(duration) / scale))
     return Schedule(tuple(sorted(steps, key=lambda each: each.start_s)))

@@ -1,1 +1,1 @@
-"""Fast Downward, a separate program: A* proves the optimum, LAMA finds plans. Start at `solver.FastDownward`."""
+"""Fast Downward, an external program: A* for optimal plans and LAMA for plans. Start at `solver.FastDownward`."""

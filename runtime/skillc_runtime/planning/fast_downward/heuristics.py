@@ -1,8 +1,8 @@
-"""Which of Fast Downward's heuristics prove the optimum of a task: its translator's output says what the task needs.
+"""Chooses the admissible heuristics of Fast Downward for a task, by the features of the translated task.
 
-LM-cut takes neither conditional effects nor axioms and ends with code 34. Merge-and-shrink (with label reduction and
-bisimulation) and h-max take conditional effects; h-max also runs with axioms, but its documentation promises no lower
-bound for them. The blind heuristic is a lower bound for everything.
+LM-cut supports neither conditional effects nor axioms and exits with code 34. Merge-and-shrink (with label reduction
+and bisimulation) and h-max support conditional effects; h-max also runs with axioms, but is not documented to be
+admissible with them. The blind heuristic is admissible for every task.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from pathlib import Path
 
 @dataclass(frozen=True, slots=True)
 class TaskFeatures:
-    """What of a translated task not every heuristic takes."""
+    """The features of a translated task that not every heuristic supports."""
 
     conditional_effects: bool
     axioms: bool
@@ -22,7 +22,7 @@ class TaskFeatures:
 
 @dataclass(frozen=True, slots=True)
 class Heuristic:
-    """A lower bound, as Fast Downward writes it; the next one gets a turn once it has had its share of the time."""
+    """An admissible heuristic in Fast Downward's syntax, and the share of the remaining time for it."""
 
     text: str
     share: float = 1.0
@@ -42,29 +42,29 @@ MERGE_AND_SHRINK = Heuristic(
 
 
 def read_task_features(task: Path) -> TaskFeatures:
-    """Return what a task needs, from the file that the translator wrote; ValueError where that is none."""
+    """Return the features of a task, from the translator's output file; ValueError if that is not a task."""
     conditional = axioms = False
     with task.open(encoding="utf-8") as file:
         lines = iter(file)
         for line in lines:
             word = line.strip()
             if word == "begin_operator" and not conditional:
-                conditional = any(count > 0 for count in _conditions(lines))
+                conditional = any(count > 0 for count in _count_effect_conditions(lines))
             axioms = axioms or word == "begin_rule"
     return TaskFeatures(conditional, axioms)
 
 
-def choose_heuristics(needs: TaskFeatures) -> tuple[Heuristic, ...]:
-    """Return the heuristics that are lower bounds for such a task, the most promising first."""
-    if needs.axioms:
+def choose_heuristics(features: TaskFeatures) -> tuple[Heuristic, ...]:
+    """Return the heuristics that are admissible for such a task, the most promising first."""
+    if features.axioms:
         return (BLIND,)
-    if needs.conditional_effects:
+    if features.conditional_effects:
         return (MERGE_AND_SHRINK, H_MAX, BLIND)
     return (LM_CUT, BLIND)
 
 
-def _conditions(lines: Iterable[str]) -> Iterator[int]:
-    """Yield the number of conditions of each effect of an operator, whose first line is its name."""
+def _count_effect_conditions(lines: Iterable[str]) -> Iterator[int]:
+    """Yield the number of conditions of each effect of an operator; the first line is its name."""
     rest = iter(lines)
     next(rest, "")
     for _ in range(int(next(rest, "0"))):

@@ -1,4 +1,4 @@
-"""Fast Downward, a program of its own: A*, which proves the optimum, and LAMA, which finds plans, race."""
+"""Runs Fast Downward: A*, which proves plans to be optimal, in parallel with LAMA, which finds plans fast."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ from skillc_runtime.planning.process import (
     Limits,
     ProcessEnded,
     ProcessNotStarted,
+    ProcessResult,
     ProcessTimedOut,
-    Run,
     RunningProcess,
     machine_limits,
     make_workplace,
@@ -33,17 +33,17 @@ from skillc_runtime.planning.process import (
 )
 
 HEAD_START_S = 0.2
-"""LAMA starts so much later than A*: most tasks are solved by then."""
+"""How much later LAMA starts than A*, which has solved most tasks by then."""
 
-MOST_COST = 2**30
-"""A plan that costs more may have been compared with costs that no longer fit into the planner's 32-bit integers."""
+MAX_COST = 2**30
+"""The largest cost that is trusted: the planner's costs are 32-bit integers, which may overflow."""
 
 _COST = re.compile(r"^; cost = (\d+)", re.MULTILINE)
 _PROVED = re.compile(r"\bf = (\d+)")
 _UNSOLVABLE = (10, 11)
 _ALL_EXPLORED = "Completely explored state space"
 _CODES = {
-    12: "it searched everything it could without an answer",
+    12: "its search ended without an answer",
     20: "it ran out of memory while translating",
     21: "it ran out of time while translating",
     22: "it ran out of memory",
@@ -63,7 +63,7 @@ class Programs:
 
 
 def find_fast_downward() -> Programs | None:
-    """Return the programs of the installed package, None where there is none; nothing of it is imported."""
+    """Return the programs of the installed package, or None; the package is not imported."""
     package, translator = find_spec("up_fast_downward"), find_spec("fast_downward")
     if package is None or package.origin is None or translator is None:
         return None
@@ -76,7 +76,7 @@ def find_fast_downward() -> Programs | None:
 
 
 class FastDownward:
-    """Solves a problem in a temporary folder; only plan files count, whatever the program's exit code says."""
+    """Runs the programs in a temporary folder; the plan files decide, not the exit code."""
 
     name = "Fast Downward"
 
@@ -85,7 +85,7 @@ class FastDownward:
         self._limits = limits or machine_limits()
 
     def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
-        """Solve a problem; `best found` when the time was too short for a proof."""
+        """Solve a problem within `deadline_s` seconds; "best found" if there was no time for a proof."""
         if problem.goal == FALSE:
             return Unsolvable("no skill can change what the goal asks for")
         end = time.monotonic() + deadline_s
@@ -93,7 +93,7 @@ class FastDownward:
             with make_workplace() as folder:
                 return self._plan(prepared(complemented(problem)), Path(folder), end)
         except OSError as error:
-            return GaveUp(f"Fast Downward has no place to work in: {error.filename}: {error.strerror}")
+            return GaveUp(f"Fast Downward cannot use its working folder: {error.filename}: {error.strerror}")
 
     def _plan(self, problem: Problem, folder: Path, end: float) -> PlanResult:
         (folder / "domain.pddl").write_text(domain_text(problem.domain), "utf-8")
@@ -103,16 +103,16 @@ class FastDownward:
             wait_for_end((translator,), end)
             translated = translator.outcome()
         if not isinstance(translated, ProcessEnded) or not (folder / "task.sas").is_file():
-            return GaveUp(f"Fast Downward did not take the problem: {_reason(translated)}")
+            return GaveUp(f"Fast Downward did not accept the problem: {_describe_failure(translated)}")
         try:
             chosen = choose_heuristics(read_task_features(folder / "task.sas"))
         except ValueError:
-            return GaveUp("Fast Downward did not take the problem: what its translator wrote is no task")
+            return GaveUp("Fast Downward did not accept the problem: its translator wrote an invalid task")
         return self._race(problem, folder, end, chosen)
 
     def _race(self, problem: Problem, folder: Path, end: float, chosen: Sequence[Heuristic]) -> PlanResult:
-        """Return what A* proves with one heuristic after the other, or the best that LAMA finds meanwhile."""
-        searched: list[Run] = []
+        """Return what A* proves with one heuristic after the other, or else the best plan of LAMA."""
+        searched: list[ProcessResult] = []
         finding = ("--alias", "seq-sat-lama-2011", "--plan-file", "found", "task.sas")
         with ExitStack() as beside:
             finder: RunningProcess | None = None
@@ -131,64 +131,64 @@ class FastDownward:
                             finder = beside.enter_context(
                                 RunningProcess((*self._programs.driver, *finding), folder, "finding.txt", self._limits)
                             )
-                    wait_for_end((proof,), _turn(heuristic, end))
+                    wait_for_end((proof,), _search_end(heuristic, end))
                     searched.append(proof.outcome())
                 if _has_proved(searched[-1]) or time.monotonic() >= end:
                     break
-            answer = _proved(problem, folder, searched[-1])
+            answer = _read_proof(problem, folder, searched[-1])
             if answer is None and finder is not None:
                 wait_for_end((finder,), end)
-        return answer or _best(problem, folder, searched)
+        return answer or _read_best_plan(problem, folder, searched)
 
 
-def _turn(heuristic: Heuristic, end: float) -> float:
-    """Return until when a search may take, by the monotonic clock."""
+def _search_end(heuristic: Heuristic, end: float) -> float:
+    """Return the end of a search with a heuristic, on the monotonic clock."""
     now = time.monotonic()
     return now + heuristic.share * max(end - now, 0.0)
 
 
-def _has_proved(searched: Run) -> bool:
+def _has_proved(searched: ProcessResult) -> bool:
     if not isinstance(searched, ProcessEnded):
         return False
     explored = searched.code == 12 and _ALL_EXPLORED in searched.output
     return searched.code == 0 or searched.code in _UNSOLVABLE or explored
 
 
-def _proved(problem: Problem, folder: Path, searched: Run) -> PlanResult | None:
-    """Return what A* has proved, None where it has proved nothing."""
+def _read_proof(problem: Problem, folder: Path, searched: ProcessResult) -> PlanResult | None:
+    """Return what A* has proved, or None."""
     if not isinstance(searched, ProcessEnded) or not _has_proved(searched):
         return None
     if searched.code != 0:
         return Unsolvable("no sequence of skills reaches the goal")
-    return _solved(problem, folder / "proved", None) if (folder / "proved").is_file() else None
+    return _read_plan(problem, folder / "proved", None) if (folder / "proved").is_file() else None
 
 
-def _best(problem: Problem, folder: Path, searched: Sequence[Run]) -> PlanResult:
-    """Return the last whole plan that LAMA wrote, each is better than the one before; with the bound that A* proved."""
-    at_least = max(map(_bound, searched))
-    plans = sorted(folder.glob("found*"), key=_number)
+def _read_best_plan(problem: Problem, folder: Path, searched: Sequence[ProcessResult]) -> PlanResult:
+    """Return the last complete plan of LAMA, which is its best, with the lower bound that A* proved."""
+    at_least = max(map(_read_lower_bound, searched))
+    plans = sorted(folder.glob("found*"), key=_plan_number)
     whole = [path for path in plans if _COST.search(path.read_text("utf-8", "replace"))]
     if plans:
-        return _solved(problem, (whole or plans)[-1], at_least)
+        return _read_plan(problem, (whole or plans)[-1], at_least)
     known = f"; any plan takes at least {float(at_least / problem.domain.scale):g} s" if at_least else ""
-    return GaveUp(f"Fast Downward gave up: {_reason(searched[-1])}{known}")
+    return GaveUp(f"Fast Downward gave up: {_describe_failure(searched[-1])}{known}")
 
 
-def _solved(problem: Problem, file: Path, at_least: int | None) -> PlanResult:
-    """Return the plan in a file, proved to cost the least unless only a bound on the cost is known, in units."""
+def _read_plan(problem: Problem, file: Path, at_least: int | None) -> PlanResult:
+    """Return the plan in a file; it is optimal unless a lower bound `at_least` on the cost, in units, is given."""
     try:
         text = file.read_text("utf-8")
         actions = [tuple(line.strip("() ").split()) for line in text.splitlines() if line.strip().startswith("(")]
         found = cost_plan(problem, actions)
     except (UnicodeDecodeError, PlanTextError) as error:
-        return GaveUp(f"Fast Downward wrote something that is no plan: {error}")
-    told = _COST.search(text)
-    if told is None or int(told.group(1)) != found.units:
-        said = f"costs {told.group(1)}" if told else "has no cost"
-        return GaveUp(f"Fast Downward wrote something that is no plan: it {said}, but its steps cost {found.units}")
+        return GaveUp(f"Fast Downward wrote an invalid plan: {error}")
+    stated = _COST.search(text)
+    if stated is None or int(stated.group(1)) != found.units:
+        cost = f"costs {stated.group(1)}" if stated else "has no cost"
+        return GaveUp(f"Fast Downward wrote an invalid plan: it {cost}, but its steps cost {found.units}")
     bound = found.units if at_least is None else at_least
-    if bound < found.units or found.units > MOST_COST:
-        known = float(bound / problem.domain.scale) if found.units <= MOST_COST else None
+    if bound < found.units or found.units > MAX_COST:
+        known = float(bound / problem.domain.scale) if found.units <= MAX_COST else None
         return Solved(found.plan, "best found", FastDownward.name, at_least_s=known or None)
     if found.exact:
         return Solved(found.plan, "proven", FastDownward.name)
@@ -196,25 +196,25 @@ def _solved(problem: Problem, file: Path, at_least: int | None) -> PlanResult:
     return Solved(found.plan, "optimal for approximate durations", FastDownward.name, at_least_s=least_s)
 
 
-def _number(file: Path) -> int:
+def _plan_number(file: Path) -> int:
     return int(file.suffix[1:]) if file.suffix[1:].isdigit() else 0
 
 
-def _bound(searched: Run) -> int:
-    """Return the least cost that any plan can have, as far as A* had come; in units."""
-    said = "" if isinstance(searched, ProcessNotStarted) else searched.output
-    return max(map(int, _PROVED.findall(said)), default=0)
+def _read_lower_bound(searched: ProcessResult) -> int:
+    """Return the lower bound on the cost of any plan that A* proved, in units."""
+    output = "" if isinstance(searched, ProcessNotStarted) else searched.output
+    return max(map(int, _PROVED.findall(output)), default=0)
 
 
-def _reason(outcome: Run) -> str:
+def _describe_failure(outcome: ProcessResult) -> str:
     match outcome:
         case ProcessTimedOut():
-            return "its time was up"
+            return "it ran out of time"
         case ProcessNotStarted(why):
             return f"it cannot be started ({why})"
         case ProcessEnded(code, _):
             if code == -signal.SIGXFSZ:
-                return "it wrote more into a file than it may"
+                return "it exceeded the limit on file size"
             if code < 0:
                 return f"it was ended by signal {-code}"
-            return _CODES.get(code, f"it ended with code {code}, saying: {outcome.last_line}")
+            return _CODES.get(code, f"it ended with code {code}, its output: {outcome.last_line}")

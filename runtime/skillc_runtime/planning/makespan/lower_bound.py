@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction
 
 from skillc_model.pddl.devices import devices
+from skillc_model.pddl.domain import Action, FixedCost
+from skillc_model.pddl.formulas import Equal, Negation, conjunction
+from skillc_model.pddl.names import fresh
+from skillc_model.pddl.problem import Problem
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.plan import Planner, Solved
 from skillc_runtime.planning.problem.pose import Posed
 from skillc_runtime.planning.schedule import Schedule
-from skillc_runtime.planning.search.device_work import price_device_work
 from skillc_runtime.planning.search.h_max import critical_path_s
 
 TOLERANCE_S = 1e-9
@@ -46,3 +51,24 @@ def _work_by_device_s(schedule: Schedule, library: SkillLibrary) -> Iterator[tup
                 device = each.step.arguments[name]
                 found[device] = found.get(device, 0.0) + each.duration_s
     yield from sorted(found.items(), key=lambda each: (-each[1], each[0]))
+
+
+def price_device_work(problem: Problem, device: str) -> Problem:
+    """Return the problem in which only actions that lock the device (the name of an object) have a cost.
+
+    No two of them run in parallel, so the cost of its cheapest plan is a lower bound on the makespan of any plan.
+    """
+    taken = {*problem.domain.names, *problem.domain.action, *problem.domain.predicate}
+    actions = tuple(each for action in problem.domain.actions for each in _split_by_device(action, device, taken))
+    return replace(problem, domain=replace(problem.domain, actions=actions, constants=problem.objects))
+
+
+def _split_by_device(action: Action, device: str, taken: set[str]) -> Iterator[Action]:
+    """Yield the action for other devices without cost, and for each device parameter the action with this device."""
+    others = (Negation(Equal(each, device)) for each in action.uses)
+    yield replace(action, precondition=conjunction((action.precondition, *others)), cost=FixedCost(Fraction(0)))
+    for each in action.uses:
+        here = conjunction((action.precondition, Equal(each, device)))
+        name = fresh(f"{action.name}-busy", taken)
+        taken.add(name)
+        yield replace(action, name=name, precondition=here)

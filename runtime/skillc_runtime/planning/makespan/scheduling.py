@@ -1,4 +1,4 @@
-"""Schedules a plan: each step starts as soon as those have ended that it has to wait for."""
+"""Schedules a plan: each step starts when the steps that must precede it have ended."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ class _ActiveStep:
     """A running step, with the implementations that may be running it."""
 
     step: Step
-    touches: ReadWriteSet
+    facts: ReadWriteSet
     implementations: tuple[Implementation, ...]
 
 
@@ -91,14 +91,14 @@ class _ScheduleSimulation:
             expected_s = float(compute_step_duration_s(step, library, state, self._before))
             if abs(self._steps[number - 1].duration_s - expected_s) > INSTANT_S:
                 raise PlanError(f"it takes {expected_s:g} s, not {self._steps[number - 1].duration_s:g}")
-            touches = read_write_set(step, library, self._locked, state, apply_effects(step, library, state))
+            facts = read_write_set(step, library, self._locked, state, apply_effects(step, library, state))
             for other, active in self._active.items():
-                shared = active.touches.shares_with(touches)
+                shared = active.facts.shares_with(facts)
                 if shared is not None:
                     raise PlanError(f"it overlaps with step {other}, {active.step.skill}: {shared}")
-                if touches.is_disturbed_by(active.touches):
+                if facts.is_disturbed_by(active.facts):
                     raise PlanError(f"it starts while step {other}, {active.step.skill}, changes what it reads")
-            self._active[number] = _ActiveStep(step, touches, implementations)
+            self._active[number] = _ActiveStep(step, facts, implementations)
 
     def _end(self, number: int) -> None:
         active = self._active.pop(number)

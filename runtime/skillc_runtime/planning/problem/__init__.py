@@ -1,4 +1,4 @@
-"""From a goal and a version of the world to a planning problem: which objects, actions and facts it has.
+"""From a goal and a version of the world to a planning problem: its objects, actions and facts.
 
 Start at `pose.pose_problem`.
 """

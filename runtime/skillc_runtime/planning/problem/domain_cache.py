@@ -1,4 +1,4 @@
-"""Planning domains, remembered: tasks in like scenes, and plans that are made anew, need the same one."""
+"""Caches planning domains: tasks in similar scenes, and plans for the same task, need the same one."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from skillc_model.pddl.domain import PlanningDomain
 from skillc_model.pddl.planning import planning_domain
 from skillc_model.skills import SkillLibrary
 
-REMEMBERED = 4
+CACHE_SIZE = 4
 
 
 def get_planning_domain(
@@ -19,21 +19,21 @@ def get_planning_domain(
 ) -> PlanningDomain:
     """Return the library as a planning domain, as `planning_domain` does.
 
-    `classes` are the lowest classes of an individual of the scene, none for one that the scene lacks.
+    `classes` returns the most specific classes of an individual; empty if the scene does not have it.
     """
-    skills = _Skills(library)
-    known = {iri: classes(iri) for iri in _named(skills)}
-    return _domain(skills, combined, frozenset((iri, found) for iri, found in known.items() if found))
+    key = _LibraryKey(library)
+    known = {iri: classes(iri) for iri in _mentioned_individuals(key)}
+    return _domain(key, combined, frozenset((iri, found) for iri, found in known.items() if found))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class _Skills:
-    """A library as a key: the same skills, in a vocabulary that says the same."""
+class _LibraryKey:
+    """A library as a cache key: equal if it has the same skills and an equal vocabulary."""
 
     library: SkillLibrary
 
     def __eq__(self, other: object) -> bool:
-        if not isinstance(other, _Skills):
+        if not isinstance(other, _LibraryKey):
             return NotImplemented
         one, two = self.library, other.library
         same = one.name == two.name and one.skills is two.skills and one.implementations is two.implementations
@@ -43,13 +43,13 @@ class _Skills:
         return hash((id(self.library.skills), id(self.library.implementations)))
 
 
-@lru_cache(REMEMBERED)
-def _named(skills: _Skills) -> frozenset[str]:
-    return frozenset(each.individual for found in mentions(skills.library).values() for each in found)
+@lru_cache(CACHE_SIZE)
+def _mentioned_individuals(key: _LibraryKey) -> frozenset[str]:
+    return frozenset(each.individual for found in mentions(key.library).values() for each in found)
 
 
-@lru_cache(REMEMBERED)
+@lru_cache(CACHE_SIZE)
 def _domain(
-    skills: _Skills, combined: frozenset[frozenset[str]], individuals: frozenset[tuple[str, frozenset[str]]]
+    key: _LibraryKey, combined: frozenset[frozenset[str]], individuals: frozenset[tuple[str, frozenset[str]]]
 ) -> PlanningDomain:
-    return planning_domain(skills.library, combined, dict(individuals))
+    return planning_domain(key.library, combined, dict(individuals))

@@ -1,4 +1,4 @@
-"""What is true at first, and what things cost: facts of the index, static conditions settled for every tuple."""
+"""The initial state of a planning problem: its facts, its static conditions for every tuple, and its costs."""
 
 from __future__ import annotations
 
@@ -29,66 +29,67 @@ from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.values import Value, has_value
 from skillc_runtime.world.state.world_state import WorldState
 
-MOST_VALUES = 1_000_000
+MAX_VALUES = 1_000_000
 
 
 class TooManyValues(Exception):
-    """A condition or a duration reads so many things that it cannot be worked out for all of them."""
+    """A condition or a duration has too many combinations of arguments to evaluate it for all of them."""
 
 
 class InitialState:
-    """Reads a version of the world for a planner; `undecided` collects what had no value for some individuals.
+    """Reads a version of the world for a planner.
 
-    `untimed` says why costs have no value, by function and arguments; they are taken for a second.
+    `undecided` collects the conditions that cannot be evaluated for some individuals; they count as false for these.
+    `untimed` is why a duration has no value, by cost function and arguments; `ASSUMED_SECONDS` is taken instead.
     """
 
     def __init__(self, domain: PlanningDomain, state: WorldState, objects: Sequence[Typed], names: dict[str, str]):
         self._domain, self._state = domain, state
         self._iris = names
         self._names = {iri: name for name, iri in names.items()}
-        self._members = {type_: domain.of_type(objects, type_) for type_ in _types(domain)}
+        self._members = {type_: domain.of_type(objects, type_) for type_ in _parameter_types(domain)}
         self.undecided: dict[str, None] = {}
         self.untimed: dict[tuple[str, tuple[str, ...]], str] = {}
 
     def atoms(self) -> Iterator[Atom]:
-        """Yield what is true at first, sorted within each predicate."""
+        """Yield the atoms that are true initially, sorted within each predicate."""
         for predicate in self._domain.predicates:
-            yield from (Atom(predicate.name, terms) for terms in sorted(self._tuples(predicate)))
+            yield from (Atom(predicate.name, terms) for terms in sorted(self._true_tuples(predicate)))
 
     def costs(self) -> Iterator[CostValue]:
-        """Yield the value of each cost function for all tuples of its types."""
+        """Yield the value of each cost function for all arguments of its types."""
         for function in self._domain.costs:
-            for names in self._choices(function.parameters, f"the duration of {function.skill}"):
-                yield CostValue(function.name, names, self._seconds(function, names))
+            for names in self._arguments(function.parameters, f"the duration of {function.skill}"):
+                yield CostValue(function.name, names, self._duration_s(function, names))
 
-    def _tuples(self, predicate: Predicate) -> Iterable[tuple[str, ...]]:
+    def _true_tuples(self, predicate: Predicate) -> Iterable[tuple[str, ...]]:
         match predicate.meaning:
             case RelationFact(relation, narrower):
-                return self._relation(relation, narrower)
+                return self._related_pairs(relation, narrower)
             case PropertyFact(property_, value):
                 return ((self._names[iri],) for iri in self._with_value(property_, value))
             case ClassFact(cls):
                 return ((name,) for iri, name in self._names.items() if self._state.is_a(iri, cls))
             case GuardFact():
-                return self._guard(predicate, predicate.meaning)
+                return self._satisfying(predicate, predicate.meaning)
             case GoalFact():
                 return ()
             case _:
                 assert_never(predicate.meaning)
 
-    def _relation(self, relation: str, narrower: tuple[tuple[str, bool], ...]) -> set[tuple[str, ...]]:
+    def _related_pairs(self, relation: str, narrower: tuple[tuple[str, bool], ...]) -> set[tuple[str, ...]]:
         names, others = self._names, {each for each, _ in narrower}
         pairs = (
             self._state.pairs(relation)
             if self._state.vocabulary.is_computed(relation)
-            else self._said(relation, others)
+            else self._asserted_pairs(relation, others)
         )
         return {(names[start], names[end]) for start, end in pairs if start in names and end in names}
 
-    def _said(self, relation: str, others: Set[str]) -> Iterator[tuple[str, str]]:
-        """Yield the pairs of which a relation holds by what was written of relations that are none of the others.
+    def _asserted_pairs(self, relation: str, others: Set[str]) -> Iterator[tuple[str, str]]:
+        """Yield the pairs between which a relation holds because of asserted relations that are not among the others.
 
-        Facts that follow over several steps count where skills change none of these: no condition reads them elsewhere.
+        A transitive relation counts with its closure, unless skills change one of its sources.
         """
         axioms, closure = self._state.axioms, self._state.vocabulary.closure
         for source, flipped in axioms.sources[relation]:
@@ -106,8 +107,8 @@ class InitialState:
         owners = (iri for iri in self._names if not computed or any(state.is_a(iri, each) for each in term.domains))
         return (iri for iri in owners if has_value(property_of(state, iri, property_), value))
 
-    def _guard(self, predicate: Predicate, fact: GuardFact) -> Iterator[tuple[str, ...]]:
-        for names in self._choices(predicate.parameters, f"condition `{fact.label}` of {fact.skill}"):
+    def _satisfying(self, predicate: Predicate, fact: GuardFact) -> Iterator[tuple[str, ...]]:
+        for names in self._arguments(predicate.parameters, f"condition `{fact.label}` of {fact.skill}"):
             bindings = {variable: self._iris[name] for variable, name in zip(fact.variables, names, strict=True)}
             try:
                 if evaluate(fact.condition, self._state, bindings):
@@ -115,14 +116,14 @@ class InitialState:
             except EvaluationError as error:
                 self.undecided[f"condition `{fact.label}` of {fact.skill}: {error}"] = None
 
-    def _choices(self, parameters: Sequence[Typed], reader: str) -> Iterator[tuple[str, ...]]:
+    def _arguments(self, parameters: Sequence[Typed], reader: str) -> Iterator[tuple[str, ...]]:
         members = [self._members[each.type] for each in parameters]
-        if prod(map(len, members)) > MOST_VALUES:
+        if prod(map(len, members)) > MAX_VALUES:
             sizes = " x ".join(str(len(each)) for each in members if len(each) > 1)
-            raise TooManyValues(f"{reader} would have to be worked out for {sizes} things")
+            raise TooManyValues(f"{reader} would have to be evaluated for {sizes} objects")
         return product(*members)
 
-    def _seconds(self, function: CostFunction, names: tuple[str, ...]) -> Fraction:
+    def _duration_s(self, function: CostFunction, names: tuple[str, ...]) -> Fraction:
         bindings = {variable: self._iris[name] for variable, name in zip(function.variables, names, strict=True)}
         seconds = evaluate_duration_s(function.expression, self._state, bindings)
         if isinstance(seconds, Fraction):
@@ -134,13 +135,13 @@ class InitialState:
 def evaluate_duration_s(
     expression: Expression, state: WorldState, bindings: Mapping[str, Value | None]
 ) -> Fraction | str:
-    """Return a duration in seconds, or why there is none; then it is taken for `ASSUMED_SECONDS`."""
+    """Return a duration in s, or why it has no value; callers then take `ASSUMED_SECONDS`."""
     try:
         return exact_seconds(value_of(expression, state, bindings))
     except (EvaluationError, ValueError) as reason:
         return str(reason)
 
 
-def _types(domain: PlanningDomain) -> set[str]:
+def _parameter_types(domain: PlanningDomain) -> set[str]:
     typed = [each for predicate in domain.predicates for each in predicate.parameters]
     return {each.type for each in (*typed, *(each for function in domain.costs for each in function.parameters))}

@@ -1,8 +1,8 @@
-"""Finds the types whose things make no difference to any plan unless a fact speaks of them.
+"""Finds the types whose objects do not affect any plan unless there is an asserted fact about them.
 
-Such a thing fits no parameter, so no action makes a fact about it true, and every quantifier that ranges over it is
-sure of its answer for a thing of which nothing is true: `exists` of false, `forall` of true. Without it every formula
-has the same value in every state that can be reached.
+An object of such a type fits no parameter, so no action makes a fact about it true; and for an object without facts,
+the body of every quantifier that ranges over it is constant: false below `exists`, true below `forall`. So leaving it
+out changes the value of no formula in any reachable state.
 """
 
 from __future__ import annotations
@@ -30,23 +30,23 @@ from skillc_runtime.world.state.world_state import WorldState
 
 
 def find_relevant_types(domain: PlanningDomain, vocabulary: Vocabulary) -> frozenset[str]:
-    """Return the types of which every thing counts; one of another type counts if a written fact speaks of it."""
-    facts = frozenset(each.name for each in domain.predicates if _is_written(each, vocabulary))
+    """Return the types whose objects are all relevant; other objects are if they have an asserted fact."""
+    facts = frozenset(each.name for each in domain.predicates if _is_asserted(each, vocabulary))
     types = {each.type for action in domain.actions for each in action.parameters}
     for action in domain.actions:
         for formula in (action.precondition, action.hold, *(change.condition for change in action.effects)):
-            types |= set(_told_apart(formula, facts))
+            types |= set(_list_deciding_types(formula, facts))
     return frozenset(types)
 
 
-def has_written_fact(individual: str, domain: PlanningDomain, state: WorldState) -> bool:
-    """Whether a fact speaks of the individual that is written in the world model, as against computed."""
+def has_asserted_fact(individual: str, domain: PlanningDomain, state: WorldState) -> bool:
+    """Whether the world model has a fact about the individual that is asserted, not computed."""
     return any(
-        _speaks_of(each.meaning, individual, state) for each in domain.predicates if _is_written(each, state.vocabulary)
+        _mentions(each.meaning, individual, state) for each in domain.predicates if _is_asserted(each, state.vocabulary)
     )
 
 
-def _is_written(predicate: Predicate, vocabulary: Vocabulary) -> bool:
+def _is_asserted(predicate: Predicate, vocabulary: Vocabulary) -> bool:
     match predicate.meaning:
         case RelationFact():
             return True
@@ -56,7 +56,7 @@ def _is_written(predicate: Predicate, vocabulary: Vocabulary) -> bool:
             return False
 
 
-def _speaks_of(meaning: Meaning, individual: str, state: WorldState) -> bool:
+def _mentions(meaning: Meaning, individual: str, state: WorldState) -> bool:
     match meaning:
         case RelationFact(relation=relation):
             return bool(state.objects(individual, relation) or state.subjects(relation, individual))
@@ -66,28 +66,28 @@ def _speaks_of(meaning: Meaning, individual: str, state: WorldState) -> bool:
             return False
 
 
-def _told_apart(formula: Formula, facts: Set[str]) -> Iterator[str]:
-    """Yield the types of quantified variables for which a thing without facts may decide the answer."""
+def _list_deciding_types(formula: Formula, facts: Set[str]) -> Iterator[str]:
+    """Yield the types of quantified variables for which an object without facts may decide the value."""
     match formula:
         case Atom() | Equal() | Negation():
             pass
         case Conjunction(parts) | Disjunction(parts):
             for part in parts:
-                yield from _told_apart(part, facts)
+                yield from _list_deciding_types(part, facts)
         case Existential(variable, body):
-            if _without_facts(body, variable.name, facts) != FALSE:
+            if _assume_no_facts(body, variable.name, facts) != FALSE:
                 yield variable.type
-            yield from _told_apart(body, facts)
+            yield from _list_deciding_types(body, facts)
         case Universal(variable, body):
-            if _without_facts(body, variable.name, facts) != TRUE:
+            if _assume_no_facts(body, variable.name, facts) != TRUE:
                 yield variable.type
-            yield from _told_apart(body, facts)
+            yield from _list_deciding_types(body, facts)
         case _:
             assert_never(formula)
 
 
-def _without_facts(formula: Formula, variable: str, facts: Set[str]) -> Formula:
-    """Return what is left of a formula when none of the facts speaks of the variable."""
+def _assume_no_facts(formula: Formula, variable: str, facts: Set[str]) -> Formula:
+    """Return the formula simplified for a variable about which none of the `facts` holds."""
     match formula:
         case Atom(predicate, terms):
             return FALSE if variable in terms and predicate in facts else formula
@@ -96,14 +96,14 @@ def _without_facts(formula: Formula, variable: str, facts: Set[str]) -> Formula:
         case Equal() | Negation():
             return formula
         case Conjunction(parts):
-            return conjunction(_without_facts(part, variable, facts) for part in parts)
+            return conjunction(_assume_no_facts(part, variable, facts) for part in parts)
         case Disjunction(parts):
-            return disjunction(_without_facts(part, variable, facts) for part in parts)
+            return disjunction(_assume_no_facts(part, variable, facts) for part in parts)
         case Existential(inner, body):
-            found = _without_facts(body, variable, facts)
+            found = _assume_no_facts(body, variable, facts)
             return FALSE if found == FALSE else Existential(inner, found)
         case Universal(inner, body):
-            found = _without_facts(body, variable, facts)
+            found = _assume_no_facts(body, variable, facts)
             return TRUE if found == TRUE else Universal(inner, found)
         case _:
             assert_never(formula)

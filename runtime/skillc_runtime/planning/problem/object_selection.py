@@ -1,4 +1,4 @@
-"""Chooses the objects of a problem and says why the other individuals of the scene are left out."""
+"""Selects the objects of a problem, with the reasons why the other individuals of the scene are left out."""
 
 from __future__ import annotations
 
@@ -12,30 +12,30 @@ from skillc_model.pddl.constants import lowest
 from skillc_model.pddl.domain import PlanningDomain
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.planning.plan import LeftOut
-from skillc_runtime.planning.problem.irrelevant_types import find_relevant_types, has_written_fact
+from skillc_runtime.planning.problem.irrelevant_types import find_relevant_types, has_asserted_fact
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize, select_near
 from skillc_runtime.planning.typed_variables import list_typed_variables
 from skillc_runtime.world.state.world_state import WorldState
 
-NO_USE = "no useful action, no condition of one and no goal can speak of them"
-NO_FACT = "they fit no parameter, and no fact that a condition reads speaks of them"
-FAR = "they are far from what the goal speaks of"
+IRRELEVANT = "neither the goal nor a useful action can refer to them"
+WITHOUT_FACTS = "they fit no parameter, and no condition reads a fact about them"
+FAR = "they are far from what the goal refers to"
 
-Kinds: TypeAlias = Mapping[frozenset[str], Sequence[str]]
-"""The individuals of a scene by the classes that they were declared to be of."""
+IndividualsByClass: TypeAlias = Mapping[frozenset[str], Sequence[str]]
+"""The individuals of a scene by their declared classes."""
 
 
 @dataclass(frozen=True, slots=True)
 class ObjectSelection:
-    """The types of the individuals that are kept, and by type the `others` that may make a difference but are not."""
+    """The types of the individuals that are kept, and by type the `others`, which are not but may be relevant."""
 
     kept: dict[str, str]
     others: dict[str, tuple[str, ...]]
     left_out: tuple[LeftOut, ...]
 
 
-def group_by_class(state: WorldState) -> Kinds:
-    """Return the individuals by their classes: of these there are few, however large the scene is."""
+def group_by_class(state: WorldState) -> IndividualsByClass:
+    """Return the individuals by their declared classes; even large scenes have few combinations of these."""
     kinds: dict[frozenset[str], list[str]] = defaultdict(list)
     for iri, classes in state.direct.items():
         kinds[classes].append(iri)
@@ -43,19 +43,19 @@ def group_by_class(state: WorldState) -> Kinds:
 
 
 def select_objects(
-    domain: PlanningDomain, state: WorldState, kinds: Kinds, named: Set[str], breadth: AbstractionSize | None
+    domain: PlanningDomain, state: WorldState, kinds: IndividualsByClass, named: Set[str], size: AbstractionSize | None
 ) -> ObjectSelection:
-    """Return the individuals to plan with; those of `named` are kept, and with a breadth what is near them."""
-    candidates, useless, silent = _candidates(domain, state, kinds, named)
+    """Return the objects of the problem, among them all of `named`; with a `size`, only those near these."""
+    candidates, useless, without_facts = _candidates(domain, state, kinds, named)
     others: dict[str, tuple[str, ...]] = {}
-    if breadth is not None and sum(map(len, candidates.values())) > breadth.objects:
-        found = select_near(domain, state, candidates, named, breadth)
+    if size is not None and sum(map(len, candidates.values())) > size.objects:
+        found = select_near(domain, state, candidates, named, size)
         far = {each: tuple(iri for iri in iris if iri not in found) for each, iris in candidates.items()}
         others = {each: iris for each, iris in far.items() if iris}
         candidates = {each: [iri for iri in iris if iri in found] for each, iris in candidates.items()}
     reasons = (
-        LeftOut(useless, NO_USE, harmless=True),
-        LeftOut(silent, NO_FACT, harmless=True),
+        LeftOut(useless, IRRELEVANT, harmless=True),
+        LeftOut(without_facts, WITHOUT_FACTS, harmless=True),
         LeftOut(tuple(chain.from_iterable(others.values())), FAR, harmless=False),
     )
     kept = {iri: each for each, iris in candidates.items() for iri in iris}
@@ -63,26 +63,29 @@ def select_objects(
 
 
 def _candidates(
-    domain: PlanningDomain, state: WorldState, kinds: Kinds, named: Set[str]
+    domain: PlanningDomain, state: WorldState, kinds: IndividualsByClass, named: Set[str]
 ) -> tuple[dict[str, list[str]], list[str], list[str]]:
-    """Return by type who may make a difference; those whom nothing can speak of; those of whom nothing is said."""
+    """Return the relevant individuals by type, those that nothing can refer to, and those without facts."""
     candidates: dict[str, list[str]] = {}
     useless: list[str] = []
-    silent: list[str] = []
-    told, ranged = find_relevant_types(domain, state.vocabulary), {each.type for each in list_typed_variables(domain)}
-    for type_, iris in _by_type(domain, kinds, state.vocabulary).items():
-        if _fits(domain, type_, told):
+    without_facts: list[str] = []
+    relevant, quantified = (
+        find_relevant_types(domain, state.vocabulary),
+        {each.type for each in list_typed_variables(domain)},
+    )
+    for type_, iris in _group_by_type(domain, kinds, state.vocabulary).items():
+        if _fits(domain, type_, relevant):
             candidates[type_] = iris
             continue
-        may_count = _fits(domain, type_, ranged)
-        rest = silent if may_count else useless
-        spoken_of = {iri for iri in iris if iri in named or (may_count and has_written_fact(iri, domain, state))}
-        candidates[type_] = list(spoken_of)
-        rest.extend(iri for iri in iris if iri not in spoken_of)
-    return candidates, useless, silent
+        is_quantified = _fits(domain, type_, quantified)
+        rest = without_facts if is_quantified else useless
+        mentioned = {iri for iri in iris if iri in named or (is_quantified and has_asserted_fact(iri, domain, state))}
+        candidates[type_] = list(mentioned)
+        rest.extend(iri for iri in iris if iri not in mentioned)
+    return candidates, useless, without_facts
 
 
-def _by_type(domain: PlanningDomain, kinds: Kinds, vocabulary: Vocabulary) -> dict[str, list[str]]:
+def _group_by_type(domain: PlanningDomain, kinds: IndividualsByClass, vocabulary: Vocabulary) -> dict[str, list[str]]:
     """Return the individuals by their most specific types."""
     found: dict[str, list[str]] = {}
     for classes, iris in kinds.items():

@@ -1,9 +1,9 @@
-"""A planning problem from a version of the world and a goal, in one pass over the index."""
+"""Poses planning problems: from a library, a version of the world and a goal."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 
@@ -13,7 +13,7 @@ from skillc_model.conditions import Anything, Condition, Exists, Forall, Holds, 
 from skillc_model.pddl.constants import lowest
 from skillc_model.pddl.costs import common_scale
 from skillc_model.pddl.domain import Action, ComputedCost, PlanningDomain
-from skillc_model.pddl.formulas import TRUE, Formula, Typed, renamed
+from skillc_model.pddl.formulas import TRUE, Equal, Formula, Negation, Typed, conjunction, disjunction, renamed
 from skillc_model.pddl.goals import ground_goal, with_predicates_of
 from skillc_model.pddl.names import object_names
 from skillc_model.pddl.problem import Problem, durations
@@ -23,10 +23,9 @@ from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.planning.plan import LeftOut, Step
 from skillc_runtime.planning.problem.domain_cache import get_planning_domain
-from skillc_runtime.planning.problem.excluded_steps import exclude_steps
 from skillc_runtime.planning.problem.initial_state import InitialState
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
-from skillc_runtime.planning.problem.object_selection import Kinds, group_by_class, select_objects
+from skillc_runtime.planning.problem.object_selection import IndividualsByClass, group_by_class, select_objects
 from skillc_runtime.planning.problem.relevance import RelevantDomain, keep_relevant_actions
 from skillc_runtime.planning.problem.unplannable_skills import select_skills_that_may_matter
 from skillc_runtime.planning.search.grounding import Grounding, GroundingTimeout
@@ -34,23 +33,23 @@ from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
 
-LONGEST_S = 2.0
-"""Finding out whether an action without a known duration may ever apply takes no longer than this."""
+APPLICABILITY_S = 2.0
+"""The time limit for finding out whether actions without a known duration can apply."""
 
 
 class GoalError(ValueError):
-    """A goal that cannot be planned for; the message says what of it, in the author's words."""
+    """A goal that cannot be planned for; the message names the part of it that cannot."""
 
 
 @dataclass(frozen=True, slots=True)
 class Posed:
-    """A problem with the library it speaks of (the scene's own classes included), and what could not be decided.
+    """A problem, its library (with the classes that the scene defines), and what the problem leaves open or out.
 
-    `undecided` are static conditions that have no value for some individuals, which are left out; `assumptions` say
-    which durations are not known before the plan is executed.
-    `left_out` lists what the scene and the library have beyond the problem, with reasons; `others` are those
-    individuals of it that might make a difference, by their types: where there are any, the problem is `narrowed`.
-    An `open_goal` speaks of whoever stands in a relation, of which a narrowed problem knows only those that it keeps.
+    `undecided` are static conditions that cannot be evaluated for some individuals and count as false for them;
+    `assumptions` describe which durations are not known before the plan is executed. `left_out` lists the individuals,
+    skills and steps that are not part of the problem, with reasons; `others` are the individuals among them that may be
+    relevant, by type: if there are any, the problem is `narrowed`. An `open_goal` refers to any individual in a
+    relation (`_`), of which a narrowed problem knows only those that it keeps.
     """
 
     problem: Problem
@@ -63,23 +62,23 @@ class Posed:
 
     @property
     def narrowed(self) -> bool:
-        """Whether a cheaper plan or any plan at all may need an individual that was left out."""
+        """Whether a plan, or a cheaper plan, may need an individual that was left out."""
         return bool(self.others)
 
     @property
     def restricted(self) -> tuple[LeftOut, ...]:
-        """The skills and steps that were left out and that a cheaper plan or any plan at all may need."""
+        """The skills and steps that were left out although a plan, or a cheaper plan, may need them."""
         return tuple(each for each in self.left_out if each.kind != "individuals" and not each.harmless)
 
     @property
-    def things(self) -> int:
-        """How many individuals of the scene might make a difference."""
+    def candidate_count(self) -> int:
+        """The number of individuals of the scene that may be relevant."""
         return len(self.problem.objects) + sum(map(len, self.others.values()))
 
 
 def already_holds(goal: Condition, state: WorldState) -> bool:
-    """Whether a goal holds in a version of the world; GoalError when it cannot be decided or names an unknown."""
-    _refuse_unknown(goal, state)
+    """Whether a goal holds in a version of the world; GoalError if it cannot be decided or names an unknown."""
+    _check_known(goal, state)
     try:
         return evaluate(goal, state, {})
     except EvaluationError as reason:
@@ -91,26 +90,27 @@ def pose_problem(
     state: WorldState,
     goal: Condition,
     without: Sequence[Step] = (),
-    breadth: AbstractionSize | None = None,
+    size: AbstractionSize | None = None,
 ) -> Posed:
-    """Return the problem of reaching the goal from a version of the world, by other steps than those of `without`.
+    """Return the problem of reaching the goal from a version of the world without the steps in `without`.
 
-    Skills and individuals are left out that can make no difference; with a `breadth` also individuals that are far from
-    what the goal speaks of. Skills that cannot be planned with are left out too. GoalError when the goal names an
-    unknown individual or says what a planner cannot reason about.
+    Irrelevant skills and individuals are left out, and skills that planners cannot use; with a `size` also individuals
+    that are far from those of the goal. GoalError if the goal names an unknown individual or cannot be expressed.
     """
-    library = _in_the_words_of(state.vocabulary, library)
+    library = _with_vocabulary(library, state.vocabulary)
     kinds = group_by_class(state)
-    named = _named(goal, state, kinds)
-    domain = get_planning_domain(library, _combined(kinds, state.vocabulary), lambda iri: _lowest(iri, state))
-    wanted = _ground(goal, library, domain, named, state)
+    named = _referenced_individuals(goal, state, kinds)
+    domain = get_planning_domain(
+        library, _class_combinations(kinds, state.vocabulary), lambda iri: _most_specific_classes(iri, state)
+    )
+    wanted = _ground_goal(goal, library, domain, named, state)
     domain = with_predicates_of(wanted, library, domain)
     useful = RelevantDomain(domain, ()) if wanted == TRUE else keep_relevant_actions(domain, wanted)
     constants = {each.name: domain.names[each.name] for each in useful.domain.constants}
-    selection = select_objects(useful.domain, state, kinds, named.union(constants.values()), breadth)
+    selection = select_objects(useful.domain, state, kinds, named.union(constants.values()), size)
     types = selection.kept
-    if _is_open(goal):
-        wanted = _ground(goal, library, domain, named | types.keys(), state)
+    if _has_wildcard(goal):
+        wanted = _ground_goal(goal, library, domain, named | types.keys(), state)
     others = types.keys() - set(constants.values())
     taken = domain.names.keys() | {each.name for each in domain.predicates}
     names = {**constants, **object_names(others, state.vocabulary, taken)}
@@ -127,21 +127,27 @@ def pose_problem(
         costs=tuple(initial.costs()),
         goal=renamed(wanted, by_iri),
     )
-    left_out = (*_skills_left_out(useful, goal, library), *_steps_left_out(without, state), *selection.left_out)
+    left_out = (
+        *_list_left_out_skills(useful, goal, library),
+        *_list_left_out_steps(without, state),
+        *selection.left_out,
+    )
     problem = replace(problem, domain=replace(domain, scale=common_scale(durations(problem))))
-    assumptions = (*_untimed(initial, problem), *_estimates(domain, state.vocabulary))
-    return Posed(problem, library, tuple(initial.undecided), assumptions, left_out, selection.others, _is_open(goal))
+    assumptions = (*_describe_unknown_durations(initial, problem), *_describe_estimates(domain, state.vocabulary))
+    return Posed(
+        problem, library, tuple(initial.undecided), assumptions, left_out, selection.others, _has_wildcard(goal)
+    )
 
 
-def _untimed(initial: InitialState, problem: Problem) -> Iterator[str]:
-    """Yield why durations of actions have no value, if those may ever apply as far as can be found out soon."""
+def _describe_unknown_durations(initial: InitialState, problem: Problem) -> Iterator[str]:
+    """Yield why durations have no value, for actions that may apply as far as is known within the time limit."""
     unknown = initial.untimed
     if not unknown:
         return
     actions = {each.name: each for each in problem.domain.actions if isinstance(each.cost, ComputedCost)}
     used = set(unknown)
     with suppress(GroundingTimeout):
-        grounding = Grounding(problem, time.monotonic() + LONGEST_S)
+        grounding = Grounding(problem, time.monotonic() + APPLICABILITY_S)
         used &= {
             _cost_of(actions[each.words[0]], each.words[1:]) for each in grounding.actions if each.words[0] in actions
         }
@@ -154,17 +160,17 @@ def _cost_of(action: Action, names: Sequence[str]) -> tuple[str, tuple[str, ...]
     return action.cost.function, tuple(bound[each] for each in action.cost.arguments)
 
 
-def _estimates(domain: PlanningDomain, vocabulary: Vocabulary) -> Iterator[str]:
+def _describe_estimates(domain: PlanningDomain, vocabulary: Vocabulary) -> Iterator[str]:
     for each in domain.costs:
         if each.moving is not None:
             read = vocabulary.short(each.moving)
             yield f"duration of {each.skill}: reads `{read}`, which may change; its value before the plan is taken"
 
 
-def _skills_left_out(useful: RelevantDomain, goal: Condition, library: SkillLibrary) -> Iterator[LeftOut]:
-    """Yield the skills that are not planned with, which authors did not want kept out."""
+def _list_left_out_skills(useful: RelevantDomain, goal: Condition, library: SkillLibrary) -> Iterator[LeftOut]:
+    """Yield the skills that are left out, with the reasons."""
     if useful.unhelpful:
-        why = "nothing that the goal depends on is changed by them"
+        why = "they change nothing that the goal depends on"
         yield LeftOut(useful.unhelpful, why, harmless=True, kind="skills")
     excluded = useful.domain.excluded
     helpful = (each.skill for each in useful.domain.actions if each.skill is not None)
@@ -173,43 +179,43 @@ def _skills_left_out(useful: RelevantDomain, goal: Condition, library: SkillLibr
         yield LeftOut((each.skill,), each.reason, harmless=each.skill not in matter, kind="skills")
 
 
-def _steps_left_out(steps: Sequence[Step], state: WorldState) -> Iterator[LeftOut]:
+def _list_left_out_steps(steps: Sequence[Step], state: WorldState) -> Iterator[LeftOut]:
     if steps:
         short = state.vocabulary.short
         shown = (f"{each.skill}({', '.join(map(short, each.arguments.values()))})" for each in steps)
         yield LeftOut(tuple(shown), "they failed before", harmless=False, kind="steps")
 
 
-def _in_the_words_of(vocabulary: Vocabulary, library: SkillLibrary) -> SkillLibrary:
-    """Return the library with the vocabulary of the world, which may have classes of its own."""
+def _with_vocabulary(library: SkillLibrary, vocabulary: Vocabulary) -> SkillLibrary:
+    """Return the library with the vocabulary of the world, which may define further classes."""
     names = library.names if vocabulary.classes.keys() <= library.vocabulary.classes.keys() else {}
     return msgspec.structs.replace(library, vocabulary=vocabulary, names=names)
 
 
-def _named(goal: Condition, state: WorldState, kinds: Kinds) -> frozenset[str]:
-    """Return the individuals that a goal speaks of, by name, by class or as those that stand in a relation."""
-    named = _refuse_unknown(goal, state)
+def _referenced_individuals(goal: Condition, state: WorldState, kinds: IndividualsByClass) -> frozenset[str]:
+    """Return the individuals that a goal refers to, by name, by class or by a relation."""
+    named = _check_known(goal, state)
     for each in walk(goal):
         match each:
             case Exists(_, cls, _) | Forall(_, cls, _):
                 named |= state.instances(cls)
             case Holds(subject, relation, object_) if Anything() in (subject, object_):
                 named |= {individual for pair in state.pairs(relation) for individual in pair}
-                named |= set(_samples(relation, state, kinds))
+                named |= set(_sample_individuals(relation, state, kinds))
     return named
 
 
-def _refuse_unknown(goal: Condition, state: WorldState) -> frozenset[str]:
-    """Return the individuals that a goal names; GoalError when the world does not have one of them."""
+def _check_known(goal: Condition, state: WorldState) -> frozenset[str]:
+    """Return the individuals that a goal names; GoalError if the world does not have one of them."""
     named = frozenset(each.iri for each in walk(goal) if isinstance(each, Individual))
     unknown = sorted(named - state.individuals)
     if unknown:
-        raise GoalError(f"the goal speaks of {state.vocabulary.short(unknown[0])}, which is not in the world model")
+        raise GoalError(f"the goal names {state.vocabulary.short(unknown[0])}, which is not in the world model")
     return named
 
 
-def _samples(relation: str, state: WorldState, kinds: Kinds) -> Iterator[str]:
-    """Yield one individual of each kind that may stand on some side of a relation: the goal reads what these need."""
+def _sample_individuals(relation: str, state: WorldState, kinds: IndividualsByClass) -> Iterator[str]:
+    """Yield one individual of each combination of classes that may be subject or object of a relation."""
     signatures = state.vocabulary.relations[relation].signatures
     classes = {cls for each in signatures for cls in (each.domain, each.range)}
     for individuals in kinds.values():
@@ -218,23 +224,23 @@ def _samples(relation: str, state: WorldState, kinds: Kinds) -> Iterator[str]:
             yield first
 
 
-def _is_open(goal: Condition) -> bool:
-    """Whether a goal speaks of whoever stands in a relation, which may be somebody else once steps change it."""
+def _has_wildcard(goal: Condition) -> bool:
+    """Whether a goal has the wildcard `_` in a relation, which steps may change to other individuals."""
     return any(isinstance(each, Holds) and Anything() in (each.subject, each.object) for each in walk(goal))
 
 
-def _combined(kinds: Kinds, vocabulary: Vocabulary) -> frozenset[frozenset[str]]:
+def _class_combinations(kinds: IndividualsByClass, vocabulary: Vocabulary) -> frozenset[frozenset[str]]:
     return frozenset(each for each in (lowest(kind, vocabulary) for kind in kinds) if len(each) > 1)
 
 
-def _lowest(individual: str, state: WorldState) -> frozenset[str]:
+def _most_specific_classes(individual: str, state: WorldState) -> frozenset[str]:
     return lowest(state.types(individual), state.vocabulary)
 
 
-def _ground(
+def _ground_goal(
     goal: Condition, library: SkillLibrary, domain: PlanningDomain, named: frozenset[str], state: WorldState
 ) -> Formula:
-    """Return the goal as a formula in which objects are called by their IRIs."""
+    """Return the goal as a formula whose objects are named by their IRIs."""
 
     def members(cls: str) -> list[str]:
         return sorted(state.instances(cls) & named)
@@ -243,9 +249,37 @@ def _ground(
         return evaluate(condition, state, {})
 
     try:
-        objects = {iri: Typed(iri, domain.type_of(_lowest(iri, state))) for iri in named}
+        objects = {iri: Typed(iri, domain.type_of(_most_specific_classes(iri, state))) for iri in named}
         return ground_goal(goal, library, domain, objects, members, holds)
     except Untranslatable as reason:
         raise GoalError(f"the goal {reason}") from reason
     except EvaluationError as error:
         raise GoalError(f"the goal cannot be decided: {error}") from error
+
+
+def exclude_steps(
+    steps: Sequence[Step], domain: PlanningDomain, names: Mapping[str, str], types: Mapping[str, str]
+) -> PlanningDomain:
+    """Return the domain without the steps; `names` and `types` are those of the objects, by IRI.
+
+    An action gets the precondition that at least one of its parameters differs from the step's argument.
+    """
+    if not steps:
+        return domain
+    known = [step for step in steps if names.keys() >= set(step.arguments.values())]
+    individuals = sorted({iri for step in known for iri in step.arguments.values()})
+    constants = {*domain.constants, *(Typed(names[iri], types[iri]) for iri in individuals)}
+    actions = tuple(_exclude_from(known, each, names) for each in domain.actions)
+    return replace(domain, actions=actions, constants=tuple(sorted(constants, key=lambda each: each.name)))
+
+
+def _exclude_from(steps: Sequence[Step], action: Action, names: Mapping[str, str]) -> Action:
+    others = [
+        disjunction(
+            Negation(Equal(parameter.name, names[step.arguments[bound]]))
+            for parameter, bound in zip(action.parameters, action.binds, strict=True)
+        )
+        for step in steps
+        if step.skill == action.skill
+    ]
+    return replace(action, precondition=conjunction((action.precondition, *others))) if others else action

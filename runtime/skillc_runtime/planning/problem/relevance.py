@@ -1,11 +1,11 @@
-"""Leaves out the actions that cannot help to reach a goal. The cheapest plan stays the cheapest plan.
+"""Leaves out the actions that cannot help to reach a goal. The cheapest plan remains the cheapest plan.
 
-A literal (an atom's predicate with a sign) is *needed* when the goal or a condition of a
-helpful action reads it with that sign; an action is *helpful* when it makes a needed literal true. Take the unhelpful
-steps out of a plan: by induction every needed literal that was true before a step is still true, because what was taken
-out made none of them true. So the rest is a plan, and no dearer.
+A literal (a predicate with a sign) is *needed* if the goal or a condition of a helpful action reads it with that sign;
+an action is *helpful* if it makes a needed literal true. Remove the unhelpful steps from a plan: by induction, every
+needed literal that was true before a step is still true, because the removed steps made none of them true. So the rest
+is a plan, and it costs no more.
 
-A conditional effect may fire in one of the two runs only, so both signs of what its condition reads are needed.
+A conditional effect may apply in only one of the two plans, so both signs of what its condition reads are needed.
 """
 
 from __future__ import annotations
@@ -34,18 +34,18 @@ Literal: TypeAlias = tuple[str, bool]
 
 @dataclass(frozen=True, slots=True)
 class RelevantDomain:
-    """The domain without what cannot help, and the skills that were left out for that."""
+    """The domain with the helpful actions only, and the skills that were left out."""
 
     domain: PlanningDomain
     unhelpful: tuple[str, ...]
 
 
 def keep_relevant_actions(domain: PlanningDomain, goal: Formula) -> RelevantDomain:
-    """Return the domain with those actions alone that can help to reach the goal, and what these read and name."""
-    needed = _needed(domain, goal)
+    """Return the domain with the actions that can help to reach the goal, and the terms that these use."""
+    needed = _find_needed(domain, goal)
     actions = tuple(each for each in domain.actions if _helps(each, needed))
     used = {atom.predicate for action in actions for atom in list_action_atoms(action)} | {name for name, _ in needed}
-    functions = {each.name for each in domain.costs} & {name for action in actions for name in _functions(action)}
+    functions = {each.name for each in domain.costs} & {name for action in actions for name in _cost_functions(action)}
     named = {name for action in actions for name in action_terms(action)}
     return RelevantDomain(
         replace(
@@ -55,11 +55,11 @@ def keep_relevant_actions(domain: PlanningDomain, goal: Formula) -> RelevantDoma
             costs=tuple(each for each in domain.costs if each.name in functions),
             constants=tuple(each for each in domain.constants if each.name in named),
         ),
-        tuple(sorted(_skills(domain.actions) - _skills(actions))),
+        tuple(sorted(_skills_of(domain.actions) - _skills_of(actions))),
     )
 
 
-def _skills(actions: Iterable[Action]) -> Set[str]:
+def _skills_of(actions: Iterable[Action]) -> Set[str]:
     return {each.skill for each in actions if each.skill is not None}
 
 
@@ -71,7 +71,7 @@ def list_action_atoms(action: Action) -> Iterator[Atom]:
         yield from (atom for _, atom in list_literals(change.condition))
 
 
-def _needed(domain: PlanningDomain, goal: Formula) -> Set[Literal]:
+def _find_needed(domain: PlanningDomain, goal: Formula) -> Set[Literal]:
     needed = {(atom.predicate, sign) for sign, atom in list_literals(goal)}
     while True:
         more = {each for action in domain.actions if _helps(action, needed) for each in _needs(action, needed)}
@@ -89,16 +89,16 @@ def _needs(action: Action, needed: Set[Literal]) -> Iterator[Literal]:
         yield atom.predicate, sign
     for change in action.effects:
         touches = any((change.atom.predicate, sign) in needed for sign in (True, False))
-        if touches and not _clears(change):
+        if touches and not _always_deletes(change):
             yield from ((atom.predicate, sign) for _, atom in list_literals(change.condition) for sign in (True, False))
 
 
-def _clears(change: Change) -> bool:
-    """Whether the effect amounts to deleting its atom whatever holds."""
+def _always_deletes(change: Change) -> bool:
+    """Whether the effect deletes its atom in every state."""
     return not change.positive and change.apart is not None
 
 
-def _functions(action: Action) -> Iterator[str]:
+def _cost_functions(action: Action) -> Iterator[str]:
     function = getattr(action.cost, "function", None)
     if function is not None:
         yield function

@@ -1,8 +1,8 @@
-"""Which of the skills that cannot be planned with might be of use, and which make no difference to any plan.
+"""Decides which of the skills that planners cannot use may matter to a plan.
 
-Follow back from the goal: what it reads, what the skills read that can help, what is computed from other facts. A skill
-that changes none of this leaves all of it as it is, wherever it stands in a sequence of steps: without it the rest of
-the sequence works as well.
+Starting from the goal, collect the terms that it reads, the terms that the helpful skills read, and the terms that
+these are computed from. A skill that changes none of them can be removed from any sequence of steps: the rest of the
+sequence still works.
 """
 
 from __future__ import annotations
@@ -19,44 +19,44 @@ from skillc_rdf.vocabulary.types import Vocabulary
 def select_skills_that_may_matter(
     excluded: Collection[Excluded], helpful: Iterable[str], goal: Condition, library: SkillLibrary
 ) -> frozenset[str]:
-    """Return those excluded skills that might make a plan possible or cheaper; `helpful` are planned with."""
-    open_ = {each.skill for each in excluded if not each.impossible}
-    changed = {name: terms_written(library.skills[name].post, library.vocabulary) for name in open_}
-    needed = _Needed(library.vocabulary)
+    """Return the excluded skills that may make a plan possible or cheaper; `helpful` are the skills of the domain."""
+    possible = {each.skill for each in excluded if not each.impossible}
+    changed = {name: terms_written(library.skills[name].post, library.vocabulary) for name in possible}
+    needed = _NeededTerms(library.vocabulary)
     needed.add(terms_read(goal))
     for name in helpful:
         needed.add(terms_read_by(library.skills[name], library))
     found: set[str] = set()
-    while more := {name for name in open_ - found if needed.meets(changed[name])}:
+    while more := {name for name in possible - found if needed.is_any_needed(changed[name])}:
         found |= more
         for name in more:
             needed.add(terms_read_by(library.skills[name], library))
     return frozenset(found)
 
 
-class _Needed:
-    """Relations and properties, with all that decides what holds of them."""
+class _NeededTerms:
+    """The needed relations and properties, closed under what they are derived and computed from."""
 
     def __init__(self, vocabulary: Vocabulary) -> None:
         self._vocabulary = vocabulary
         self._terms: set[str] = set()
         self._everything = False
 
-    def meets(self, changed: Set[str]) -> bool:
-        """Whether one of these is needed."""
+    def is_any_needed(self, changed: Set[str]) -> bool:
+        """Whether one of these terms is needed."""
         return bool(changed) if self._everything else not self._terms.isdisjoint(changed)
 
     def add(self, terms: Iterable[str]) -> None:
-        """Take in these and what decides them; where nobody knows what does, everything may."""
-        todo = list(terms)
-        while todo:
-            iri = todo.pop()
+        """Add terms and what they depend on; if that is unknown, every term is needed from then on."""
+        open_terms = list(terms)
+        while open_terms:
+            iri = open_terms.pop()
             below = self._vocabulary.closure.canonical_sources.get(iri)
             for each in ({iri} if below is None else {each.relation for each in below}) - self._terms:
                 self._terms.add(each)
-                todo.extend(self._deciding(each))
+                open_terms.extend(self._dependencies(each))
 
-    def _deciding(self, iri: str) -> tuple[str, ...]:
+    def _dependencies(self, iri: str) -> tuple[str, ...]:
         term = self._vocabulary.relations.get(iri) or self._vocabulary.properties[iri]
         if term.computed_by is None:
             return ()

@@ -1,4 +1,4 @@
-"""The built-in search: grounding, the estimate h-max, A*, and lower bounds on the time of any plan.
+"""The built-in planner: grounding, the heuristic h-max, and A*.
 
 Start at `astar.AStar`.
 """

@@ -1,4 +1,4 @@
-"""The built-in planner: A* over the ground problem. Proves the optimum of small scenes, needs nothing installed."""
+"""The built-in planner: A* over the ground problem. It solves small scenes optimally and needs no external program."""
 
 from __future__ import annotations
 
@@ -20,36 +20,36 @@ Test: TypeAlias = Callable[[int], bool]
 
 
 class AStar:
-    """A* with the admissible estimate h-max."""
+    """A* with the admissible heuristic h-max."""
 
     name = "built-in A*"
 
     def __init__(self, advice: str = "") -> None:
-        """Give advice to who gets no answer."""
+        """`advice` is appended to the reason when the planner gives up."""
         self._advice = f"; {advice}" if advice else ""
 
     def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
-        """Solve a problem; a plan it returns is proven to be the shortest."""
+        """Solve a problem within `deadline_s` seconds; the plan is proven to be the shortest."""
         end = time.monotonic() + deadline_s
         grounding = Grounding(problem, end)
         try:
             actions, goal = grounding.actions, grounding.goal()
         except GroundingTimeout:
-            return self._gave_up("its time was up before it knew all actions")
-        if not grounding.possible(goal):
+            return self._gave_up("it ran out of time before it knew all actions")
+        if not grounding.is_possible(goal):
             return Unsolvable("the goal cannot be reached even if nothing were ever undone")
-        numbers = {atom: number for number, atom in enumerate(sorted(grounding.reachable, key=_order))}
+        numbers = {atom: number for number, atom in enumerate(sorted(grounding.reachable, key=_sort_key))}
         task = _Task(
             start=sum(1 << numbers[atom] for atom in grounding.init),
-            operators=tuple(_operator(action, numbers) for action in actions),
-            goal=_test(goal, numbers),
-            estimate=HMax(actions, goal, numbers),
+            operators=tuple(_make_operator(action, numbers) for action in actions),
+            goal=_compile_test(goal, numbers),
+            heuristic=HMax(actions, goal, numbers),
         )
         found = _search(task, end)
         if isinstance(found, _Exhausted):
             return Unsolvable("no sequence of skills reaches the goal")
-        if isinstance(found, _TimeUp):
-            return self._gave_up(f"its time was up after {found.states} states")
+        if isinstance(found, _OutOfTime):
+            return self._gave_up(f"it ran out of time after {found.states} states")
         answer = cost_plan(problem, (actions[index].words for index in found))
         if answer.exact:
             return Solved(answer.plan, "proven", self.name)
@@ -63,14 +63,14 @@ class AStar:
 
 @dataclass(frozen=True, slots=True)
 class _Operator:
-    """An action on states: bit n of a state says that atom n is true."""
+    """An action on states, in which bit n is set if atom n is true."""
 
     applies: Test
     effects: tuple[tuple[Test | None, int, int], ...]
     units: int
 
     def after(self, state: int) -> int:
-        """Return the next state; what is both deleted and added is true."""
+        """Return the next state; an atom that is both deleted and added is true."""
         deleted = added = 0
         for condition, adds, deletes in self.effects:
             if condition is None or condition(state):
@@ -84,34 +84,36 @@ class _Task:
     start: int
     operators: tuple[_Operator, ...]
     goal: Test
-    estimate: HMax
+    heuristic: HMax
 
 
 @dataclass(frozen=True, slots=True)
 class _Exhausted:
-    """All states were seen."""
+    """All reachable states were expanded without reaching the goal."""
 
 
 @dataclass(frozen=True, slots=True)
-class _TimeUp:
+class _OutOfTime:
+    """The deadline has passed; `states` were expanded."""
+
     states: int
 
 
-def _search(task: _Task, end: float) -> tuple[int, ...] | _Exhausted | _TimeUp:
-    """Return the operators of a cheapest way to the goal. The estimate is consistent: no state is opened twice."""
-    ticket = count()
+def _search(task: _Task, end: float) -> tuple[int, ...] | _Exhausted | _OutOfTime:
+    """Return the operators of a cheapest plan. The heuristic is consistent, so no state is expanded twice."""
+    tie_breaker = count()
     costs = {task.start: 0}
     parents: dict[int, tuple[int, int]] = {}
     closed: set[int] = set()
-    queue = [(task.estimate(task.start), next(ticket), task.start)]
+    queue = [(task.heuristic(task.start), next(tie_breaker), task.start)]
     while queue:
         _, _, state = heappop(queue)
         if state in closed:
             continue
         if task.goal(state):
-            return tuple(_way(state, parents))[::-1]
+            return tuple(_trace_back(state, parents))[::-1]
         if time.monotonic() > end:
-            return _TimeUp(len(closed))
+            return _OutOfTime(len(closed))
         closed.add(state)
         for index, operator in enumerate(task.operators):
             if not operator.applies(state):
@@ -119,43 +121,43 @@ def _search(task: _Task, end: float) -> tuple[int, ...] | _Exhausted | _TimeUp:
             after, cost = operator.after(state), costs[state] + operator.units
             if after in closed or cost >= costs.get(after, cost + 1):
                 continue
-            estimate = task.estimate(after)
+            estimate = task.heuristic(after)
             if estimate < float("inf"):
                 costs[after], parents[after] = cost, (state, index)
-                heappush(queue, (cost + estimate, next(ticket), after))
+                heappush(queue, (cost + estimate, next(tie_breaker), after))
     return _Exhausted()
 
 
-def _way(state: int, parents: Mapping[int, tuple[int, int]]) -> Iterator[int]:
+def _trace_back(state: int, parents: Mapping[int, tuple[int, int]]) -> Iterator[int]:
     while state in parents:
         state, index = parents[state]
         yield index
 
 
-def _operator(action: GroundAction, numbers: Mapping[Atom, int]) -> _Operator:
+def _make_operator(action: GroundAction, numbers: Mapping[Atom, int]) -> _Operator:
     effects = []
     for effect in action.effects:
         if effect.atom in numbers:
             bit = 1 << numbers[effect.atom]
-            condition = None if effect.condition == Conjunction(()) else _test(effect.condition, numbers)
+            condition = None if effect.condition == Conjunction(()) else _compile_test(effect.condition, numbers)
             effects.append((condition, bit if effect.positive else 0, 0 if effect.positive else bit))
-    return _Operator(_test(action.precondition, numbers), tuple(effects), action.units)
+    return _Operator(_compile_test(action.precondition, numbers), tuple(effects), action.units)
 
 
-def _test(formula: Formula, numbers: Mapping[Atom, int]) -> Test:
-    """Return the test of a ground formula on states; an atom that was never reached is false."""
+def _compile_test(formula: Formula, numbers: Mapping[Atom, int]) -> Test:
+    """Return a ground formula as a test on states; unreachable atoms are false."""
     match formula:
         case Atom():
             bit = 1 << numbers[formula] if formula in numbers else 0
             return lambda state: bool(state & bit)
         case Negation(body):
-            inner = _test(body, numbers)
+            inner = _compile_test(body, numbers)
             return lambda state: not inner(state)
         case Conjunction(parts):
-            tests = tuple(_test(part, numbers) for part in parts)
+            tests = tuple(_compile_test(part, numbers) for part in parts)
             return lambda state: all(test(state) for test in tests)
         case Disjunction(parts):
-            tests = tuple(_test(part, numbers) for part in parts)
+            tests = tuple(_compile_test(part, numbers) for part in parts)
             return lambda state: any(test(state) for test in tests)
         case Equal() | Existential() | Universal():
             raise AssertionError(f"{formula} is not ground")
@@ -163,5 +165,5 @@ def _test(formula: Formula, numbers: Mapping[Atom, int]) -> Test:
             assert_never(formula)
 
 
-def _order(atom: Atom) -> tuple[str, tuple[str, ...]]:
+def _sort_key(atom: Atom) -> tuple[str, tuple[str, ...]]:
     return atom.predicate, atom.terms

@@ -1,6 +1,6 @@
-"""A problem without variables: the actions that may ever apply, their conditions reduced to what can change.
+"""Grounds a problem: the actions without variables that may apply, their conditions reduced to what can change.
 
-Which atoms can ever be true is found by ignoring what actions delete.
+The reachable atoms are computed with deletions ignored.
 """
 
 from __future__ import annotations
@@ -37,12 +37,12 @@ Values: TypeAlias = Mapping[str, str]
 
 
 class GroundingTimeout(Exception):
-    """A problem has so many actions that finding them takes longer than there is time."""
+    """The ground actions were not all found in time."""
 
 
 @dataclass(frozen=True, slots=True)
 class GroundEffect:
-    """The atom becomes true or false where the condition held before."""
+    """The atom becomes true (`positive`) or false if the condition held before."""
 
     atom: Atom
     positive: bool
@@ -51,7 +51,7 @@ class GroundEffect:
 
 @dataclass(frozen=True, slots=True)
 class GroundAction:
-    """An action for particular objects; formulas have neither variables nor static atoms."""
+    """An action with its objects, as `words`; its formulas have neither variables nor static atoms. Costs `units`."""
 
     words: tuple[str, ...]
     precondition: Formula
@@ -60,9 +60,9 @@ class GroundAction:
 
 
 class Grounding:
-    """A problem's actions for its objects, as far as relaxed reachability lets them apply.
+    """The ground actions of a problem that relaxed reachability allows.
 
-    TimeIsUp when the monotonic clock reaches `end` before they are found.
+    GroundingTimeout if the monotonic clock reaches `end` before they are found.
     """
 
     def __init__(self, problem: Problem, end: float = float("inf")) -> None:
@@ -80,60 +80,60 @@ class Grounding:
 
     @cached_property
     def actions(self) -> tuple[GroundAction, ...]:
-        """All actions that may apply at some time; computing them fills `reachable`."""
+        """All ground actions that may apply; computing them completes `reachable`."""
         found: dict[tuple[str, ...], GroundAction] = {}
         grown = True
         while grown:
             grown = False
             for action in self._problem.domain.actions:
-                for ground in tuple(self._instances(action, found)):
+                for ground in tuple(self._ground(action, found)):
                     found[ground.words] = ground
-                    grown |= self._reach(ground)
+                    grown |= self._add_reachable(ground)
         return tuple(found[words] for words in sorted(found))
 
     def explore(self) -> None:
-        """Find out what is reachable."""
+        """Compute `reachable` with the effects of all actions."""
         self.reachable.update(each.atom for action in self.actions for each in action.effects if each.positive)
 
     def goal(self) -> Formula:
-        """Return the goal with its static atoms decided; FALSE when it can never be."""
-        return self.reduced(self._problem.goal, {})
+        """Return the goal with its static atoms evaluated; FALSE if it can never hold."""
+        return self.reduce(self._problem.goal, {})
 
-    def reduced(self, formula: Formula, values: Values) -> Formula:
-        """Return a formula for particular objects: quantifiers written out, what cannot change decided."""
+    def reduce(self, formula: Formula, values: Values) -> Formula:
+        """Return a formula with its variables bound, quantifiers expanded and static atoms evaluated."""
         match formula:
             case Atom(predicate, terms):
                 atom = Atom(predicate, tuple(values.get(term, term) for term in terms))
-                return self._atom(atom)
+                return self._reduce_atom(atom)
             case Equal(left, right):
                 return TRUE if values.get(left, left) == values.get(right, right) else FALSE
             case Negation(body):
-                return _negated(self.reduced(body, values))
+                return _negate(self.reduce(body, values))
             case Conjunction(parts):
-                return conjunction(self.reduced(part, values) for part in parts)
+                return conjunction(self.reduce(part, values) for part in parts)
             case Disjunction(parts):
-                return disjunction(self.reduced(part, values) for part in parts)
+                return disjunction(self.reduce(part, values) for part in parts)
             case Existential(variable, body):
                 names = self._members[variable.type]
-                return disjunction(self.reduced(body, {**values, variable.name: name}) for name in names)
+                return disjunction(self.reduce(body, {**values, variable.name: name}) for name in names)
             case Universal(variable, body):
                 names = self._members[variable.type]
-                return conjunction(self.reduced(body, {**values, variable.name: name}) for name in names)
+                return conjunction(self.reduce(body, {**values, variable.name: name}) for name in names)
             case _:
                 assert_never(formula)
 
-    def fitting(self, action: Action, conditions: Sequence[Formula], start: Values) -> Iterator[dict[str, str]]:
-        """Yield the ways to bind an action's parameters, beginning with `start`, for which conditions are reachable."""
+    def find_bindings(self, action: Action, conditions: Sequence[Formula], start: Values) -> Iterator[dict[str, str]]:
+        """Yield the bindings of an action's parameters that extend `start` and make the conditions reachable."""
         whole = conjunction(conditions)
         bindings = self._bindings(action, conjuncts(whole), start)
-        yield from (values for values in bindings if self.possible(self.reduced(whole, values)))
+        yield from (values for values in bindings if self.is_possible(self.reduce(whole, values)))
 
     def _bindings(self, action: Action, conditions: Iterable[Formula], start: Values) -> Iterator[dict[str, str]]:
-        """Yield the ways to bind an action's parameters that make the positive atoms among conditions reachable."""
-        yield from self._bound(action, [each for each in conditions if isinstance(each, Atom)], dict(start))
+        """Yield the bindings of an action's parameters that make the positive atoms among the conditions reachable."""
+        yield from self._bind(action, [each for each in conditions if isinstance(each, Atom)], dict(start))
 
-    def _bound(self, action: Action, atoms: list[Atom], values: dict[str, str]) -> Iterator[dict[str, str]]:
-        """Bind by the atom with the most bound terms first, then what is left by type."""
+    def _bind(self, action: Action, atoms: list[Atom], values: dict[str, str]) -> Iterator[dict[str, str]]:
+        """Bind parameters by the atom with the most bound terms first, the remaining ones by type."""
         open_ = [each for each in action.parameters if each.name not in values]
         linked = [atom for atom in atoms if any(each.name in atom.terms for each in open_)]
         if not linked:
@@ -144,17 +144,17 @@ class Grounding:
         rest = [each for each in atoms if each is not atom]
         types = {each.name: each.type for each in action.parameters}
         for terms in tuple(self._facts[atom.predicate]):
-            matched = self._matched(atom, terms, values, types)
+            matched = self._match(atom, terms, values, types)
             if matched is not None:
-                yield from self._bound(action, rest, matched)
+                yield from self._bind(action, rest, matched)
 
-    def _matched(
+    def _match(
         self, atom: Atom, terms: tuple[str, ...], values: dict[str, str], types: dict[str, str]
     ) -> dict[str, str] | None:
         matched = dict(values)
         for term, name in zip(atom.terms, terms, strict=True):
             if term in types and term not in matched:
-                if name not in self._sets[types[term]]:
+                if name not in self._member_sets[types[term]]:
                     return None
                 matched[term] = name
             elif matched.get(term, term) != name:
@@ -162,15 +162,15 @@ class Grounding:
         return matched
 
     @cached_property
-    def _sets(self) -> dict[str, frozenset[str]]:
+    def _member_sets(self) -> dict[str, frozenset[str]]:
         return {type_: frozenset(names) for type_, names in self._members.items()}
 
-    def _atom(self, atom: Atom) -> Formula:
+    def _reduce_atom(self, atom: Atom) -> Formula:
         if atom.predicate not in self._changing:
             return TRUE if atom in self._static else FALSE
         return atom
 
-    def _instances(self, action: Action, known: Mapping[tuple[str, ...], GroundAction]) -> Iterator[GroundAction]:
+    def _ground(self, action: Action, known: Mapping[tuple[str, ...], GroundAction]) -> Iterator[GroundAction]:
         condition = conjunction((action.precondition, action.hold))
         for values in self._bindings(action, conjuncts(condition), {}):
             if time.monotonic() > self._end:
@@ -179,50 +179,50 @@ class Grounding:
             if words in known:
                 yield known[words]
                 continue
-            precondition = self.reduced(condition, values)
-            if self.possible(precondition):
-                effects = tuple(each for change in action.effects for each in self._effects(change, values))
+            precondition = self.reduce(condition, values)
+            if self.is_possible(precondition):
+                effects = tuple(each for change in action.effects for each in self._ground_effects(change, values))
                 yield GroundAction(words, precondition, effects, self._units(action, values))
 
-    def possible(self, formula: Formula) -> bool:
-        """Whether a reduced formula can be true of reachable atoms, deletions ignored."""
+    def is_possible(self, formula: Formula) -> bool:
+        """Whether a reduced formula can be true with the reachable atoms, deletions ignored."""
         match formula:
             case Atom():
                 return formula in self.reachable
             case Conjunction(parts):
-                return all(self.possible(part) for part in parts)
+                return all(self.is_possible(part) for part in parts)
             case Disjunction(parts):
-                return any(self.possible(part) for part in parts)
+                return any(self.is_possible(part) for part in parts)
             case Negation(body):
-                return body not in self.init or self._deletable(body)
+                return body not in self.init or self._is_deletable(body)
             case Equal() | Existential() | Universal():
                 raise AssertionError(f"{formula} is not reduced")
             case _:
                 assert_never(formula)
 
-    def _deletable(self, atom: Atom | Equal) -> bool:
-        """Whether some action can ever delete the atom, as far as the domain's effects tell."""
-        return isinstance(atom, Atom) and atom.predicate in self._deleting
+    def _is_deletable(self, atom: Atom | Equal) -> bool:
+        """Whether an effect of the domain deletes atoms of this predicate."""
+        return isinstance(atom, Atom) and atom.predicate in self._deleted_predicates
 
     @cached_property
-    def _deleting(self) -> frozenset[str]:
+    def _deleted_predicates(self) -> frozenset[str]:
         effects = (each for action in self._problem.domain.actions for each in action.effects)
         return frozenset(each.atom.predicate for each in effects if not each.positive)
 
-    def _effects(self, change: Change, values: Values) -> Iterator[GroundEffect]:
+    def _ground_effects(self, change: Change, values: Values) -> Iterator[GroundEffect]:
         for names in product(*(self._members[each.type] for each in change.variables)):
             bound = {**values, **dict(zip((each.name for each in change.variables), names, strict=True))}
-            condition = self.reduced(change.condition, bound)
+            condition = self.reduce(change.condition, bound)
             atom = Atom(change.atom.predicate, tuple(bound.get(term, term) for term in change.atom.terms))
             if condition != FALSE:
                 yield GroundEffect(atom, change.positive, condition)
 
-    def _reach(self, ground: GroundAction) -> bool:
-        """Take in what an action makes true; whether anything was new."""
+    def _add_reachable(self, ground: GroundAction) -> bool:
+        """Add the atoms that an action makes true to `reachable`; return whether one was new."""
         new = {
             each.atom
             for each in ground.effects
-            if each.positive and each.atom not in self.reachable and self.possible(each.condition)
+            if each.positive and each.atom not in self.reachable and self.is_possible(each.condition)
         }
         self.reachable |= new
         for atom in sorted(new, key=lambda each: each.terms):
@@ -237,7 +237,7 @@ class Grounding:
                 return self._problem.domain.units(self._costs[function, tuple(values[each] for each in arguments)])
 
 
-def _negated(formula: Formula) -> Formula:
+def _negate(formula: Formula) -> Formula:
     if isinstance(formula, Atom | Equal):
         return Negation(formula)
     return FALSE if formula == TRUE else TRUE

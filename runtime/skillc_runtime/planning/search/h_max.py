@@ -1,7 +1,8 @@
-"""The admissible estimate h-max: how dear the dearest part of the goal is when nothing once true is ever lost.
+"""The admissible heuristic h-max: the cost of the most expensive part of the goal, with deletions ignored.
 
-h(state) = max over parts p of the goal of cost(p);  cost(p) = 0 if p holds, else min over what makes p true of its own
-cost + max over its conditions of their costs.  Bonet and Geffner, "Planning as heuristic search", 2001.
+h(state) = max over parts p of the goal of cost(p);  cost(p) = 0 if p holds, else the minimum over the actions that make
+p true of the action's cost + the maximum cost of its conditions.  Bonet and Geffner, "Planning as heuristic search",
+2001.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ Literals = frozenset[int]
 
 @dataclass(frozen=True, slots=True)
 class RelaxedRule:
-    """When all conditions hold, the results do too, at a cost."""
+    """If all conditions hold, the results can be made true at a cost in units."""
 
     conditions: Literals
     results: tuple[int, ...]
@@ -31,20 +32,20 @@ class RelaxedRule:
 
 
 class HMax:
-    """h-max for one goal. A literal is twice its atom's number, plus one when negated."""
+    """h-max for one goal. A literal is twice the number of its atom, plus one if negated."""
 
     def __init__(self, actions: Iterable[GroundAction], goal: Formula, numbers: Mapping[Atom, int]) -> None:
         self._atoms = len(numbers)
         self._goal_cases = list_cases(goal, numbers)
-        self._rules = [rule for action in actions for rule in _rules(action, numbers)]
-        self._waiting: dict[int, list[int]] = defaultdict(list)
+        self._rules = [rule for action in actions for rule in _list_rules(action, numbers)]
+        self._rules_by_condition: dict[int, list[int]] = defaultdict(list)
         for index, rule in enumerate(self._rules):
             for literal in rule.conditions:
-                self._waiting[literal].append(index)
+                self._rules_by_condition[literal].append(index)
         self._free = [index for index, rule in enumerate(self._rules) if not rule.conditions]
 
     def __call__(self, state: int) -> float:
-        """Return a lower bound on the cost from a state (bit n: atom n) to the goal, infinity if unreachable."""
+        """Return a lower bound in units on the cost from a state (bit n: atom n) to the goal, maybe infinity."""
         costs = self._costs(state)
         return min(
             (max((costs[each] for each in case), default=0.0) for case in self._goal_cases), default=float("inf")
@@ -64,7 +65,7 @@ class HMax:
             cost, literal = heappop(queue)
             if cost > costs[literal]:
                 continue
-            for index in self._waiting.get(literal, ()):
+            for index in self._rules_by_condition.get(literal, ()):
                 missing[index] -= 1
                 if not missing[index]:
                     self._fire(self._rules[index], cost, costs, queue)
@@ -79,7 +80,7 @@ class HMax:
 
 
 def list_cases(formula: Formula, numbers: Mapping[Atom, int]) -> tuple[Literals, ...]:
-    """Return sets of literals of which one is contained in any state where the formula holds; () if it never can."""
+    """Return sets of literals, one of which holds in every state where the formula holds; () if it never can."""
     match formula:
         case Atom():
             return (frozenset({2 * numbers[formula]}),) if formula in numbers else ()
@@ -92,21 +93,21 @@ def list_cases(formula: Formula, numbers: Mapping[Atom, int]) -> tuple[Literals,
             return found if len(found) <= MAX_CASES else (frozenset(),)
         case Conjunction(parts):
             sets = [list_cases(part, numbers) for part in parts]
-            while _count(sets) > MAX_CASES:
+            while _product_size(sets) > MAX_CASES:
                 sets.remove(max(sets, key=len))
             return tuple(frozenset().union(*combination) for combination in product(*sets))
         case _:
             raise AssertionError(f"{formula} is not ground")
 
 
-def _count(sets: list[tuple[Literals, ...]]) -> int:
+def _product_size(sets: list[tuple[Literals, ...]]) -> int:
     count = 1
     for each in sets:
         count *= len(each)
     return count
 
 
-def _rules(action: GroundAction, numbers: Mapping[Atom, int]) -> Iterable[RelaxedRule]:
+def _list_rules(action: GroundAction, numbers: Mapping[Atom, int]) -> Iterable[RelaxedRule]:
     by_condition: dict[Formula, list[int]] = defaultdict(list)
     for effect in action.effects:
         if effect.atom in numbers:
@@ -117,10 +118,10 @@ def _rules(action: GroundAction, numbers: Mapping[Atom, int]) -> Iterable[Relaxe
 
 
 def critical_path_s(problem: Problem, deadline_s: float) -> float:
-    """Return a time in seconds that every plan takes: infinity where there is none, 0 where looking takes too long.
+    """Return a lower bound in s on the makespan of any plan: infinity if there is none, 0 if time runs out.
 
-    An atom can be true when the longest of the conditions of an action has become so, and the action is over: the
-    estimate h-max with durations for costs. Haslum and Geffner, "Heuristic planning with time and resources", 2001.
+    This is h-max with durations as costs: an atom can be true when the last condition of an action has become true and
+    the action has ended. Haslum and Geffner, "Heuristic planning with time and resources", 2001.
     """
     grounding = Grounding(problem, time.monotonic() + deadline_s)
     try:
