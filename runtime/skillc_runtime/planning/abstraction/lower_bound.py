@@ -127,9 +127,13 @@ class _Abstraction:
         """Return the abstract objects with a member whose property may have a value."""
         if self._state.vocabulary.properties[property_].computed_by is None:
             return {
-                self._abstract_names[iri] for iri in self._state.individuals_with(property_, value) if iri in self._abstract_names
+                self._abstract_names[iri]
+                for iri in self._state.individuals_with(property_, value)
+                if iri in self._abstract_names
             }
-        return self._with_some_member(self._members, lambda iri: has_value(property_of(self._state, iri, property_), value))
+        return self._with_some_member(
+            self._members, lambda iri: has_value(property_of(self._state, iri, property_), value)
+        )
 
     def _with_some_member(self, names: Iterable[str], holds: Callable[[str], bool]) -> Iterator[str]:
         """Yield the abstract objects for a member of which a condition holds."""
