@@ -21,11 +21,11 @@ from typing import TypeVar
 
 from skillc.services.libraries import vocabulary
 from skillc.services.library_files import SHIPPED
-from skillc_compiler.checks import checks
-from skillc_compiler.lower.library import lower
+from skillc_compiler.checks import load_checks
+from skillc_compiler.lower.library import lower_program
 from skillc_compiler.pipeline import compile
-from skillc_compiler.resolve.files import read
-from skillc_compiler.resolve.program import resolve
+from skillc_compiler.resolve.files import read_sources
+from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.parsing.grammar import load_parser
 from skillc_dsl.source import Source
 
@@ -111,15 +111,15 @@ def _process(command: Sequence[str]) -> float:
 
 def _stages(sources: Sequence[Source]) -> Iterator[tuple[str, float]]:
     """Yield the seconds of each stage, one after the other, and of the checks that take longest."""
-    seconds, files = _seconds(lambda: read(sources, {}, "generated"))
+    seconds, files = _seconds(lambda: read_sources(sources, {}, "generated"))
     yield "read", seconds
-    seconds, program = _seconds(lambda: resolve(files.value, vocabulary(), "generated", {}))
+    seconds, program = _seconds(lambda: resolve_program(files.value, vocabulary(), "generated", {}))
     yield "resolve", seconds
-    found = [(_seconds(lambda one=one: list(one.check(program.value)))[0], one.__name__) for one in checks()]
+    found = [(_seconds(lambda one=one: list(one.check(program.value)))[0], one.__name__) for one in load_checks()]
     yield "check", sum(seconds for seconds, _ in found)
     for seconds, name in sorted(found, reverse=True)[:4]:
         yield f"  {name.rpartition('.')[2]}", seconds
-    seconds, _ = _seconds(lambda: lower(program.value, ()))
+    seconds, _ = _seconds(lambda: lower_program(program.value, ()))
     yield "lower", seconds
 
 

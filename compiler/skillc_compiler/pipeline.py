@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
-from skillc_compiler.checks import check
+from skillc_compiler.checks import run_checks
 from skillc_compiler.diagnostics.consequences import without_consequences
 from skillc_compiler.diagnostics.followers import without_followers
 from skillc_compiler.diagnostics.suppressions import apply_suppressions
-from skillc_compiler.diagnostics.unplannable import unplannable
-from skillc_compiler.lower.library import lower
-from skillc_compiler.program.typed import Program, ReadFile
-from skillc_compiler.resolve.files import Parse, read
+from skillc_compiler.diagnostics.unplannable import report_unplannable
+from skillc_compiler.lower.library import lower_program
+from skillc_compiler.program.typed import ParsedFile, Program
+from skillc_compiler.resolve.files import Parser, read_sources
 from skillc_compiler.resolve.individuals import Individuals
-from skillc_compiler.resolve.program import resolve
+from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.parsing.parser import parse
@@ -31,7 +31,7 @@ def compile(
     importable: Mapping[str, Source],
     name: str,
     scenes: Mapping[str, Individuals] = NO_SCENES,
-    parsed_by: Parse = parse,
+    parsed_by: Parser = parse,
 ) -> Outcome[SkillLibrary]:
     """Compile a library: read, resolve, check, lower; problems that only follow from others are left out.
 
@@ -42,7 +42,7 @@ def compile(
     of importable files only if they are errors.
     """
     with gc_disabled():
-        return finish(analyse(sources, vocabulary, importable, name, scenes, parsed_by), sources)
+        return lower_and_report(analyse(sources, vocabulary, importable, name, scenes, parsed_by), sources)
 
 
 def analyse(
@@ -51,25 +51,25 @@ def analyse(
     importable: Mapping[str, Source],
     name: str,
     scenes: Mapping[str, Individuals] = NO_SCENES,
-    parsed_by: Parse = parse,
+    parsed_by: Parser = parse,
 ) -> Outcome[Program]:
     """Read, resolve and check a library as `compile` does."""
-    files = read(sources, importable, name, parsed_by)
-    program = resolve(files.value, vocabulary, name, scenes)
-    return Outcome(program.value, problems(files, program))
+    files = read_sources(sources, importable, name, parsed_by)
+    program = resolve_program(files.value, vocabulary, name, scenes)
+    return Outcome(program.value, find_problems(files, program))
 
 
-def problems(files: Outcome[tuple[ReadFile, ...]], program: Outcome[Program]) -> tuple[Diagnostic, ...]:
+def find_problems(files: Outcome[tuple[ParsedFile, ...]], program: Outcome[Program]) -> tuple[Diagnostic, ...]:
     """Check a program; return all that is wrong with it without what only follows from something else."""
-    found = (*program.diagnostics, *check(program.value))
+    found = (*program.diagnostics, *run_checks(program.value))
     own_faults = without_followers(found, files.diagnostics, files.value)
     return (*files.diagnostics, *without_consequences(own_faults, (*files.diagnostics, *found), files.value))
 
 
-def finish(program: Outcome[Program], sources: Sequence[Source]) -> Outcome[SkillLibrary]:
+def lower_and_report(program: Outcome[Program], sources: Sequence[Source]) -> Outcome[SkillLibrary]:
     """Lower a program, and choose the diagnostics that the author of `sources` sees."""
-    library = lower(program.value, program.diagnostics)
-    left_out = unplannable(library, program.value, program.diagnostics)
+    library = lower_program(program.value, program.diagnostics)
+    left_out = report_unplannable(library, program.value, program.diagnostics)
     return Outcome(library, visible_diagnostics((*program.diagnostics, *left_out), sources))
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from shipped import shelf, vocabulary
 
-from skillc_compiler.checks import checks
+from skillc_compiler.checks import load_checks
 from skillc_compiler.pipeline import compile
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.edits import apply_fixes
@@ -56,7 +56,7 @@ def test_case(path: Path) -> None:
 
 def test_every_check_has_a_case() -> None:
     shown = {name for path in CASES for name, _ in EXPECTED.findall(path.read_text())}
-    declared = {name for check in checks() for name in check.NAMES}
+    declared = {name for check in load_checks() for name in check.NAMES}
     assert declared
     assert declared <= shown
 

@@ -13,7 +13,7 @@ from shipped import shelf, vocabulary
 from skillc.services import library_checks
 from skillc.services.library_files import find_library
 from skillc_compiler.goals.parsing import parse_goal
-from skillc_compiler.manual import Page, page_names, pages, parse_page
+from skillc_compiler.manual import Page, load_pages, page_names, parse_page
 from skillc_compiler.pipeline import compile
 from skillc_dsl.encoding import decode
 from skillc_dsl.formatting.formatter import check_layout
@@ -115,13 +115,13 @@ def beside_scene(text: str) -> list[str]:
         return [d.name for d in library_checks.check_library(find_library(Path(folder)), Path(folder, "example.ttl"))]
 
 
-@pytest.mark.parametrize("page", pages().values(), ids=lambda page: page.name)
+@pytest.mark.parametrize("page", load_pages().values(), ids=lambda page: page.name)
 def test_the_examples_show_the_problem_and_its_cure(page: Page) -> None:
     assert problems(page, page.bad) == [page.name]
     assert problems(page, page.good) == []
 
 
-@pytest.mark.parametrize("page", pages().values(), ids=lambda page: page.name)
+@pytest.mark.parametrize("page", load_pages().values(), ids=lambda page: page.name)
 def test_pages_are_short_and_complete(page: Page) -> None:
     assert page.title[0].isupper() or page.title[0] == "`"
     assert "##" not in page.prose and all(len(line) <= 100 for line in page.prose.splitlines())
@@ -144,7 +144,7 @@ def test_every_diagnostic_has_a_page() -> None:
 )
 def test_a_page_that_is_no_page_is_refused(old: str, new: str, says: str) -> None:
     text = (ROOT / "compiler/skillc_compiler/manual/unknown-class.md").read_text("utf-8")
-    assert parse_page("unknown-class", text) == pages()["unknown-class"]
+    assert parse_page("unknown-class", text) == load_pages()["unknown-class"]
     with pytest.raises(ValueError, match=says):
         parse_page("unknown-class", text.replace(old, new))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from random import Random
 
-from skillc_compiler.program.spans import Disjoint, Places
+from skillc_compiler.program.spans import DisjointSpans, SpanIndex
 from skillc_dsl.source import Span
 
 
@@ -17,9 +17,9 @@ def test_random_places_are_found_as_by_trying_each() -> None:
         whole = _span(random)
         within, lines = any(_inside(each, whole) for each in places), any(_begins_on(each, whole) for each in places)
         around = next((each for each in declarations if _inside(whole, each)), None)
-        assert Places(places).any_inside(whole) == within, (places, whole)
-        assert Places(places).any_on_lines_of(whole) == lines, (places, whole)
-        assert Disjoint(reversed(declarations)).around(whole) == around, (declarations, whole)
+        assert SpanIndex(places).any_inside(whole) == within, (places, whole)
+        assert SpanIndex(places).any_on_lines_of(whole) == lines, (places, whole)
+        assert DisjointSpans(reversed(declarations)).enclosing(whole) == around, (declarations, whole)
         found.add((within, lines, around is not None))
     assert {each for each, _, _ in found} == {each for _, each, _ in found} == {each for _, _, each in found}
     assert len(found) > 4

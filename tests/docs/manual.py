@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from docs.pages import ROOT
-from skillc_compiler.manual import Page, by_family, pages
+from skillc_compiler.manual import Page, group_by_family, load_pages
 
 MANUAL = ROOT / "docs/diagnostics.md"
 INTRODUCTION = """\
@@ -18,7 +18,7 @@ of each page has the problem, the second has none.
 
 def manual() -> str:
     """Return the text of the page."""
-    families = by_family(pages().values())
+    families = group_by_family(load_pages().values())
     lines = [INTRODUCTION]
     for family, members in families.items():
         lines += [f"- **{family}**: {', '.join(f'[{each.name}](#{each.name})' for each in members)}"]

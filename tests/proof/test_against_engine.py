@@ -14,18 +14,23 @@ import pytest
 
 from proof.actors import ITEMS, SPOTS, Chance, world
 from proof.plays import Writer
-from skillc_compiler.analysis.findings import BrokenHold, Undecided, Unproved, Unverified, Violated
-from skillc_compiler.analysis.opening import opening, requirements_of
-from skillc_compiler.analysis.proving import Prover
-from skillc_compiler.analysis.run import Around
-from skillc_compiler.analysis.run import Run as Exploration
+from skillc_compiler.analysis.exploration import EvalContext, Exploration
+from skillc_compiler.analysis.findings import (
+    BrokenHold,
+    TooManyStates,
+    UndecidedProperty,
+    UnprovedPost,
+    ViolatedProperty,
+)
+from skillc_compiler.analysis.initial_state import initial_state, requirements_of
+from skillc_compiler.analysis.paths import EndStates
+from skillc_compiler.analysis.proof import Prover
 from skillc_compiler.analysis.state import State
-from skillc_compiler.analysis.trail import Ends
-from skillc_compiler.lower.library import lower
-from skillc_compiler.program.typed import Implementation, Program, TypedNode, position
-from skillc_compiler.program.walk import within
-from skillc_compiler.resolve.files import read
-from skillc_compiler.resolve.program import resolve
+from skillc_compiler.lower.library import lower_program
+from skillc_compiler.program.typed import Implementation, Program, TypedNode, start_position
+from skillc_compiler.program.walk import nodes_in
+from skillc_compiler.resolve.files import read_sources
+from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.source import Source
 from skillc_model import tree
 from skillc_model.conditions import Condition, Holds, Individual, Variable
@@ -49,7 +54,7 @@ class Claims:
 
     implementation: Implementation
     exploration: Exploration
-    ends: Ends
+    ends: EndStates
     posts: set[Position]
     holds: set[Position]
     guaranteed: set[tuple[Position, Position]]
@@ -73,8 +78,8 @@ class Seen:
 
 def understood(text: str) -> Program:
     """Return the program that a text means, which must be understood whole."""
-    files = read([Source("play.skill", text)], {}, "play")
-    program = resolve(files.value, Vocabulary(), "play", {})
+    files = read_sources([Source("play.skill", text)], {}, "play")
+    program = resolve_program(files.value, Vocabulary(), "play", {})
     assert (files.diagnostics, program.diagnostics) == ((), ()), text
     return program.value
 
@@ -83,22 +88,26 @@ def claims_of(prover: Prover, implementation: Implementation, body: TypedNode) -
     """Explore a body and return everything that is claimed of it."""
     run = prover.run(implementation, body)
     prover.leaks(implementation)
-    ends = run.explore(run, body, {opening(run.sorts, implementation): None}, Around())
-    findings = prover.done[implementation.key].findings
-    if not list(prover.understood.sound(implementation, [Undecided(implementation.span)], True)):
+    ends = run.explore(run, body, {initial_state(run.types, implementation): None}, EvalContext())
+    findings = prover.proofs[implementation.key].findings
+    if not list(prover.understood.sound(implementation, [TooManyStates(implementation.span)], True)):
         return Claims(implementation, run, ends, set(), set(), set(), set(), [])
-    unproved = {f.post.span for f in findings if isinstance(f, Unproved)}
+    unproved = {f.post.span for f in findings if isinstance(f, UnprovedPost)}
     broken = {f.hold.span for f in findings if isinstance(f, BrokenHold)}
-    open_ = {f.property.span for f in findings if isinstance(f, Violated | Unverified)}
-    sure = [t for t in run.tallies.values() if t.requirement.kind == "pre" and not (t.false or t.open_ or t.excused)]
+    open_ = {f.property.span for f in findings if isinstance(f, ViolatedProperty | UndecidedProperty)}
+    sure = [
+        t
+        for t in run.precondition_stats.values()
+        if t.requirement.kind == "pre" and not (t.false or t.open_ or t.excused)
+    ]
     return Claims(
         implementation,
         run,
         ends,
-        {position(p.span) for p in requirements_of(implementation, "post") if p.span not in unproved},
-        {position(h.span) for h in requirements_of(implementation, "hold") if h.span not in broken},
-        {(position(t.call.written.span), position(t.requirement.span)) for t in sure},
-        {position(s.written.span) for s in within(body) if id(s) not in run.reached},
+        {start_position(p.span) for p in requirements_of(implementation, "post") if p.span not in unproved},
+        {start_position(h.span) for h in requirements_of(implementation, "hold") if h.span not in broken},
+        {(start_position(t.call.written.span), start_position(t.requirement.span)) for t in sure},
+        {start_position(s.written.span) for s in nodes_in(body) if id(s) not in run.reached},
         [n for n, line in enumerate(implementation.verify) if line.span not in open_],
     )
 
@@ -114,7 +123,7 @@ def test_what_is_proved_holds_when_it_runs(block: int) -> None:
             claims_of(prover, one, one.body) for one in program.implementations if isinstance(one.body, TypedNode)
         ]
         assert claims
-        library = lower(program, ())
+        library = lower_program(program, ())
         for claim in claims:
             for number in range(RUNS):
                 started += played(library, claims, claim, Random(f"{seed} {number}"), f"seed {seed}\n{text}")
@@ -142,9 +151,9 @@ def played(library: SkillLibrary, claims: list[Claims], claim: Claims, random: R
     for one in claims:
         contradicted(one, seen.events, told)
     if engine.status in (Status.SUCCESS, Status.FAILURE):
-        ways = claim.ends.success if engine.status is Status.SUCCESS else claim.ends.failed
+        states = claim.ends.success if engine.status is Status.SUCCESS else claim.ends.failed
         if not stopped(engine.failure, name):
-            assert any(agrees(state, seen.last, bindings) for state in ways), (
+            assert any(agrees(state, seen.last, bindings) for state in states), (
                 engine.status,
                 engine.failure,
                 name,
@@ -197,7 +206,7 @@ def facts(state: State, bindings: dict[str, str]) -> Iterator[tuple[Condition, b
     for fact, true in state.facts.items():
         if free_variables(fact) <= bindings.keys():
             yield fact, true
-    for (relation, thing, is_subject), others in state.alone.items():
+    for (relation, thing, is_subject), others in state.possible.items():
         names = {thing, *others}
         if all(isinstance(name, Variable) and name.name in bindings for name in names):
             allowed = {bindings[other.name] for other in others if isinstance(other, Variable)}

@@ -21,7 +21,7 @@ from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.emit.docs import prose
 from skillc_compiler.emit.docs.reasons import reasons
 from skillc_compiler.emit.docs.site import site
-from skillc_compiler.resolve.files import read
+from skillc_compiler.resolve.files import read_sources
 
 WIPING = SHIPPED / "wiping"
 RANKED = """
@@ -69,7 +69,9 @@ class Page(HTMLParser):
 @cache
 def made() -> dict[str, str]:
     library = find_library(WIPING)
-    return site(libraries.compile_library(library).value, read(library.sources, library.importable, library.name).value)
+    return site(
+        libraries.compile_library(library).value, read_sources(library.sources, library.importable, library.name).value
+    )
 
 
 @cache

@@ -15,11 +15,11 @@ from skillc_compiler.emit.picture.boxes import Box
 from skillc_compiler.emit.picture.find import drawable, picture_of
 from skillc_compiler.emit.picture.layout import Placed, lay_out
 from skillc_compiler.emit.picture.wrapping import cells, wrapped
-from skillc_compiler.resolve.files import read
+from skillc_compiler.resolve.files import read_sources
 from skillc_dsl.source import Source
 
 HERE = Path(__file__).parent / "every_node.skill"
-FILES = read([Source("every_node.skill", HERE.read_text(encoding="utf-8"))], {}, "users").value
+FILES = read_sources([Source("every_node.skill", HERE.read_text(encoding="utf-8"))], {}, "users").value
 WORDS = {
     *("reactive seq", "reactive sel", "sel", "par any", "par all", "par race", "par lead", "try", "invert", "once"),
     *("retry 3", "repeat 2", "timeout", "if", "then", "else", "while", "for", "wait", "wait until", "check"),

@@ -1,25 +1,25 @@
-"""Symbolic execution of compound bodies: what holds at each node for every way in which its children may end.
+"""Symbolic execution of compound bodies: what is known at each node, for every way in which its children can end.
 
-A state (`state.py`) is knowledge: relations, values and other conditions that are known to hold or not to; what is
-not in it is open. Names are symbolic individuals. Two of them may be the same unless their classes are disjoint or a
-condition tells them apart (`sorts.py`), and a write takes away all knowledge that it may have made untrue
-(`writing.py`, `forgetting.py`), by the axioms of its relation (`axioms.py`): functional relations replace, inverses
-and sub-relations follow, and chains of a transitive relation are left open. `truth.py` evaluates a condition to true,
-false or open, `learning.py` takes in what was seen.
+A state (`state`) is partial knowledge: relations, values and other conditions that are known to hold or not to hold.
+Everything else is open. Names are symbolic individuals. Two names may denote the same individual unless their classes
+are disjoint or a condition tells them apart (`alias_types`). A write removes all knowledge that it may have made untrue
+(`apply_effects`, `havoc`), according to the axioms of its relation (`axioms`): functional relations replace values,
+inverses and sub-relations follow, and chains of a transitive relation become open. `evaluate` evaluates a condition to
+true, false or open; `assume` adds what was observed.
 
-A body begins with what its preconditions, holds and ranges promise (`opening.py`). `exploring.py` goes through its
-nodes and returns for each the states after success, after failure, and after a failure by a hold, each with the
-shortest way there (`trail.py`). A called skill that succeeds has done what its posts say, and what its body may have
-changed besides is forgotten; one that fails or is halted may have changed anything that it can write
-(`summaries.py`). Children of a `par` know only what none of the others may write (`beside.py`). Up to LIMIT states
-are told apart at a node, and loops are followed for ROUNDS; beyond, only what all have in common is known, and that
-is said.
+A body begins with what its preconditions, holds and ranges promise (`initial_state`). `nodes` explores the nodes of a
+body and returns for each the states after success, after failure, and after a failure by a hold, each with the shortest
+path to it (`paths`). When a called skill succeeds, its postconditions hold, and everything else that its body may have
+changed becomes open. A skill that fails or is halted may have changed anything that it can write (`summaries`).
+Children of a `par` know only what none of the others may write (`parallel`). At most MAX_STATES states are kept apart
+at a node, and loops are followed for MAX_ROUNDS rounds; beyond that, only what all states have in common is kept, and
+this is reported.
 
-The rule for a precondition of a called skill: an error where it is false on a way, a warning where it is open and
-every term is the caller's; nothing where the skill finds the individual by itself, or where the failure is caught,
-unless it is false on every way. Holds of called skills, which speak of the world outside, are told only where they
-are false.
+A precondition of a called skill is an error if it is false on some path, and a warning if it is open and all its terms
+are the caller's. It is not reported if the skill infers the individual at run time, or if the failure is caught, unless
+it is false on every path. Holds of called skills, which depend on the outside world, are only reported if they are
+false.
 
-What is proved speaks of runs in which only the body changes the facts it speaks of, and no primitive breaks by a
-program error. `proving.py` is the entrance; the checks tell its findings (`findings.py`); `watching.py` decides
-`verify` lines."""
+A proof is valid for executions in which only the body changes the facts it uses, and in which no primitive fails by a
+program error. Start with `proof`; the checks report its `findings`; `verify_monitor` decides `verify` lines.
+"""

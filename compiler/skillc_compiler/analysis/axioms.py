@@ -1,4 +1,4 @@
-"""What follows from a relation by the axioms of the vocabulary, with one name for a relation and its inverse."""
+"""What follows from relations by the axioms of the vocabulary, with one name for a relation and its inverse."""
 
 from __future__ import annotations
 
@@ -10,26 +10,27 @@ from skillc_rdf.vocabulary.types import Vocabulary
 
 
 @dataclass(frozen=True)
-class Axioms:
-    """Relations by their one name: `name[r]` is that of `r`, and whether `r` reads it backwards.
+class RelationAxioms:
+    """The axioms of all relations, by canonical IRI.
 
-    `implied[r]` are the relations that hold where `r` does, `sources[r]` those whose presence implies it. `loose` ones
-    may hold by a chain of facts, so that no single fact decides them. `single_object` ones are functional,
-    `single_subject` ones inverse functional. `kin[r]` are the IRIs of all relations that a change of `r` may touch.
+    `canonical[r]` is the canonical name of `r`, and whether `r` reads it backwards. `implied[r]` are the relations that
+    hold where `r` holds; `sources[r]` are those that imply `r`. Relations in `chained` may hold by a chain of facts, so
+    that no single fact decides them. Relations in `single_object` are functional, those in `single_subject` inverse
+    functional. `affected[r]` are the IRIs of all relations that a change of `r` may affect.
     """
 
-    name: Mapping[str, Directed]
+    canonical: Mapping[str, Directed]
     implied: Mapping[str, tuple[Directed, ...]]
     sources: Mapping[str, tuple[Directed, ...]]
-    loose: frozenset[str]
+    chained: frozenset[str]
     single_object: frozenset[str]
     single_subject: frozenset[str]
     asymmetric: frozenset[str]
     irreflexive: frozenset[str]
-    kin: Mapping[str, frozenset[str]]
+    affected: Mapping[str, frozenset[str]]
 
 
-def axioms_of(vocabulary: Vocabulary) -> Axioms:
+def build_axioms(vocabulary: Vocabulary) -> RelationAxioms:
     """Return the axioms of all relations of a vocabulary."""
     relations, closure = vocabulary.relations, vocabulary.closure
     name = {iri: closure.canonical(iri) for iri in relations}
@@ -43,7 +44,7 @@ def axioms_of(vocabulary: Vocabulary) -> Axioms:
     single_subject = {iri for iri in bases if Directed(iri) in turned or Directed(iri, True) in straight}
     implied = {iri: closure.canonical_implied[iri] for iri in bases}
     sources = {iri: closure.canonical_sources[iri] for iri in bases}
-    return Axioms(
+    return RelationAxioms(
         name,
         implied,
         sources,
@@ -52,11 +53,11 @@ def axioms_of(vocabulary: Vocabulary) -> Axioms:
         frozenset(single_subject),
         frozenset(iri for iri, _ in flags["asymmetric"]),
         frozenset(iri for iri, _ in flags["irreflexive"]),
-        {iri: _kin(iri, name, implied, sources) for iri in bases},
+        {iri: _affected(iri, name, implied, sources) for iri in bases},
     )
 
 
-def _kin(
+def _affected(
     iri: str,
     name: Mapping[str, Directed],
     implied: Mapping[str, tuple[Directed, ...]],

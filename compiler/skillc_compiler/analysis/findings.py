@@ -1,87 +1,87 @@
-"""What a proof finds, as data; the checks tell it."""
+"""The findings of a proof, as data; the checks turn them into diagnostics."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from skillc_compiler.analysis.trail import Way
+from skillc_compiler.analysis.paths import Path
 from skillc_compiler.program.typed import Call, Implementation, Parameter, Property, Requirement, TypedNode
 from skillc_dsl.source import Span
 
 
 @dataclass(frozen=True, slots=True)
-class Unproved:
-    """A postcondition that is not known to hold in a successful end; `false` if it is known not to.
+class UnprovedPost:
+    """A postcondition that is not known to hold in a successful end; `false` if it is known not to hold.
 
-    `beyond` tells that it says more than can be followed here.
+    `beyond` if the condition cannot be decided by this analysis.
     """
 
     implementation: Implementation
     post: Requirement
     false: bool
     beyond: bool
-    way: Way
+    path: Path
 
 
 @dataclass(frozen=True, slots=True)
-class Unguaranteed:
-    """A precondition (or hold) of a called skill that is not known to hold when it starts; `false` if known not to."""
+class UnprovedPrecondition:
+    """A precondition or hold of a called skill that is not known to hold at its start; `false` if known not to hold."""
 
     call: Call
     requirement: Requirement
     false: bool
-    way: Way
+    path: Path
 
 
 @dataclass(frozen=True, slots=True)
 class BrokenHold:
-    """A hold of the implementation's own that a node breaks, for certain or perhaps, before something else begins."""
+    """A hold of the implementation that a node breaks, certainly or possibly, before another node begins."""
 
     hold: Requirement
     span: Span
     certain: bool
-    way: Way
+    path: Path
 
 
 @dataclass(frozen=True, slots=True)
-class Undeclared:
-    """An effect of a called skill that is there in the end, and of which the calling one says nothing."""
+class UndeclaredEffect:
+    """An effect of a called skill that lasts to the end and that the calling skill does not declare."""
 
     implementation: Implementation
     call: Call
     post: Requirement
-    way: Way
+    path: Path
 
 
 @dataclass(frozen=True, slots=True)
-class Unreachable:
+class UnreachableNode:
     """A node that never starts."""
 
-    step: TypedNode
+    node: TypedNode
 
 
 @dataclass(frozen=True, slots=True)
-class Unassigned:
+class UnassignedRead:
     """An output that is read where it may have no value."""
 
     name: str
     span: Span
-    way: Way
+    path: Path
 
 
 @dataclass(frozen=True, slots=True)
-class NeverAssigned:
+class UnassignedOutput:
     """An output of the skill that has no value in a successful end."""
 
     implementation: Implementation
     parameter: Parameter
-    way: Way
+    path: Path
 
 
 @dataclass(frozen=True, slots=True)
-class Clash:
-    """Two calls beside each other that write a fact differently, or have the same device for themselves."""
+class ParallelConflict:
+    """Two calls in parallel that write a fact differently, or use the same device exclusively."""
 
     first: Call
     second: Call
@@ -89,47 +89,47 @@ class Clash:
 
 
 @dataclass(frozen=True, slots=True)
-class Unreleased:
-    """Something that is set up or changed, put back in every success, and left so by a failure in between."""
+class LeakedChange:
+    """A change or set-up that every success undoes, and that a failure in between leaves behind."""
 
     call: Call
     post: Requirement | None
-    way: Way
+    path: Path
 
 
 @dataclass(frozen=True, slots=True)
-class Violated:
-    """A `verify` property that some execution breaks."""
+class ViolatedProperty:
+    """A `verify` property that some execution violates."""
 
     property: Property
-    way: Way
+    path: Path
 
 
 @dataclass(frozen=True, slots=True)
-class Unverified:
+class UndecidedProperty:
     """A `verify` property that is neither proved nor refuted."""
 
     property: Property
 
 
 @dataclass(frozen=True, slots=True)
-class Undecided:
-    """There were more states after a node than can be told apart, so that less is known than could be."""
+class TooManyStates:
+    """A node with more states than are kept apart, so that knowledge was lost."""
 
     span: Span
 
 
 Finding: TypeAlias = (
-    Unproved
-    | Unguaranteed
+    UnprovedPost
+    | UnprovedPrecondition
     | BrokenHold
-    | Undeclared
-    | Unreachable
-    | Unassigned
-    | NeverAssigned
-    | Clash
-    | Unreleased
-    | Violated
-    | Unverified
-    | Undecided
+    | UndeclaredEffect
+    | UnreachableNode
+    | UnassignedRead
+    | UnassignedOutput
+    | ParallelConflict
+    | LeakedChange
+    | ViolatedProperty
+    | UndecidedProperty
+    | TooManyStates
 )

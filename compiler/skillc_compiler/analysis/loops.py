@@ -5,170 +5,199 @@ from __future__ import annotations
 from functools import reduce
 from typing import assert_never
 
-from skillc_compiler.analysis.learning import learned
-from skillc_compiler.analysis.run import Around, Run, disturbed, in_order
-from skillc_compiler.analysis.state import State, joined
-from skillc_compiler.analysis.trail import Ends, Way, Ways, add, after, few, merge, step
+from skillc_compiler.analysis.assume import assume
+from skillc_compiler.analysis.exploration import EvalContext, Exploration, explore_sequence, havoc_concurrent
+from skillc_compiler.analysis.paths import (
+    EndStates,
+    Path,
+    StatePaths,
+    add_state,
+    add_states,
+    extend_path,
+    havoc_all,
+    widen,
+)
+from skillc_compiler.analysis.state import State, join
 from skillc_compiler.logic.rounds import count_rounds
 from skillc_compiler.program.typed import TypedNode
 from skillc_dsl import syntax as s
 
-ROUNDS = 6
-"""So many rounds are followed one by one; after them, only what no round can change, or every round keeps, is known."""
-TRIALS = 2
-"""So often what every round keeps is narrowed down."""
+MAX_ROUNDS = 6
+"""The number of rounds that are followed one by one; after them, only what every round keeps is known."""
+MAX_NARROWINGS = 2
+"""The number of times that the loop invariant is narrowed."""
 
 
-def rounds(run: Run, node: TypedNode, written: s.Counted | s.While | s.For, ways: Ways, around: Around) -> Ends:
-    """Return how a loop ends; a number of rounds that is none is told elsewhere."""
+def explore_loop(
+    run: Exploration, node: TypedNode, written: s.Counted | s.While | s.For, states: StatePaths, context: EvalContext
+) -> EndStates:
+    """Return how a loop ends; an invalid number of rounds is reported elsewhere."""
     match written:
         case s.Counted(kind="retry", count=count):
-            return _retried(run, node, count_rounds(count), ways, around)
+            return _explore_retry(run, node, count_rounds(count), states, context)
         case s.Counted(count=count):
-            return _repeated(run, node, count_rounds(count), ways, around)
+            return _explore_repeat(run, node, count_rounds(count), states, context)
         case s.While(limit=limit):
-            return _while(run, node, count_rounds(limit), ways, around)
+            return _explore_while(run, node, count_rounds(limit), states, context)
         case s.For():
-            return _each(run, node, written, ways, around)
+            return _explore_for(run, node, written, states, context)
         case _:
             assert_never(written)
 
 
-def _retried(run: Run, node: TypedNode, count: int, ways: Ways, around: Around) -> Ends:
-    """`retry`: a failed round is followed by another one until there is none left."""
-    ends = Ends()
-    for number in range(1, min(count, ROUNDS) + 1):
-        last = number == min(count, ROUNDS)
-        one = in_order(run, node.children, ways, around if last and count <= ROUNDS else around.catching())
-        merge(ends.success, one.success)
+def _explore_retry(
+    run: Exploration, node: TypedNode, count: int, states: StatePaths, context: EvalContext
+) -> EndStates:
+    """Explore a `retry`: a failed round is followed by another until none is left."""
+    ends = EndStates()
+    for number in range(1, min(count, MAX_ROUNDS) + 1):
+        last = number == min(count, MAX_ROUNDS)
+        one = explore_sequence(
+            run, node.children, states, context if last and count <= MAX_ROUNDS else context.with_failure_caught()
+        )
+        add_states(ends.success, one.success)
         ends.failure, ends.broken = one.failure, one.broken
-        ways = few(one.failed)
-        if not ways:
+        states = widen(one.failed)
+        if not states:
             return ends
-    if count > ROUNDS:
-        ends.add_failures(_any_number(run, node, ways, around, ends.success))
+    if count > MAX_ROUNDS:
+        ends.add_failures(_explore_any_round(run, node, states, context, ends.success))
     return ends
 
 
-def _repeated(run: Run, node: TypedNode, count: int, ways: Ways, around: Around) -> Ends:
-    """`repeat`: a round that succeeded is followed by another one."""
-    ends = Ends(success=dict(ways))
-    for _ in range(min(count, ROUNDS)):
-        one = in_order(run, node.children, few(ends.success), around)
+def _explore_repeat(
+    run: Exploration, node: TypedNode, count: int, states: StatePaths, context: EvalContext
+) -> EndStates:
+    """Explore a `repeat`: a successful round is followed by another."""
+    ends = EndStates(success=dict(states))
+    for _ in range(min(count, MAX_ROUNDS)):
+        one = explore_sequence(run, node.children, widen(ends.success), context)
         ends.success = one.success
         ends.add_failures(one)
-    if count > ROUNDS and ends.success:
-        last: dict[State, Way] = {}
-        ends.add_failures(_any_number(run, node, ends.success, around, last))
+    if count > MAX_ROUNDS and ends.success:
+        last: dict[State, Path] = {}
+        ends.add_failures(_explore_any_round(run, node, ends.success, context, last))
         ends.success = last
     return ends
 
 
-def _while(run: Run, node: TypedNode, limit: int, ways: Ways, around: Around) -> Ends:
-    """`while`: a round for as long as the condition holds; a failure when it still does after the last."""
-    ends = Ends()
-    for _ in range(min(limit, ROUNDS)):
-        going, out = _asked(run, node, ways, around)
-        merge(ends.success, out)
-        one = in_order(run, node.children, going, around)
+def _explore_while(
+    run: Exploration, node: TypedNode, limit: int, states: StatePaths, context: EvalContext
+) -> EndStates:
+    """Explore a `while`: rounds while the condition holds; a failure if it still holds after the last one."""
+    ends = EndStates()
+    for _ in range(min(limit, MAX_ROUNDS)):
+        going, out = _split_on_condition(run, node, states, context)
+        add_states(ends.success, out)
+        one = explore_sequence(run, node.children, going, context)
         ends.add_failures(one)
-        ways = few(one.success)
-        if not ways:
+        states = widen(one.success)
+        if not states:
             return ends
-    if limit > ROUNDS:
-        later: dict[State, Way] = {}
-        ends.add_failures(_any_number(run, node, ways, around, later))
-        merge(later, ways)
-        ways = later
-    going, out = _asked(run, node, ways, around)
-    merge(ends.success, out)
-    for state, way in going.items():
-        add(ends.failure, state, step(way, node.clauses[0].span, "the condition still holds after the last round"))
+    if limit > MAX_ROUNDS:
+        later: dict[State, Path] = {}
+        ends.add_failures(_explore_any_round(run, node, states, context, later))
+        add_states(later, states)
+        states = later
+    going, out = _split_on_condition(run, node, states, context)
+    add_states(ends.success, out)
+    for state, path in going.items():
+        add_state(
+            ends.failure,
+            state,
+            extend_path(path, node.conditions[0].span, "the condition still holds after the last round"),
+        )
     return ends
 
 
-def _each(run: Run, node: TypedNode, written: s.For, ways: Ways, around: Around) -> Ends:
-    """`for`: any number of rounds, each with an item of its own."""
-    ends, name = Ends(success=dict(ways)), written.variable.text
-    run.sorts.classes.pop(name, None)
-    for _ in range(ROUNDS):
-        new = {state: way for state, way in ways.items() if state not in ends.success or state in ways}
-        one = in_order(run, node.children, few(new), around)
+def _explore_for(
+    run: Exploration, node: TypedNode, written: s.For, states: StatePaths, context: EvalContext
+) -> EndStates:
+    """Explore a `for`: any number of rounds, each with its own item."""
+    ends, name = EndStates(success=dict(states)), written.variable.text
+    run.types.classes.pop(name, None)
+    for _ in range(MAX_ROUNDS):
+        new = {state: path for state, path in states.items() if state not in ends.success or state in states}
+        one = explore_sequence(run, node.children, widen(new), context)
         ends.add_failures(one)
-        ways = _without(one.success, name)
-        if all(state in ends.success for state in ways):
+        states = _without_item(one.success, name)
+        if all(state in ends.success for state in states):
             return ends
-        merge(ends.success, ways)
-    later: dict[State, Way] = {}
-    ends.add_failures(_any_number(run, node, ways, around, later))
-    merge(ends.success, _without(later, name))
+        add_states(ends.success, states)
+    later: dict[State, Path] = {}
+    ends.add_failures(_explore_any_round(run, node, states, context, later))
+    add_states(ends.success, _without_item(later, name))
     return ends
 
 
-def _without(ways: Ways, name: str) -> dict[State, Way]:
-    found: dict[State, Way] = {}
-    for state, way in ways.items():
-        add(found, state.without(name), way)
+def _without_item(states: StatePaths, name: str) -> dict[State, Path]:
+    found: dict[State, Path] = {}
+    for state, path in states.items():
+        add_state(found, state.without_name(name), path)
     return found
 
 
-def _asked(run: Run, node: TypedNode, ways: Ways, around: Around) -> tuple[dict[State, Way], dict[State, Way]]:
+def _split_on_condition(
+    run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext
+) -> tuple[dict[State, Path], dict[State, Path]]:
     """Return the states in which the condition holds and those in which it does not."""
-    found: tuple[dict[State, Way], dict[State, Way]] = ({}, {})
-    for state, way in ways.items():
+    found: tuple[dict[State, Path], dict[State, Path]] = ({}, {})
+    for state, path in states.items():
         for target, holds in zip(found, (True, False), strict=True):
-            known = learned(run.sorts, state, node.clauses[0].meaning, holds)
+            known = assume(run.types, state, node.conditions[0].meaning, holds)
             if known is not None:
                 event = "the loop goes on" if holds else "the loop ends"
-                add(
+                add_state(
                     target,
-                    disturbed(run, known, around),
-                    way if known is state else step(way, node.clauses[0].span, event),
+                    havoc_concurrent(run, known, context),
+                    path if known is state else extend_path(path, node.conditions[0].span, event),
                 )
     return found
 
 
-def _any_number(run: Run, node: TypedNode, ways: Ways, around: Around, target: dict[State, Way]) -> Ends:
-    """Follow one round after any number of others; its successes go to `target`."""
+def _explore_any_round(
+    run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext, target: dict[State, Path]
+) -> EndStates:
+    """Explore one round after any number of others; the states after its successes are added to `target`."""
     writes = run.writes(node)
-    kept = _kept(run, node, ways, around)
-    one = in_order(run, node.children, _knowing(after(run.sorts, ways, writes), kept), around)
-    ended = after(run.sorts, one.success, writes)
-    merge(target, ended if _is_retry(node) else _knowing(ended, kept))
+    kept = _loop_invariant(run, node, states, context)
+    one = explore_sequence(run, node.children, _with_invariant(havoc_all(run.types, states, writes), kept), context)
+    ended = havoc_all(run.types, one.success, writes)
+    add_states(target, ended if _is_retry(node) else _with_invariant(ended, kept))
     return one
 
 
 def _is_retry(node: TypedNode) -> bool:
-    """Whether it is a failure that another round follows, not a success."""
+    """Whether another round follows a failure, not a success."""
     return isinstance(node.written, s.Counted) and node.written.kind == "retry"
 
 
-def _kept(run: Run, node: TypedNode, ways: Ways, around: Around) -> State | None:
-    """Return what is known before each further round because every round keeps it; None where nothing was found."""
-    if run.watch is not None or not ways:
+def _loop_invariant(run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext) -> State | None:
+    """Return what is known before each further round because every round keeps it, or None if nothing was found."""
+    if run.monitor is not None or not states:
         return None
-    kept = reduce(joined, ways)
-    for _ in range(TRIALS):
+    kept = reduce(join, states)
+    for _ in range(MAX_NARROWINGS):
         run.quiet += 1
-        ends = in_order(run, node.children, {kept: None}, around)
+        ends = explore_sequence(run, node.children, {kept: None}, context)
         run.quiet -= 1
-        after_round = reduce(joined, ends.failed if _is_retry(node) else ends.success, kept)
+        after_round = reduce(join, ends.failed if _is_retry(node) else ends.success, kept)
         if after_round == kept:
             return kept
         kept = after_round
     return None
 
 
-def _knowing(ways: Ways, kept: State | None) -> dict[State, Way]:
-    found: dict[State, Way] = {}
-    for state, way in ways.items():
-        add(found, _and(state, kept) if kept is not None else state, way)
+def _with_invariant(states: StatePaths, kept: State | None) -> dict[State, Path]:
+    found: dict[State, Path] = {}
+    for state, path in states.items():
+        add_state(found, _conjoin(state, kept) if kept is not None else state, path)
     return found
 
 
-def _and(state: State, kept: State) -> State:
-    return state.replaced(
+def _conjoin(state: State, kept: State) -> State:
+    return state.replace(
         facts={**state.facts, **kept.facts},
-        alone={**state.alone, **kept.alone},
+        possible={**state.possible, **kept.possible},
         assigned=state.assigned | kept.assigned,
     )

@@ -1,4 +1,4 @@
-"""What is known of the world at one point of a body: conditions known to hold or not to hold, nothing else."""
+"""What is known of the world at one point of a body: conditions known to hold or not to hold."""
 
 from __future__ import annotations
 
@@ -10,31 +10,31 @@ from typing import TypeAlias
 from skillc_model.conditions import Condition, Individual, Variable
 from skillc_model.reading import free_variables
 
-Thing: TypeAlias = Variable | Individual
-Side: TypeAlias = tuple[str, Thing, bool]
-"""A relation, an individual, and whether that is the subject."""
+IndividualTerm: TypeAlias = Variable | Individual
+Side: TypeAlias = tuple[str, IndividualTerm, bool]
+"""A relation, an individual, and whether the individual is the subject."""
 
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """Knowledge; what is not in it is unknown.
+    """Partial knowledge; everything else is unknown.
 
-    `facts` says of conditions that are no composites whether they hold. `alone` holds, for one side of a relation, the
-    only individuals that may be on the other side. `same` maps a name to that of the same individual which is used
-    instead. `done` holds the results of `once`, None where it may or may not have run. `assigned` are outputs that
-    have a value; `monitor` is the state of the watched property.
+    `facts` maps conditions to whether they hold. `possible` holds, for one side of a relation, the only individuals
+    that may be on the other side. `aliases` maps a name to the one that is used for the same individual. `once_results`
+    holds the results of `once` nodes, None if they may or may not have run. `assigned` are the outputs that have a
+    value; `monitor` is the memory of the monitored property.
     """
 
     facts: Mapping[Condition, bool] = field(default_factory=dict)
-    alone: Mapping[Side, frozenset[Thing]] = field(default_factory=dict)
-    same: Mapping[str, Thing] = field(default_factory=dict)
-    done: Mapping[int, bool | None] = field(default_factory=dict)
+    possible: Mapping[Side, frozenset[IndividualTerm]] = field(default_factory=dict)
+    aliases: Mapping[str, IndividualTerm] = field(default_factory=dict)
+    once_results: Mapping[int, bool | None] = field(default_factory=dict)
     assigned: frozenset[str] = frozenset()
     monitor: tuple[int, bool] = (0, False)
 
     @cached_property
     def _key(self) -> tuple[object, ...]:
-        tables = (self.facts, self.alone, self.same, self.done)
+        tables = (self.facts, self.possible, self.aliases, self.once_results)
         return (*(frozenset(table.items()) for table in tables), self.assigned, self.monitor)
 
     def __hash__(self) -> int:
@@ -43,40 +43,44 @@ class State:
     def __eq__(self, other: object) -> bool:
         return isinstance(other, State) and self._key == other._key
 
-    def having(self, facts: Mapping[Condition, bool]) -> State:
-        """Return the state with these facts too."""
-        return self.replaced(facts={**self.facts, **facts})
+    def with_facts(self, facts: Mapping[Condition, bool]) -> State:
+        """Return the state with these facts added."""
+        return self.replace(facts={**self.facts, **facts})
 
-    def replaced(self, **changes: object) -> State:
+    def replace(self, **changes: object) -> State:
         """Return the state with other values of these fields."""
         values = {
             "facts": self.facts,
-            "alone": self.alone,
-            "same": self.same,
-            "done": self.done,
+            "possible": self.possible,
+            "aliases": self.aliases,
+            "once_results": self.once_results,
             "assigned": self.assigned,
             "monitor": self.monitor,
         }
         return State(**{**values, **changes})  # type: ignore[arg-type]
 
-    def without(self, name: str) -> State:
-        """Return the state without anything that speaks of a variable, which gets a new value."""
+    def without_name(self, name: str) -> State:
+        """Return the state without any knowledge about a variable, which gets a new value."""
         facts = {fact: value for fact, value in self.facts.items() if name not in free_variables(fact)}
         variable = Variable(name)
-        alone = {side: others for side, others in self.alone.items() if side[1] != variable and variable not in others}
-        same = {key: thing for key, thing in self.same.items() if key != name and thing != variable}
-        return self.replaced(facts=facts, alone=alone, same=same)
+        alone = {
+            side: others for side, others in self.possible.items() if side[1] != variable and variable not in others
+        }
+        same = {key: thing for key, thing in self.aliases.items() if key != name and thing != variable}
+        return self.replace(facts=facts, possible=alone, aliases=same)
 
 
-def joined(one: State, other: State) -> State:
-    """Return what is known in both states; their monitors must be the same."""
+def join(one: State, other: State) -> State:
+    """Return what is known in both states; their monitors must be equal."""
     if one is other:
         return one
     facts = {fact: value for fact, value in one.facts.items() if other.facts.get(fact) is value}
-    alone = {side: others | other.alone[side] for side, others in one.alone.items() if side in other.alone}
-    same = {name: thing for name, thing in one.same.items() if other.same.get(name) == thing}
+    alone = {side: others | other.possible[side] for side, others in one.possible.items() if side in other.possible}
+    same = {name: thing for name, thing in one.aliases.items() if other.aliases.get(name) == thing}
     done = {
-        key: one.done.get(key) if key in one.done and key in other.done and one.done[key] is other.done[key] else None
-        for key in {*one.done, *other.done}
+        key: one.once_results.get(key)
+        if key in one.once_results and key in other.once_results and one.once_results[key] is other.once_results[key]
+        else None
+        for key in {*one.once_results, *other.once_results}
     }
     return State(facts, alone, same, done, one.assigned & other.assigned, one.monitor)

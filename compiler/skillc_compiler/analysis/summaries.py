@@ -1,29 +1,37 @@
-"""What a skill may write, whoever calls it: at all, when it fails, and beyond what it says when it succeeds."""
+"""What a skill may write, independent of its caller: in any case, when it fails, and undeclared when it succeeds."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from skillc_compiler.analysis.axioms import Axioms
-from skillc_compiler.analysis.binding import candidates, changes, class_of
-from skillc_compiler.analysis.opening import name_sorts, opening, requirements_of
-from skillc_compiler.analysis.sorts import Sorts, some
-from skillc_compiler.analysis.truth import truth
-from skillc_compiler.analysis.writes import Assigned, Ended, Related, Valued, Write, either_way, write_of
-from skillc_compiler.analysis.writing import applied
+from skillc_compiler.analysis.alias_types import AliasTypes, any_individual
+from skillc_compiler.analysis.apply_effects import apply_effects
+from skillc_compiler.analysis.axioms import RelationAxioms
+from skillc_compiler.analysis.binding import candidates, class_of, definite_effects
+from skillc_compiler.analysis.evaluate import evaluate
+from skillc_compiler.analysis.initial_state import declare_names, initial_state, requirements_of
+from skillc_compiler.analysis.writes import (
+    NO_WRITES,
+    OnceWrite,
+    OutputWrite,
+    PropertyWrite,
+    RelationWrite,
+    Write,
+    with_unknown_value,
+    write_of,
+)
 from skillc_compiler.program.typed import Call, Implementation, Program, Skill, TypedNode
 from skillc_compiler.program.types import Thing
+from skillc_compiler.program.walk import calls_in
 from skillc_dsl import syntax as s
 from skillc_model.conditions import Anything, Expression, Individual, Literal, Term, Variable
 from skillc_rdf.vocabulary.types import THING
 
-NONE: frozenset[Write] = frozenset()
 
+class WriteSummaries:
+    """The possible writes of each skill and node, computed once; recursion adds nothing."""
 
-class Summaries:
-    """Worked out once for each skill and each node; whoever calls itself adds nothing to itself."""
-
-    def __init__(self, program: Program, axioms: Axioms) -> None:
+    def __init__(self, program: Program, axioms: RelationAxioms) -> None:
         self._program = program
         self._axioms = axioms
         self._whole: dict[str, frozenset[Write]] = {}
@@ -31,69 +39,71 @@ class Summaries:
         self._holding: dict[str, bool] = {}
         self._names: dict[str, frozenset[str]] = {}
 
-    def anything(self, implementation: Implementation) -> frozenset[Write]:
-        """Return what the implementation may write before it ends in any way."""
+    def all_writes(self, implementation: Implementation) -> frozenset[Write]:
+        """Return what the implementation may write before it ends, in any way."""
         if implementation.key not in self._whole:
-            self._whole[implementation.key] = NONE
+            self._whole[implementation.key] = NO_WRITES
             self._whole[implementation.key] = frozenset(self._of(implementation))
         return self._whole[implementation.key]
 
-    def on_failure(self, implementation: Implementation) -> frozenset[Write]:
-        """Return what may have been written when the implementation has not succeeded.
+    def writes_on_failure(self, implementation: Implementation) -> frozenset[Write]:
+        """Return what may have been written when the implementation did not succeed.
 
-        A primitive that fails wrote what it measured, and its effects only if it failed by its own promises.
+        A failed primitive has written what it measured, and its effects only if its own postconditions failed.
         """
         if isinstance(implementation.body, TypedNode) or not self._keeps_promises(implementation):
-            return self.anything(implementation)
-        return NONE
+            return self.all_writes(implementation)
+        return NO_WRITES
 
     def _keeps_promises(self, implementation: Implementation) -> bool:
-        """Whether a primitive's posts hold once they are written, so that writing them is the last it does."""
+        """Whether a primitive's posts hold once they are written, so that writing them is the last thing it does."""
         posts = requirements_of(implementation, "post")
         if any(post.sensed for post in posts) or any(p.direction == "out" for p in implementation.parameters):
             return False
-        sorts = Sorts(self._program.vocabulary, self._axioms)
-        name_sorts(sorts, implementation)
-        state = applied(sorts, opening(sorts, implementation), [effect for _, effect in changes(posts)])
-        return all(truth(sorts, state, post.clause.meaning) for post in posts)
+        types = AliasTypes(self._program.vocabulary, self._axioms)
+        declare_names(types, implementation)
+        state = apply_effects(
+            types, initial_state(types, implementation), [effect for _, effect in definite_effects(posts)]
+        )
+        return all(evaluate(types, state, post.condition.meaning) for post in posts)
 
-    def of_call(self, call: Call, failing: bool = False) -> frozenset[Write]:
-        """Return what a call may write, in the caller's words; who the skill finds by itself may be anybody fitting."""
+    def writes_of_call(self, call: Call, failing: bool = False) -> frozenset[Write]:
+        """Return what a call may write, in the caller's terms; an inferred individual may be any that fits."""
         if call.skill is None:
-            return NONE
-        values = _values(call, call.skill)
+            return NO_WRITES
+        values = _argument_values(call, call.skill)
         found = {
-            _seen(write, values)
+            _substitute_write(write, values)
             for one in candidates(self._program, call)
-            for write in (self.on_failure(one) if failing else self.anything(one))
+            for write in (self.writes_on_failure(one) if failing else self.all_writes(one))
         }
         return frozenset(found)
 
-    def of_step(self, step: TypedNode, implementation: Implementation | None) -> frozenset[Write]:
+    def writes_of_node(self, node: TypedNode, implementation: Implementation | None) -> frozenset[Write]:
         """Return what a node may write."""
-        if id(step) not in self._steps:
-            self._steps[id(step)] = frozenset(self._of_step(step, implementation))
-        return self._steps[id(step)]
+        if id(node) not in self._steps:
+            self._steps[id(node)] = frozenset(self._writes_of_node(node, implementation))
+        return self._steps[id(node)]
 
-    def lasting(self, call: Call, around: tuple[str, ...] = ()) -> frozenset[Write]:
-        """Return what scoped skills write that stays in place after the call, until a `with` around it ends.
+    def scoped_writes(self, call: Call, context: tuple[str, ...] = ()) -> frozenset[Write]:
+        """Return the writes of scoped skills that remain after the call, until an enclosing `with` ends.
 
-        `around` names the skills whose bodies this is in.
+        `around` names the skills whose bodies are being followed.
         """
-        if call.skill is None or call.skill.name in around:
-            return NONE
+        if call.skill is None or call.skill.name in context:
+            return NO_WRITES
         if "scoped" in call.skill.flags:
-            return self.of_call(call)
+            return self.writes_of_call(call)
         bodies = [one.body for one in candidates(self._program, call) if isinstance(one.body, TypedNode)]
         inner = (
             write
             for body in bodies
             for each in calls_in(body)
-            for write in self.lasting(each, (*around, call.skill.name))
+            for write in self.scoped_writes(each, (*context, call.skill.name))
         )
-        return seen_from(call, hidden(inner, [p.name for p in call.skill.parameters]))
+        return in_caller_terms(call, hide_names(inner, [p.name for p in call.skill.parameters]))
 
-    def names(self, call: Call) -> frozenset[str]:
+    def skills_run_by(self, call: Call) -> frozenset[str]:
         """Return the names of all skills that a call may run."""
         if call.skill is None:
             return frozenset()
@@ -101,12 +111,12 @@ class Summaries:
             self._names[call.skill.name] = frozenset({call.skill.name})
             known = self._program.implementations_of.get(call.skill.name, ())
             bodies = [one.body for one in known if isinstance(one.body, TypedNode)]
-            inner = (self.names(each) for body in bodies for each in calls_in(body))
+            inner = (self.skills_run_by(each) for body in bodies for each in calls_in(body))
             self._names[call.skill.name] = frozenset({call.skill.name}).union(*inner)
         return self._names[call.skill.name]
 
-    def may_break(self, skill: Skill) -> bool:
-        """Whether some run of the skill may end because a hold broke, or because a `verify` line forbids what is."""
+    def may_break_hold(self, skill: Skill) -> bool:
+        """Whether an execution of the skill may end because a hold broke or a `verify` line was violated."""
         if skill.name not in self._holding:
             self._holding[skill.name] = False
             self._holding[skill.name] = self._may_break(skill)
@@ -120,7 +130,7 @@ class Summaries:
             holds
             or watched
             or any(
-                self.may_break(call.skill)
+                self.may_break_hold(call.skill)
                 for one in known
                 if isinstance(one.body, TypedNode)
                 for call in calls_in(one.body)
@@ -131,85 +141,79 @@ class Summaries:
     def _of(self, implementation: Implementation) -> Iterator[Write]:
         if isinstance(implementation.body, TypedNode):
             visible = [p.name for p in implementation.parameters if p.direction != "out"]
-            whole = self.of_step(implementation.body, implementation)
-            yield from hidden((write for write in whole if isinstance(write, Related | Valued)), visible)
+            whole = self.writes_of_node(implementation.body, implementation)
+            yield from hide_names(
+                (write for write in whole if isinstance(write, RelationWrite | PropertyWrite)), visible
+            )
             return
-        for post, effect in changes(requirements_of(implementation, "post")):
-            yield either_way(write_of(effect)) if post.sensed else write_of(effect)
+        for post, effect in definite_effects(requirements_of(implementation, "post")):
+            yield with_unknown_value(write_of(effect)) if post.sensed else write_of(effect)
 
-    def _of_step(self, step: TypedNode, implementation: Implementation | None) -> Iterator[Write]:
-        if step.call is not None:
-            yield from self.of_call(step.call)
-            if step.call.out is not None:
-                yield Assigned(step.call.out.text)
-        if isinstance(step.written, s.ApplyPosts) and implementation is not None:
-            labels = {name.text for name in step.written.labels}
+    def _writes_of_node(self, node: TypedNode, implementation: Implementation | None) -> Iterator[Write]:
+        if node.call is not None:
+            yield from self.writes_of_call(node.call)
+            if node.call.out is not None:
+                yield OutputWrite(node.call.out.text)
+        if isinstance(node.written, s.ApplyPosts) and implementation is not None:
+            labels = {name.text for name in node.written.labels}
             posts = [
                 post for post in requirements_of(implementation, "post") if post.label and post.label.text in labels
             ]
-            yield from (write_of(effect) for _, effect in changes(posts))
-        if isinstance(step.written, s.Block) and step.written.kind == "once":
-            yield Ended(key_of(step))
-        for child in (*step.children, *step.orelse):
-            yield from self.of_step(child, implementation)
+            yield from (write_of(effect) for _, effect in definite_effects(posts))
+        if isinstance(node.written, s.Block) and node.written.kind == "once":
+            yield OnceWrite(node_key(node))
+        for child in (*node.children, *node.orelse):
+            yield from self.writes_of_node(child, implementation)
 
 
-def key_of(step: TypedNode) -> int:
-    """Return a number that no other node of the same body has."""
-    return step.written.span.line * 100_000 + step.written.span.column
+def node_key(node: TypedNode) -> int:
+    """Return a number that identifies a node in its body."""
+    return node.written.span.line * 100_000 + node.written.span.column
 
 
-def seen_from(call: Call, writes: frozenset[Write]) -> frozenset[Write]:
-    """Return writes of a called skill in the caller's words."""
-    values = _values(call, call.skill) if call.skill else {}
-    return frozenset(_seen(write, values) for write in writes)
+def in_caller_terms(call: Call, writes: frozenset[Write]) -> frozenset[Write]:
+    """Return writes of a called skill in the caller's terms."""
+    values = _argument_values(call, call.skill) if call.skill else {}
+    return frozenset(_substitute_write(write, values) for write in writes)
 
 
-def calls_in(step: TypedNode) -> Iterator[Call]:
-    """Yield the calls in a node."""
-    if step.call is not None:
-        yield step.call
-    for child in (*step.children, *step.orelse):
-        yield from calls_in(child)
-
-
-def _values(call: Call, skill: Skill) -> Mapping[str, Expression]:
-    """Return what the caller calls the individuals of the skill; a made-up one for those it has no lasting name for."""
-    values: dict[str, Expression] = {p.name: some(class_of(p)) for p in skill.parameters}
+def _argument_values(call: Call, skill: Skill) -> Mapping[str, Expression]:
+    """Return the caller's terms for the parameters of a skill; any fitting individual where it has no stable name."""
+    values: dict[str, Expression] = {p.name: any_individual(class_of(p)) for p in skill.parameters}
     for argument in call.arguments:
         meaning = argument.value.meaning
         kind = argument.value.type
         if isinstance(meaning, Individual | Literal | Variable):
             values[argument.name.text] = meaning
         elif isinstance(kind, Thing):
-            values[argument.name.text] = some(kind.cls or THING)
+            values[argument.name.text] = any_individual(kind.cls or THING)
     return values
 
 
-def _seen(write: Write, values: Mapping[str, Expression]) -> Write:
+def _substitute_write(write: Write, values: Mapping[str, Expression]) -> Write:
     match write:
-        case Related(subject=subject, relation=relation, object=object_, value=value):
-            return Related(_term(subject, values), relation, _term(object_, values), value)
-        case Valued(subject=subject, property=iri, value=value, cleared=cleared):
+        case RelationWrite(subject=subject, relation=relation, object=object_, value=value):
+            return RelationWrite(_substitute_term(subject, values), relation, _substitute_term(object_, values), value)
+        case PropertyWrite(subject=subject, property=iri, value=value, cleared=cleared):
             new = values.get(value.name) if isinstance(value, Variable) else value
-            known = new if isinstance(new, Literal | Variable | Individual) and not _is_some(new) else None
-            return Valued(_term(subject, values), iri, known, cleared)
-        case Assigned() | Ended():
+            known = new if isinstance(new, Literal | Variable | Individual) and not _is_any_individual(new) else None
+            return PropertyWrite(_substitute_term(subject, values), iri, known, cleared)
+        case OutputWrite() | OnceWrite():
             return write
 
 
-def _term(term: Term, values: Mapping[str, Expression]) -> Term:
-    if not isinstance(term, Variable) or _is_some(term):
+def _substitute_term(term: Term, values: Mapping[str, Expression]) -> Term:
+    if not isinstance(term, Variable) or _is_any_individual(term):
         return term
-    found = values.get(term.name, some(THING))
-    return found if isinstance(found, Variable | Individual | Anything) else some(THING)
+    found = values.get(term.name, any_individual(THING))
+    return found if isinstance(found, Variable | Individual | Anything) else any_individual(THING)
 
 
-def hidden(writes: Iterable[Write], visible: Iterable[str]) -> frozenset[Write]:
-    """Return the writes with someone unknown in the place of each name that is not visible."""
+def hide_names(writes: Iterable[Write], visible: Iterable[str]) -> frozenset[Write]:
+    """Return the writes with any individual in the place of each name that is not visible."""
     names = {name: Variable(name) for name in visible}
-    return frozenset(_seen(write, names) for write in writes)
+    return frozenset(_substitute_write(write, names) for write in writes)
 
 
-def _is_some(term: object) -> bool:
+def _is_any_individual(term: object) -> bool:
     return isinstance(term, Variable) and term.name.startswith("?")

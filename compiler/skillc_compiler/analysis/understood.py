@@ -1,16 +1,16 @@
-"""What was understood well enough to be proved: where something is wrong already, a proof would only repeat it."""
+"""Which bodies are free of other errors: in the rest, a proof would only repeat them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from skillc_compiler.analysis.axioms import Axioms
-from skillc_compiler.analysis.findings import Finding, NeverAssigned, Unassigned
-from skillc_compiler.analysis.learning import learned
-from skillc_compiler.analysis.opening import requirements_of
-from skillc_compiler.analysis.sorts import Sorts
+from skillc_compiler.analysis.alias_types import AliasTypes
+from skillc_compiler.analysis.assume import assume
+from skillc_compiler.analysis.axioms import RelationAxioms
+from skillc_compiler.analysis.findings import Finding, UnassignedOutput, UnassignedRead
+from skillc_compiler.analysis.initial_state import requirements_of
 from skillc_compiler.analysis.state import State
-from skillc_compiler.logic.effects import NoEffect, effects
+from skillc_compiler.logic.effects import NoEffect, effects_of
 from skillc_compiler.program.typed import (
     Call,
     Implementation,
@@ -23,25 +23,25 @@ from skillc_compiler.program.typed import (
     TypedNode,
 )
 from skillc_compiler.program.types import UNKNOWN, fits
-from skillc_compiler.program.walk import clauses_in, step_values, values_in, within
+from skillc_compiler.program.walk import conditions_in, node_values, nodes_in, values_in
 from skillc_dsl import syntax as s
 from skillc_model.conditions import HasProperty, Holds, IsA, PropertyOf
 from skillc_model.reading import walk
 
 
 class Understood:
-    """Remembers of each skill whether all of its description means something."""
+    """Stores for each skill whether its description has no unresolved part."""
 
-    def __init__(self, program: Program, axioms: Axioms) -> None:
+    def __init__(self, program: Program, axioms: RelationAxioms) -> None:
         self._program = program
         self._axioms = axioms
         self._skills: dict[str, bool] = {}
 
     def sound(self, of: Implementation | Task, findings: Iterable[Finding], clear: bool) -> Iterator[Finding]:
-        """Yield the findings that stand on their own; `clear` if the conditions do not contradict each other."""
+        """Yield the findings that are independent of other errors; `clear` if the conditions can be satisfied."""
         whole = clear and self._body(of)
         for finding in findings:
-            if whole or isinstance(finding, Unassigned | NeverAssigned):
+            if whole or isinstance(finding, UnassignedRead | UnassignedOutput):
                 yield finding
 
     def _body(self, of: Implementation | Task) -> bool:
@@ -51,14 +51,14 @@ class Understood:
                 return False
         posts = requirements_of(of, "post") if isinstance(of, Implementation) else ()
         labels = {post.label.text for post in posts if post.label and not post.sensed}
-        return not isinstance(of.body, TypedNode) or all(self._step(step, labels) for step in within(of.body))
+        return not isinstance(of.body, TypedNode) or all(self._step(node, labels) for node in nodes_in(of.body))
 
-    def _step(self, step: TypedNode, labels: set[str]) -> bool:
-        if isinstance(step.written, s.ApplyPosts) and not labels.issuperset(name.text for name in step.written.labels):
+    def _step(self, node: TypedNode, labels: set[str]) -> bool:
+        if isinstance(node.written, s.ApplyPosts) and not labels.issuperset(name.text for name in node.written.labels):
             return False
-        if not self._values(step_values(step)) or not all(self._clause(clause) for clause in step.clauses):
+        if not self._values(node_values(node)) or not all(self._clause(condition) for condition in node.conditions):
             return False
-        return step.call is None or self._call(step.call)
+        return node.call is None or self._call(node.call)
 
     def _call(self, call: Call) -> bool:
         if call.skill is None or not self._skill(call.skill):
@@ -83,16 +83,16 @@ class Understood:
         return self._skills[skill.name]
 
     def _requirements(self, requirements: Iterable[Requirement]) -> bool:
-        return all(self._clause(each.clause) and _is_post(each) for each in requirements)
+        return all(self._clause(each.condition) and _is_post(each) for each in requirements)
 
     def _clause(self, whole: TypedCondition) -> bool:
         vocabulary = self._program.vocabulary
-        if learned(Sorts(vocabulary, self._axioms), State(), whole.meaning) is None:
+        if assume(AliasTypes(vocabulary, self._axioms), State(), whole.meaning) is None:
             return False
-        for clause in clauses_in(whole):
-            if not self._values(clause.values):
+        for condition in conditions_in(whole):
+            if not self._values(condition.values):
                 return False
-            match clause.meaning:
+            match condition.meaning:
                 case Holds(relation=iri) if iri not in vocabulary.relations:
                     return False
                 case IsA(cls=iri) if iri not in vocabulary.classes:
@@ -112,7 +112,7 @@ class Understood:
 
 
 def _is_post(requirement: Requirement) -> bool:
-    """Whether it is no post, or one that says what is true afterwards."""
+    """Whether it is no post, or one with definite effects."""
     if requirement.kind != "post" or requirement.sensed:
         return True
-    return not any(isinstance(effect, NoEffect) for effect in effects(requirement.clause))
+    return not any(isinstance(effect, NoEffect) for effect in effects_of(requirement.condition))

@@ -1,11 +1,11 @@
-"""What may be written: a relation, a value, an output, the end of a `once`."""
+"""What may be written: a relation, a value, an output, the result of a `once`."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from typing import TypeAlias, assert_never
 
-from skillc_compiler.analysis.sorts import Sorts
+from skillc_compiler.analysis.alias_types import AliasTypes
 from skillc_compiler.analysis.state import State
 from skillc_model.conditions import (
     Assert,
@@ -25,7 +25,7 @@ from skillc_model.rewriting import substitute
 
 
 @dataclass(frozen=True, slots=True)
-class Related:
+class RelationWrite:
     """A relation that may be written: made true, made false, or either (None)."""
 
     subject: Term
@@ -35,10 +35,10 @@ class Related:
 
 
 @dataclass(frozen=True, slots=True)
-class Valued:
-    """A property that may be written; `value` is the constant or name it gets, None where that is not known.
+class PropertyWrite:
+    """A property that may be written; `value` is the constant or name that it gets, None if not known.
 
-    `cleared` tells that it may have no value afterwards.
+    `cleared` if it may have no value afterwards.
     """
 
     subject: Term
@@ -48,60 +48,63 @@ class Valued:
 
 
 @dataclass(frozen=True, slots=True)
-class Assigned:
-    """An output that may get a value."""
+class OutputWrite:
+    """An output that may be assigned."""
 
     name: str
 
 
 @dataclass(frozen=True, slots=True)
-class Ended:
-    """A `once` that may have run."""
+class OnceWrite:
+    """A `once` node that may have run."""
 
     key: int
 
 
-Write: TypeAlias = Related | Valued | Assigned | Ended
+Write: TypeAlias = RelationWrite | PropertyWrite | OutputWrite | OnceWrite
+NO_WRITES: frozenset[Write] = frozenset()
 
 
 def write_of(effect: Effect) -> Write:
-    """Return what an effect writes."""
+    """Return the write of an effect."""
     match effect:
         case Assert(subject=subject, relation=relation, object=object_):
-            return Related(subject, relation, object_, True)
+            return RelationWrite(subject, relation, object_, True)
         case Retract(subject=subject, relation=relation, object=object_):
-            return Related(subject, relation, object_, False)
+            return RelationWrite(subject, relation, object_, False)
         case Assign(subject=subject, property=iri, value=value):
-            return Valued(subject, iri, value if isinstance(value, Literal | Variable | Individual) else None)
+            return PropertyWrite(subject, iri, value if isinstance(value, Literal | Variable | Individual) else None)
         case _:
             assert_never(effect)
 
 
-def either_way(write: Write) -> Write:
-    """Return the write of which the result is not known."""
+def with_unknown_value(write: Write) -> Write:
+    """Return the write with an unknown result."""
     match write:
-        case Related():
+        case RelationWrite():
             return replace(write, value=None)
-        case Valued():
+        case PropertyWrite():
             return replace(write, value=None, cleared=True)
         case _:
             return write
 
 
-def condition_of(write: Related | Valued) -> Condition | None:
-    """Return the condition that holds once it is written; None where that leaves something open."""
+def written_condition(write: RelationWrite | PropertyWrite) -> Condition | None:
+    """Return the condition that holds once it is written, or None if that is not determined."""
     match write:
-        case Related(value=None) | Valued(value=None):
+        case RelationWrite(value=None) | PropertyWrite(value=None):
             return None
-        case Related(subject=subject, relation=relation, object=object_):
+        case RelationWrite(subject=subject, relation=relation, object=object_):
             return Holds(subject, relation, object_)
-        case Valued(subject=Variable() | Individual() as subject, property=iri, value=value) if value is not None:
+        case PropertyWrite(subject=Variable() | Individual() as subject, property=iri, value=value) if (
+            value is not None
+        ):
             return Compare(PropertyOf(subject, iri), "==", value)
     return None
 
 
-def canonical(sorts: Sorts, state: State, write: Related) -> tuple[Term, str, Term]:
-    """Return a written relation between the names that the state uses, in the direction that facts are kept in."""
-    relation, turned = sorts.axioms.name.get(write.relation, (write.relation, False))
-    subject, object_ = (substitute(term, state.same) for term in (write.subject, write.object))
+def canonical_relation(types: AliasTypes, state: State, write: RelationWrite) -> tuple[Term, str, Term]:
+    """Return a written relation as (subject, relation, object) in the names and direction that the state uses."""
+    relation, turned = types.axioms.canonical.get(write.relation, (write.relation, False))
+    subject, object_ = (substitute(term, state.aliases) for term in (write.subject, write.object))
     return (object_, relation, subject) if turned else (subject, relation, object_)

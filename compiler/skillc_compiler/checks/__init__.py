@@ -1,6 +1,6 @@
-"""The checks on a resolved program, one per file; a file in this folder is a check, and nothing else is registered.
+"""The checks of a resolved program, one per file: each file in this folder is found as a check.
 
-Each has `NAMES`, the diagnostics that it reports, and `check(program)`; manual/NAME.md explains each of them.
+Each has `NAMES`, the diagnostics that it reports, and `check(program)`. manual/NAME.md explains each diagnostic.
 """
 
 from __future__ import annotations
@@ -15,24 +15,24 @@ from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic
 
 
-class Check(Protocol):
-    """What a module in this folder is."""
+class CheckModule(Protocol):
+    """A module in this folder."""
 
     NAMES: tuple[str, ...]
 
     def check(self, program: Program) -> Iterator[Diagnostic]:
-        """Yield what is wrong in the program."""
+        """Yield the problems of the program."""
         ...
 
 
 @cache
-def checks() -> tuple[Check, ...]:
-    """Return all checks, in order of their files' names."""
+def load_checks() -> tuple[CheckModule, ...]:
+    """Return all checks, in order of their file names."""
     names = sorted(module.name for module in iter_modules(__path__))
-    return tuple(cast(Check, import_module(f"{__name__}.{name}")) for name in names)
+    return tuple(cast(CheckModule, import_module(f"{__name__}.{name}")) for name in names)
 
 
-def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield what all checks find."""
-    for one in checks():
+def run_checks(program: Program) -> Iterator[Diagnostic]:
+    """Yield the problems that any check finds."""
+    for one in load_checks():
         yield from one.check(program)

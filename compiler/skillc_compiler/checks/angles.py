@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from skillc_compiler.program.typed import Program
 from skillc_compiler.program.types import Measure
-from skillc_compiler.program.walk import values
+from skillc_compiler.program.walk import all_values
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.units import ANGLE
 from skillc_model.conditions import Literal
@@ -17,7 +17,7 @@ NAMES = ("suspicious-angle",)
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a warning for each angle written that is more than two turns."""
-    for value in values(program):
+    for value in all_values(program):
         match value.meaning:
             case Literal(value=float(angle)) if value.type == Measure(ANGLE) and abs(angle) > 4 * math.pi:
                 yield Diagnostic(

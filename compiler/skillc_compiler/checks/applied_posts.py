@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from skillc_compiler.program.typed import Program, Requirement, TypedNode
-from skillc_compiler.program.walk import within
+from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label, did_you_mean
 
@@ -25,9 +25,9 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 def _labels(body: TypedNode, posts: Sequence[Requirement]) -> Iterator[Diagnostic]:
     labelled = {post.label.text: post for post in posts if post.label}
-    for step in within(body):
-        if isinstance(step.written, s.ApplyPosts):
-            for name in step.written.labels:
+    for node in nodes_in(body):
+        if isinstance(node.written, s.ApplyPosts):
+            for name in node.written.labels:
                 yield from _label(name, labelled)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.program.typed import Call, Program, Skill, TypedExpression
-from skillc_compiler.program.walk import calls, steps, values
+from skillc_compiler.program.walk import all_calls, all_nodes, all_values
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import Invoke
@@ -15,14 +15,14 @@ NAMES = ("missing-argument", "duplicate-argument", "wrong-argument-count", "not-
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield what is wrong with the arguments of each call of a skill or function."""
-    for call in calls(program):
+    for call in all_calls(program):
         yield from _twice(call)
         if call.skill:
             yield from _missing(call, call.skill)
-    for step in steps(program):
-        if isinstance(step.written, s.With) and step.call and step.call.skill:
-            yield from _scoped(step.call, step.call.skill)
-    for value in values(program):
+    for node in all_nodes(program):
+        if isinstance(node.written, s.With) and node.call and node.call.skill:
+            yield from _scoped(node.call, node.call.skill)
+    for value in all_values(program):
         if isinstance(value.meaning, Invoke):
             yield from _counted(program, value, value.meaning)
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.analysis.findings import BrokenHold
-from skillc_compiler.analysis.proving import found
-from skillc_compiler.analysis.trail import labels
+from skillc_compiler.analysis.paths import path_labels
+from skillc_compiler.analysis.proof import findings_of
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -15,7 +15,7 @@ NAMES = ("hold-broken",)
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each hold that a child breaks while others still follow."""
-    for one in found(program, BrokenHold):
+    for one in findings_of(program, BrokenHold):
         verb = "breaks" if one.certain else "may break"
         yield Diagnostic(
             "hold-broken",
@@ -23,5 +23,5 @@ def check(program: Program) -> Iterator[Diagnostic]:
             f"this {verb} the hold `{one.hold.text}` while the skill still runs",
             help="do it last, or take the `hold` away" if one.certain else "say in a `pre` what rules that out",
             severity="error" if one.certain else "warning",
-            labels=(Label(one.hold.span, "must hold all the time"), *labels(one.way)),
+            labels=(Label(one.hold.span, "must hold all the time"), *path_labels(one.path)),
         )

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.analysis.findings import Unguaranteed
-from skillc_compiler.analysis.proving import found
-from skillc_compiler.analysis.trail import labels
+from skillc_compiler.analysis.findings import UnprovedPrecondition
+from skillc_compiler.analysis.paths import path_labels
+from skillc_compiler.analysis.proof import findings_of
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -15,7 +15,7 @@ NAMES = ("child-precondition",)
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each such precondition of each call."""
-    for one in found(program, Unguaranteed):
+    for one in findings_of(program, UnprovedPrecondition):
         name, text = one.call.written.skill.text, one.requirement.text
         what = "does not hold" if one.false else "is not guaranteed"
         yield Diagnostic(
@@ -24,11 +24,11 @@ def check(program: Program) -> Iterator[Diagnostic]:
             f"`{name}` needs `{text}`, which {what} here",
             help=_help(one),
             severity="error" if one.false else "warning",
-            labels=(Label(one.requirement.span, "needed here"), *labels(one.way)),
+            labels=(Label(one.requirement.span, "needed here"), *path_labels(one.path)),
         )
 
 
-def _help(one: Unguaranteed) -> str:
+def _help(one: UnprovedPrecondition) -> str:
     if one.false:
         return "call it where its precondition holds, or bring that about before"
     return "promise it in a `pre` of the calling skill, establish it before, or look: `check(..)`"

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.program.typed import Program
-from skillc_compiler.program.types import Thing, Type, describe
-from skillc_compiler.program.walk import clauses
+from skillc_compiler.program.types import Thing, Type, describe_type
+from skillc_compiler.program.walk import all_conditions
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model.conditions import IsA, Same
 from skillc_rdf.vocabulary.types import Vocabulary
@@ -16,19 +16,19 @@ NAMES = ("disjoint-types",)
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each `is` and `==` that can never hold."""
-    for clause in clauses(program):
-        match clause.meaning:
+    for condition in all_conditions(program):
+        match condition.meaning:
             case IsA(cls=cls):
-                asked: tuple[Type, Type] = (clause.values[0].type, Thing(cls))
+                asked: tuple[Type, Type] = (condition.values[0].type, Thing(cls))
             case Same():
-                asked = (clause.values[0].type, clause.values[1].type)
+                asked = (condition.values[0].type, condition.values[1].type)
             case _:
                 continue
         if _disjoint(program.vocabulary, *asked):
             yield Diagnostic(
                 "disjoint-types",
-                clause.span,
-                f"this never holds: nothing is both {describe(asked[0])} and {describe(asked[1])}",
+                condition.span,
+                f"this never holds: nothing is both {describe_type(asked[0])} and {describe_type(asked[1])}",
                 help="take the condition away, or ask for another class",
             )
 

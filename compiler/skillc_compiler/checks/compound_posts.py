@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.analysis.findings import Unproved
-from skillc_compiler.analysis.proving import found
-from skillc_compiler.analysis.trail import labels
+from skillc_compiler.analysis.findings import UnprovedPost
+from skillc_compiler.analysis.paths import path_labels
+from skillc_compiler.analysis.proof import findings_of
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -25,20 +25,20 @@ def check(program: Program) -> Iterator[Diagnostic]:
             f"`{one.implementation.name}` can succeed in a way that {verb}: {texts}",
             help=_help(one),
             severity="warning" if one.beyond else "error",
-            labels=(*(Label(each.post.span, "promised here") for each in several), *labels(one.way)),
+            labels=(*(Label(each.post.span, "promised here") for each in several), *path_labels(one.path)),
         )
 
 
-def _together(program: Program) -> Iterator[tuple[Unproved, ...]]:
+def _together(program: Program) -> Iterator[tuple[UnprovedPost, ...]]:
     """Yield what the same way leaves open, which has one cause, as one."""
-    groups: dict[object, tuple[Unproved, ...]] = {}
-    for one in found(program, Unproved):
-        key = (id(one.implementation), id(one.way), one.false, one.beyond)
+    groups: dict[object, tuple[UnprovedPost, ...]] = {}
+    for one in findings_of(program, UnprovedPost):
+        key = (id(one.implementation), id(one.path), one.false, one.beyond)
         groups[key] = (*groups.get(key, ()), one)
     return iter(groups.values())
 
 
-def _help(one: Unproved) -> str:
+def _help(one: UnprovedPost) -> str:
     if one.false:
         return "undo what makes it false, or take the postcondition away"
     if one.post.sensed or one.post.label is None:

@@ -5,7 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.logic.conflicts import Conflicts
-from skillc_compiler.logic.conjunctions import ConjunctionGroup, Fact, conjunction_groups, names_of, renamed
+from skillc_compiler.logic.conjunctions import (
+    ConjunctionGroup,
+    TypedFact,
+    conjunction_groups,
+    equal_names_in,
+    rename_fact,
+)
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -20,16 +26,16 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 
 def _in_group(conflicts: Conflicts, group: ConjunctionGroup) -> Iterator[Diagnostic]:
-    names = names_of((*group.given, *group.own))
-    earlier = [renamed(fact, names) for fact in group.given]
-    for fact in (renamed(each, names) for each in group.own):
-        against = next((other for other in earlier if conflicts.between(other, fact)), None)
+    names = equal_names_in((*group.given, *group.own))
+    earlier = [rename_fact(fact, names) for fact in group.given]
+    for fact in (rename_fact(each, names) for each in group.own):
+        against = next((other for other in earlier if conflicts.exclude(other, fact)), None)
         if against is not None:
             yield _problem(fact, against)
         earlier.append(fact)
 
 
-def _problem(fact: Fact, against: Fact) -> Diagnostic:
+def _problem(fact: TypedFact, against: TypedFact) -> Diagnostic:
     return Diagnostic(
         "contradicting-conditions",
         fact.source.span,

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from skillc_compiler.logic.intervals import Interval, interval_of, intervals
+from skillc_compiler.logic.intervals import Interval, interval_of, parameter_intervals
 from skillc_compiler.logic.rounds import MOST_ROUNDS
 from skillc_compiler.program.typed import Program, TypedExpression, TypedNode
-from skillc_compiler.program.walk import steps, values, within
+from skillc_compiler.program.walk import all_nodes, all_values, nodes_in
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -24,14 +24,14 @@ YEAR_S = 366 * 24 * 3600.0
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each count, each time and each number."""
-    for step in steps(program):
-        match step.written:
+    for node in all_nodes(program):
+        match node.written:
             case s.Counted(count=count) | s.While(limit=count):
                 yield from _count(count)
             case _:
                 pass
     yield from _times(program)
-    for value in values(program):
+    for value in all_values(program):
         yield from _number(value)
     for unit in program.files:
         for declaration in unit.file.declarations:
@@ -48,25 +48,25 @@ def _count(count: s.Number) -> Iterator[Diagnostic]:
 def _times(program: Program) -> Iterator[Diagnostic]:
     for skill in program.skills.values():
         if skill.duration:
-            yield from _time(skill.duration, intervals(skill.parameters), "duration")
+            yield from _time(skill.duration, parameter_intervals(skill.parameters), "duration")
     for implementation in program.implementations:
-        known = intervals(implementation.parameters, implementation.lets)
+        known = parameter_intervals(implementation.parameters, implementation.lets)
         if implementation.duration:
             yield from _time(implementation.duration, known, "duration")
         if isinstance(implementation.body, TypedNode):
-            yield from _in_body(within(implementation.body), known)
+            yield from _in_body(nodes_in(implementation.body), known)
     for task in program.tasks:
         if task.body:
-            yield from _in_body(within(task.body), {})
+            yield from _in_body(nodes_in(task.body), {})
 
 
 def _in_body(nodes: Iterable[TypedNode], known: Mapping[str, Interval]) -> Iterator[Diagnostic]:
-    for step in nodes:
-        match step.written:
+    for node in nodes:
+        match node.written:
             case s.Timeout():
-                yield from _time(step.values[0], known, "timeout")
+                yield from _time(node.values[0], known, "timeout")
             case s.Wait():
-                yield from _time(step.values[0], known, "wait")
+                yield from _time(node.values[0], known, "wait")
             case _:
                 pass
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from skillc_compiler.logic.subsumption import overlap
+from skillc_compiler.logic.selection import types_overlap
 from skillc_compiler.program.typed import Argument, Call, Implementation, Parameter, Program, Skill
-from skillc_compiler.program.types import Thing, describe, fits
-from skillc_compiler.program.walk import calls
+from skillc_compiler.program.types import Thing, describe_type, fits
+from skillc_compiler.program.walk import all_calls
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
@@ -22,7 +22,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
         for index, parameter in enumerate(skill.parameters if implementations else ()):
             taken = [implementation.parameters[index] for implementation in implementations]
             yield from _left_out(program.vocabulary, skill, parameter, taken)
-    for call in calls(program):
+    for call in all_calls(program):
         if call.skill:
             yield from _called(program, call, call.skill)
 
@@ -61,7 +61,7 @@ def _called(program: Program, call: Call, skill: Skill) -> Iterator[Diagnostic]:
         if parameter is None or not candidates or not fits(program.vocabulary, argument.value.type, parameter.type):
             continue
         taken = [each.parameters[skill.parameters.index(parameter)] for each in candidates]
-        if not any(overlap(program.vocabulary, argument.value.type, each.type) for each in taken):
+        if not any(types_overlap(program.vocabulary, argument.value.type, each.type) for each in taken):
             yield _problem(argument, skill, candidates)
 
 
@@ -71,7 +71,7 @@ def _problem(argument: Argument, skill: Skill, candidates: Sequence[Implementati
     return Diagnostic(
         "no-fitting-implementation",
         argument.value.span,
-        f"this is {describe(argument.value.type)}, which {which} take as `{argument.name.text}`",
+        f"this is {describe_type(argument.value.type)}, which {which} take as `{argument.name.text}`",
         help="pass something else, or add an implementation",
         labels=tuple(Label(each.name_span, f"`{each.name}` is for others") for each in candidates[:SHOWN]),
     )

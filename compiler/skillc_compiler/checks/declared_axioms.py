@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from skillc_compiler.program.typed import Program
-from skillc_compiler.resolve.declared import namespace
+from skillc_compiler.resolve.declarations import library_namespace
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_rdf.vocabulary.types import Vocabulary, local_name
@@ -35,7 +35,7 @@ def _iri(program: Program, library: str, name: str) -> str:
     if before:
         iri = program.vocabulary.prefixes.get(before, "") + local
         return program.vocabulary.aliases.get(iri, iri)
-    own = namespace(library) + name
+    own = library_namespace(library) + name
     return (
         own
         if own in program.vocabulary.classes

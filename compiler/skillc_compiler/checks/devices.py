@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.program.typed import Parameter, Program, Skill
-from skillc_compiler.program.types import UNKNOWN, Thing, describe, fits
+from skillc_compiler.program.types import UNKNOWN, Thing, describe_type, fits
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_rdf.vocabulary.types import THING, Vocabulary
@@ -43,7 +43,7 @@ def _reason(vocabulary: Vocabulary, parameter: Parameter) -> str | None:
     if parameter.type == UNKNOWN:
         return None
     if not isinstance(parameter.type, Thing):
-        return f"is {describe(parameter.type)}"
+        return f"is {describe_type(parameter.type)}"
     if parameter.direction == "out":
         return "is an output, which has no value when the skill starts"
     cls = parameter.type.cls
@@ -51,5 +51,5 @@ def _reason(vocabulary: Vocabulary, parameter: Parameter) -> str | None:
         return None
     below = (iri for iri in vocabulary.classes if fits(vocabulary, Thing(iri), Thing(cls)))
     if DEVICE in vocabulary.classes and not any(vocabulary.is_a(iri, DEVICE) for iri in below):
-        return f"is {describe(parameter.type)}, which no device is"
+        return f"is {describe_type(parameter.type)}, which no device is"
     return None

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from skillc_compiler.logic.conjunctions import Fact, conjuncts
+from skillc_compiler.logic.conjunctions import TypedFact, facts_in
 from skillc_compiler.program.typed import Program, Requirement, TypedCondition
-from skillc_compiler.program.walk import steps
+from skillc_compiler.program.walk import all_nodes
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import Condition
 
@@ -22,22 +22,22 @@ def check(program: Program) -> Iterator[Diagnostic]:
         for kind in ("pre", "hold", "post"):
             given = _facts(implementation.skill.requirements, kind)
             yield from _repeated(_facts(implementation.requirements, kind), given)
-    for clause in _alone(program):
-        yield from _repeated(conjuncts(clause), ())
+    for condition in _alone(program):
+        yield from _repeated(facts_in(condition), ())
 
 
 def _alone(program: Program) -> Iterator[TypedCondition]:
     yield from (task.goal for task in program.tasks if task.goal)
-    for step in steps(program):
-        yield from step.clauses
+    for node in all_nodes(program):
+        yield from node.conditions
 
 
-def _facts(requirements: Iterable[Requirement], kind: str) -> list[Fact]:
-    return [fact for r in requirements if r.kind == kind for fact in conjuncts(r.clause)]
+def _facts(requirements: Iterable[Requirement], kind: str) -> list[TypedFact]:
+    return [fact for r in requirements if r.kind == kind for fact in facts_in(r.condition)]
 
 
-def _repeated(facts: Iterable[Fact], given: Iterable[Fact]) -> Iterator[Diagnostic]:
-    first: dict[tuple[Condition, bool], Fact] = {(fact.meaning, fact.holds): fact for fact in given}
+def _repeated(facts: Iterable[TypedFact], given: Iterable[TypedFact]) -> Iterator[Diagnostic]:
+    first: dict[tuple[Condition, bool], TypedFact] = {(fact.meaning, fact.holds): fact for fact in given}
     for fact in facts:
         former = first.setdefault((fact.meaning, fact.holds), fact)
         if former is not fact:

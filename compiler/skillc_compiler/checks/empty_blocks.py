@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.program.typed import Program
-from skillc_compiler.program.walk import steps
+from skillc_compiler.program.walk import all_nodes
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.source import Span
@@ -15,11 +15,11 @@ NAMES = ("empty-block",)
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield an error for each node that has braces and nothing in them."""
-    removable = {child.written.span for step in steps(program) for child in step.children if len(step.children) > 1}
-    for step in steps(program):
-        found = _empty(step.written)
+    removable = {child.written.span for node in all_nodes(program) for child in node.children if len(node.children) > 1}
+    for node in all_nodes(program):
+        found = _empty(node.written)
         if found is not None:
-            span = step.written.span
+            span = node.written.span
             fix = Fix(span, "", "delete it", safe=False) if span in removable and "else" not in found[0] else None
             yield Diagnostic("empty-block", _head(span), found[0], help=found[1], fix=fix)
 

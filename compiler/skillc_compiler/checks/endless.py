@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from typing import assert_never
 
 from skillc_compiler.program.typed import Call, Implementation, Program, Skill, TypedNode
-from skillc_compiler.program.walk import within
-from skillc_compiler.python.returns import returned
+from skillc_compiler.program.walk import nodes_in
+from skillc_compiler.python.targets import method_returns
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -18,58 +18,58 @@ def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each body that cannot end and each declaration of what does not last."""
     for skill in program.skills.values():
         if "endless" in skill.flags:
-            yield from _promises(skill)
+            yield from _check_promises(skill)
     for implementation in program.implementations:
         endless = "endless" in implementation.skill.flags
         match implementation.body:
             case TypedNode() as body if endless:
-                yield from _lasting(implementation, body)
+                yield from _check_endless(implementation, body)
             case TypedNode() as body:
-                yield from _ending(body)
+                yield from _check_ends(body)
             case s.RunPython() as target:
-                yield from _in_python(implementation, target, endless)
+                yield from _check_python(implementation, target, endless)
             case None:
                 pass
             case _:
                 assert_never(implementation.body)
     for task in program.tasks:
         if task.body is not None:
-            yield from _ending(task.body)
+            yield from _check_ends(task.body)
 
 
-def unending(step: TypedNode) -> Iterator[Call]:
+def endless_calls(node: TypedNode) -> Iterator[Call]:
     """Yield the calls of endless skills in a node that nothing in it halts."""
-    match step.written:
+    match node.written:
         case s.Timeout():
             return
         case s.Block(kind="par lead"):
-            yield from unending(step.children[0]) if step.children else ()
+            yield from endless_calls(node.children[0]) if node.children else ()
         case s.Block(kind="par race" | "par any"):
-            each = [tuple(unending(child)) for child in step.children]
+            each = [tuple(endless_calls(child)) for child in node.children]
             yield from (call for calls in each for call in calls if all(each))
         case s.Block(kind="reactive seq" | "reactive sel"):
-            for number, child in enumerate(step.children):
-                if not any(_may_change(earlier) for earlier in step.children[:number]):
-                    yield from unending(child)
+            for number, child in enumerate(node.children):
+                if not any(_may_change(earlier) for earlier in node.children[:number]):
+                    yield from endless_calls(child)
         case _:
-            if step.call and step.call.skill and "endless" in step.call.skill.flags:
-                yield step.call
-            for child in (*step.children, *step.orelse):
-                yield from unending(child)
+            if node.call and node.call.skill and "endless" in node.call.skill.flags:
+                yield node.call
+            for child in (*node.children, *node.orelse):
+                yield from endless_calls(child)
 
 
-def _may_change(step: TypedNode) -> bool:
+def _may_change(node: TypedNode) -> bool:
     """Whether a node that has ended may end otherwise when it is looked at again."""
-    for each in within(step):
-        if each.clauses:
+    for each in nodes_in(node):
+        if each.conditions:
             return True
         if each.call and each.call.skill and any(r.kind == "post" for r in each.call.skill.requirements):
             return True
     return False
 
 
-def _ending(body: TypedNode) -> Iterator[Diagnostic]:
-    call = next(unending(body), None)
+def _check_ends(body: TypedNode) -> Iterator[Diagnostic]:
+    call = next(endless_calls(body), None)
     if call is not None and call.skill is not None:
         yield Diagnostic(
             "never-ends",
@@ -80,8 +80,8 @@ def _ending(body: TypedNode) -> Iterator[Diagnostic]:
         )
 
 
-def _lasting(implementation: Implementation, body: TypedNode) -> Iterator[Diagnostic]:
-    if next(unending(body), None) is None:
+def _check_endless(implementation: Implementation, body: TypedNode) -> Iterator[Diagnostic]:
+    if next(endless_calls(body), None) is None:
         skill = implementation.skill
         yield Diagnostic(
             "not-endless",
@@ -92,7 +92,7 @@ def _lasting(implementation: Implementation, body: TypedNode) -> Iterator[Diagno
         )
 
 
-def _promises(skill: Skill) -> Iterator[Diagnostic]:
+def _check_promises(skill: Skill) -> Iterator[Diagnostic]:
     """What is true at the end of a skill that does not end never is."""
     help_ = "remove it, or the flag `endless`"
     for post in (r for r in skill.requirements if r.kind == "post"):
@@ -106,9 +106,9 @@ def _promises(skill: Skill) -> Iterator[Diagnostic]:
         yield Diagnostic("not-endless", skill.name_span, message, "remove one of the flags `endless` and `scoped`")
 
 
-def _in_python(implementation: Implementation, written: s.RunPython, endless: bool) -> Iterator[Diagnostic]:
+def _check_python(implementation: Implementation, written: s.RunPython, endless: bool) -> Iterator[Diagnostic]:
     module, _, name = written.target.value.partition(":")
-    found = returned(module, name, "tick")
+    found = method_returns(module, name, "tick")
     label = (Label(implementation.skill.name_span, "the skill"),)
     if found == {"RUNNING"} and not endless:
         message = f"`{name}` never ends by itself: its `tick` returns nothing but `RUNNING`"

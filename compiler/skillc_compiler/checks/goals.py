@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.logic.effects import NoEffect, effects
+from skillc_compiler.logic.effects import NoEffect, effects_of
 from skillc_compiler.program.typed import Program, TypedCondition
-from skillc_compiler.program.walk import clauses_in
+from skillc_compiler.program.walk import conditions_in
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model.conditions import Compare, Holds, PropertyOf
 from skillc_model.read_write import may_change, terms_written_by
@@ -22,21 +22,21 @@ def check(program: Program) -> Iterator[Diagnostic]:
     written = _written(program)
     for task in program.tasks:
         told: set[str] = set()
-        for clause in clauses_in(task.goal) if task.goal else ():
-            term = _term(clause)
+        for condition in conditions_in(task.goal) if task.goal else ():
+            term = _term(condition)
             if term is not None and term not in told and not _may_change(term, written, program.vocabulary):
                 told.add(term)
                 yield Diagnostic(
                     "unachievable-goal",
-                    clause.span,
+                    condition.span,
                     f"no skill of this library changes `{local_name(term)}`",
                     help="import the file with the skill that does, or state it as a post of one",
                     severity="warning",
                 )
 
 
-def _term(clause: TypedCondition) -> str | None:
-    match clause.meaning:
+def _term(condition: TypedCondition) -> str | None:
+    match condition.meaning:
         case Holds(relation=relation):
             return relation
         case Compare(left=PropertyOf(property=name)) | Compare(right=PropertyOf(property=name)):
@@ -58,5 +58,5 @@ def _written(program: Program) -> frozenset[str]:
     """Return what the skills write that a planner may take, as of `terms_written_by`."""
     planned = (skill for skill in program.skills.values() if "noplan" not in skill.flags)
     posts = (post for skill in planned for post in skill.requirements if post.kind == "post")
-    found = (effect for post in posts for effect in effects(post.clause) if not isinstance(effect, NoEffect))
+    found = (effect for post in posts for effect in effects_of(post.condition) if not isinstance(effect, NoEffect))
     return frozenset[str]().union(*(terms_written_by(effect, program.vocabulary) for effect in found))

@@ -15,8 +15,8 @@ NAMES = ("unlinked-inference",)
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each inferred parameter of which no precondition says who it is."""
     for skill in program.skills.values():
-        linked = {name for r in skill.requirements if r.kind == "pre" for name in _linked(r.clause)}
-        asked = {name for r in skill.requirements if r.kind == "pre" for name in free_variables(r.clause.meaning)}
+        linked = {name for r in skill.requirements if r.kind == "pre" for name in _linked(r.condition)}
+        asked = {name for r in skill.requirements if r.kind == "pre" for name in free_variables(r.condition.meaning)}
         for parameter in skill.parameters:
             if parameter.direction == "infer" and parameter.name not in (asked if parameter.any_ else linked):
                 yield _problem(skill, parameter.name, linked)
@@ -33,14 +33,14 @@ def _problem(skill: Skill, name: str, linked: set[str]) -> Diagnostic:
     )
 
 
-def _linked(clause: TypedCondition) -> set[str]:
+def _linked(condition: TypedCondition) -> set[str]:
     """Return the variables of which a condition, when it holds, says something that is not so of everybody."""
-    match clause.meaning:
+    match condition.meaning:
         case And() | Exists():
-            return set().union(*(_linked(part) for part in clause.parts))
+            return set().union(*(_linked(part) for part in condition.parts))
         case Or():
-            return set.intersection(*(_linked(part) for part in clause.parts))
+            return set.intersection(*(_linked(part) for part in condition.parts))
         case Holds() | Same() | Compare() | HasProperty() | IsA():
-            return set(free_variables(clause.meaning))
+            return set(free_variables(condition.meaning))
         case _:
             return set()

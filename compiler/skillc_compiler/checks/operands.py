@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.program.typed import Program, TypedCondition, TypedExpression
-from skillc_compiler.program.types import INT, UNKNOWN, Direction, Measure, Type, Vector, describe, fits
-from skillc_compiler.program.walk import clauses, values
-from skillc_compiler.resolve.values import result_type
+from skillc_compiler.program.types import INT, UNKNOWN, Direction, Measure, Type, Vector, describe_type, fits
+from skillc_compiler.program.walk import all_conditions, all_values
+from skillc_compiler.resolve.values import arithmetic_type
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 from skillc_model.conditions import Arithmetic, Compare
@@ -17,34 +17,34 @@ NAMES = ("unlike-dimensions", "wrong-operands")
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each operation and comparison whose sides do not go together."""
-    for value in values(program):
+    for value in all_values(program):
         if isinstance(value.meaning, Arithmetic):
             yield from _arithmetic(value, value.meaning)
-    for clause in clauses(program):
-        if isinstance(clause.meaning, Compare):
-            yield from _compared(program, clause, clause.meaning)
+    for condition in all_conditions(program):
+        if isinstance(condition.meaning, Compare):
+            yield from _compared(program, condition, condition.meaning)
 
 
 def _arithmetic(value: TypedExpression, meaning: Arithmetic) -> Iterator[Diagnostic]:
     left, right = (part.type for part in value.parts)
-    if result_type(meaning.operator, left, right) is None:
+    if arithmetic_type(meaning.operator, left, right) is None:
         yield _problem(value.span, meaning.operator, left, right)
 
 
-def _compared(program: Program, clause: TypedCondition, meaning: Compare) -> Iterator[Diagnostic]:
-    if len(clause.values) != 2:
+def _compared(program: Program, condition: TypedCondition, meaning: Compare) -> Iterator[Diagnostic]:
+    if len(condition.values) != 2:
         return
-    left, right = (side.type for side in clause.values)
+    left, right = (side.type for side in condition.values)
     if UNKNOWN in (left, right):
         return
     alike = fits(program.vocabulary, left, right) or fits(program.vocabulary, right, left)
     if not alike:
-        yield _problem(clause.span, meaning.operator, left, right)
+        yield _problem(condition.span, meaning.operator, left, right)
     elif meaning.operator not in ("==", "!=") and not (left == INT or isinstance(left, Measure)):
         yield Diagnostic(
             "wrong-operands",
-            clause.span,
-            f"`{meaning.operator}` orders numbers, and this is {describe(left)}",
+            condition.span,
+            f"`{meaning.operator}` orders numbers, and this is {describe_type(left)}",
             help="compare with `==` or `!=`",
         )
 
@@ -54,7 +54,7 @@ def _problem(span: Span, operator: str, left: Type, right: Type) -> Diagnostic:
     return Diagnostic(
         "unlike-dimensions" if unlike else "wrong-operands",
         span,
-        f"`{operator}` cannot join {describe(left)} and {describe(right)}",
+        f"`{operator}` cannot join {describe_type(left)} and {describe_type(right)}",
         help=_cure(left, right) if unlike else "use values of one type",
     )
 

@@ -13,7 +13,7 @@ from skillc_compiler.program.typed import (
     TypedExpression,
     TypedNode,
 )
-from skillc_compiler.program.walk import implementation_values, skill_values, step_values, values_in
+from skillc_compiler.program.walk import implementation_values, node_values, skill_values, values_in
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import And, Given, Not, Or, Variable
@@ -50,53 +50,53 @@ def _report(parameters: Sequence[Parameter], read: Iterator[tuple[TypedExpressio
 def _in_skill(skill: Skill) -> Iterator[tuple[TypedExpression, Guards]]:
     yield from _all(skill_values(skill), NONE)
     for requirement in skill.requirements:
-        yield from _in_clause(requirement.clause, NONE)
+        yield from _in_clause(requirement.condition, NONE)
 
 
 def _in_implementation(implementation: Implementation) -> Iterator[tuple[TypedExpression, Guards]]:
     yield from _all(implementation_values(implementation), NONE)
     for requirement in implementation.requirements:
-        yield from _in_clause(requirement.clause, NONE)
+        yield from _in_clause(requirement.condition, NONE)
     if isinstance(implementation.body, TypedNode):
         yield from _in_step(implementation.body, NONE)
 
 
-def _in_clause(clause: TypedCondition, guards: Guards) -> Iterator[tuple[TypedExpression, Guards]]:
+def _in_clause(condition: TypedCondition, guards: Guards) -> Iterator[tuple[TypedExpression, Guards]]:
     """Yield what a condition reads; in `and` and `or` the parts before guard those after."""
-    yield from _all(iter(clause.values), guards)
-    for part in clause.parts:
+    yield from _all(iter(condition.values), guards)
+    for part in condition.parts:
         yield from _in_clause(part, guards)
-        if isinstance(clause.meaning, And):
+        if isinstance(condition.meaning, And):
             guards |= _given(part, True)
-        elif isinstance(clause.meaning, Or):
+        elif isinstance(condition.meaning, Or):
             guards |= _given(part, False)
 
 
-def _given(clause: TypedCondition, holds: bool) -> Guards:
+def _given(condition: TypedCondition, holds: bool) -> Guards:
     """Return the parameters that are certainly set when the condition holds, or when it does not."""
-    match clause.meaning:
+    match condition.meaning:
         case Given(parameter=name):
             return frozenset({name}) if holds else NONE
         case Not():
-            return _given(clause.parts[0], not holds)
+            return _given(condition.parts[0], not holds)
         case And() if holds:
-            return frozenset().union(*(_given(part, True) for part in clause.parts))
+            return frozenset().union(*(_given(part, True) for part in condition.parts))
         case Or() if not holds:
-            return frozenset().union(*(_given(part, False) for part in clause.parts))
+            return frozenset().union(*(_given(part, False) for part in condition.parts))
     return NONE
 
 
-def _in_step(step: TypedNode, guards: Guards) -> Iterator[tuple[TypedExpression, Guards]]:
-    yield from _all(step_values(step), guards)
-    for clause in step.clauses:
-        yield from _in_clause(clause, guards)
+def _in_step(node: TypedNode, guards: Guards) -> Iterator[tuple[TypedExpression, Guards]]:
+    yield from _all(node_values(node), guards)
+    for condition in node.conditions:
+        yield from _in_clause(condition, guards)
     inside, otherwise = guards, guards
-    if isinstance(step.written, s.If | s.While):
-        inside = guards | _given(step.clauses[0], True)
-        otherwise = guards | _given(step.clauses[0], False)
-    for child in step.children:
+    if isinstance(node.written, s.If | s.While):
+        inside = guards | _given(node.conditions[0], True)
+        otherwise = guards | _given(node.conditions[0], False)
+    for child in node.children:
         yield from _in_step(child, inside)
-    for child in step.orelse:
+    for child in node.orelse:
         yield from _in_step(child, otherwise)
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.analysis.findings import NeverAssigned, Unassigned
-from skillc_compiler.analysis.proving import found
-from skillc_compiler.analysis.trail import labels
+from skillc_compiler.analysis.findings import UnassignedOutput, UnassignedRead
+from skillc_compiler.analysis.paths import path_labels
+from skillc_compiler.analysis.proof import findings_of
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -15,20 +15,20 @@ NAMES = ("out-unassigned", "out-never-assigned")
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each reading too early and each output left without a value."""
-    for one in found(program, Unassigned):
+    for one in findings_of(program, UnassignedRead):
         yield Diagnostic(
             "out-unassigned",
             one.span,
             f"`{one.name}` has no value here on every path",
             help=f"assign it before, with `-> {one.name}` on a call that always runs",
-            labels=labels(one.way),
+            labels=path_labels(one.path),
         )
-    for two in found(program, NeverAssigned):
+    for two in findings_of(program, UnassignedOutput):
         name = two.parameter.name
         yield Diagnostic(
             "out-never-assigned",
             two.implementation.name_span,
             f"`{two.implementation.name}` does not give the output `{name}` a value on every path",
             help=f"take it from a call: `.. -> {name}`",
-            labels=(Label(two.parameter.span, "declared here"), *labels(two.way)),
+            labels=(Label(two.parameter.span, "declared here"), *path_labels(two.path)),
         )

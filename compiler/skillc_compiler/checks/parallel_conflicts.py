@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.analysis.findings import Clash
-from skillc_compiler.analysis.proving import found
+from skillc_compiler.analysis.findings import ParallelConflict
+from skillc_compiler.analysis.proof import findings_of
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -14,7 +14,7 @@ NAMES = ("parallel-conflict",)
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for the first two calls in each two children that clash."""
-    for one in found(program, Clash):
+    for one in findings_of(program, ParallelConflict):
         first, second = one.first.written.skill, one.second.written.skill
         yield Diagnostic(
             "parallel-conflict",

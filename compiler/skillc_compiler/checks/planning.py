@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.logic.effects import effects
+from skillc_compiler.logic.effects import effects_of
 from skillc_compiler.program.typed import Program, Skill
-from skillc_compiler.program.types import INT, Measure, Thing, Unknown, describe, of_library
+from skillc_compiler.program.types import INT, Measure, Thing, UnknownType, describe_type, type_of
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import Assign
 from skillc_model.pddl.names import kebab
@@ -38,11 +38,12 @@ def _effect(skill: Skill) -> Iterator[Diagnostic]:
 
 def _parameters(skill: Skill) -> Iterator[Diagnostic]:
     for parameter in skill.parameters:
-        if parameter.direction in ("in", "infer") and not isinstance(parameter.type, Thing | Unknown):
+        if parameter.direction in ("in", "infer") and not isinstance(parameter.type, Thing | UnknownType):
             yield Diagnostic(
                 "unplannable-parameter",
                 parameter.span,
-                f"the planner chooses individuals, not {describe(parameter.type)}, so it cannot use `{skill.name}`",
+                f"the planner chooses individuals, not {describe_type(parameter.type)}, "
+                f"so it cannot use `{skill.name}`",
                 help="make the parameter `opt` with a default, read a property instead, or add `noplan`",
                 severity="warning",
             )
@@ -50,15 +51,15 @@ def _parameters(skill: Skill) -> Iterator[Diagnostic]:
 
 def _numbers(program: Program, skill: Skill) -> Iterator[Diagnostic]:
     for post in (requirement for requirement in skill.requirements if requirement.kind == "post"):
-        for effect in effects(post.clause):
+        for effect in effects_of(post.condition):
             if not isinstance(effect, Assign) or effect.property not in program.vocabulary.properties:
                 continue
-            if isinstance(of_library(program.vocabulary.properties[effect.property].type), Measure) or (
-                of_library(program.vocabulary.properties[effect.property].type) == INT
+            if isinstance(type_of(program.vocabulary.properties[effect.property].type), Measure) or (
+                type_of(program.vocabulary.properties[effect.property].type) == INT
             ):
                 yield Diagnostic(
                     "numeric-effect",
-                    post.clause.span,
+                    post.condition.span,
                     f"the planner does not count: it leaves `{skill.name}` out, which changes "
                     f"`{local_name(effect.property)}`",
                     help="add `noplan`, or state what is achieved by a relation or a truth value",

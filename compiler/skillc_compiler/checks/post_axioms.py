@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from skillc_compiler.logic.conflicts import Conflicts, covers
-from skillc_compiler.logic.conjunctions import Fact, conjuncts, equal_names, renamed
+from skillc_compiler.logic.conjunctions import TypedFact, equal_names, facts_in, rename_fact
 from skillc_compiler.program.typed import Program, Requirement
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
@@ -28,9 +28,9 @@ def check(program: Program) -> Iterator[Diagnostic]:
 def _of(conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Requirement]) -> Iterator[Diagnostic]:
     whole = (*given, *own)
     names = equal_names(whole)
-    posts = [(renamed(f, names), r) for r in whole if r.kind == "post" for f in conjuncts(r.clause)]
+    posts = [(rename_fact(f, names), r) for r in whole if r.kind == "post" for f in facts_in(r.condition)]
     gone = [fact.meaning for fact, _ in posts if not fact.holds and isinstance(fact.meaning, Holds)]
-    pre = (renamed(fact, names) for r in whole if r.kind == "pre" for fact in conjuncts(r.clause))
+    pre = (rename_fact(fact, names) for r in whole if r.kind == "pre" for fact in facts_in(r.condition))
     known = [fact for fact in pre if fact.holds]
     staying = [fact for fact in known if not _undone(conflicts, fact, gone)]
     for number, (fact, post) in enumerate(posts):
@@ -40,20 +40,22 @@ def _of(conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Requir
         yield from _breaks(conflicts, fact, fact.meaning, post, others)
 
 
-def _undone(conflicts: Conflicts, fact: Fact, gone: list[Holds]) -> bool:
+def _undone(conflicts: Conflicts, fact: TypedFact, gone: list[Holds]) -> bool:
     if not isinstance(fact.meaning, Holds):
         return True
     return any(covers(absent, link) for absent in gone for link in conflicts.implied(fact.meaning))
 
 
 def _breaks(
-    conflicts: Conflicts, fact: Fact, meaning: Holds, post: Requirement, others: list[Fact]
+    conflicts: Conflicts, fact: TypedFact, meaning: Holds, post: Requirement, others: list[TypedFact]
 ) -> Iterator[Diagnostic]:
     name = local_name(meaning.relation)
-    if conflicts.impossible(meaning):
+    if conflicts.is_impossible(meaning):
         message = f"nothing can be related to itself by `{name}`"
         yield Diagnostic("breaks-axiom", fact.source.span, message, "name another individual on one side")
-    back = next((o for o in others if isinstance(o.meaning, Holds) and conflicts.opposite(meaning, o.meaning)), None)
+    back = next(
+        (o for o in others if isinstance(o.meaning, Holds) and conflicts.are_opposite(meaning, o.meaning)), None
+    )
     if back is not None:
         text = f"post not {format_condition(back.meaning, conflicts.vocabulary)}"
         yield Diagnostic(
@@ -61,7 +63,7 @@ def _breaks(
             fact.source.span,
             f"`{name}` goes one way only, and it still goes the other way",
             f"say that it does so no longer: `{text}`",
-            labels=(Label(back.clause.span, "the other way"),),
+            labels=(Label(back.condition.span, "the other way"),),
             fix=Fix(_after(post.span), f"\n{' ' * (post.span.column - 1)}{text}", f"add `{text}`"),
         )
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from skillc_compiler.logic.conflicts import Conflicts, covers
-from skillc_compiler.logic.conjunctions import Fact, conjuncts, equal_names, renamed
-from skillc_compiler.logic.effects import NoEffect, effects
+from skillc_compiler.logic.conjunctions import TypedFact, equal_names, facts_in, rename_fact
+from skillc_compiler.logic.effects import NoEffect, effects_of
 from skillc_compiler.program.typed import Program, Requirement
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import Assert, Assign, Compare, Effect, Expression, HasProperty, Holds, Literal, Retract
@@ -27,9 +27,11 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 def _check(conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Requirement]) -> Iterator[Diagnostic]:
     names = equal_names((*given, *own))
-    known = [(_same(effect, names), post) for post in given if post.kind == "post" for effect in effects(post.clause)]
+    known = [
+        (_same(effect, names), post) for post in given if post.kind == "post" for effect in effects_of(post.condition)
+    ]
     for post in (requirement for requirement in own if requirement.kind == "post"):
-        for effect in effects(post.clause):
+        for effect in effects_of(post.condition):
             if isinstance(effect, NoEffect):
                 if not post.sensed:
                     yield _not_literal(effect)
@@ -54,16 +56,16 @@ def _values(
 ) -> Iterator[Diagnostic]:
     """Report a value that is measured and cannot be the one that another post gives or measures."""
     posts = [post for post in (*given, *own) if post.kind == "post"]
-    facts = [(renamed(fact, names), post) for post in posts for fact in conjuncts(post.clause)]
+    facts = [(rename_fact(fact, names), post) for post in posts for fact in facts_in(post.condition)]
     valued = [(fact, post) for fact, post in facts if isinstance(fact.meaning, Compare | HasProperty)]
     for number, (fact, post) in enumerate(valued):
         for other, earlier in valued[:number] if post in own else ():
             told = _is_assigned(fact) and _is_assigned(other)
-            if not told and (post.sensed or earlier.sensed) and conflicts.between(fact, other):
+            if not told and (post.sensed or earlier.sensed) and conflicts.exclude(fact, other):
                 yield _either("contradicting-posts", post, earlier, "another post says the opposite")
 
 
-def _is_assigned(fact: Fact) -> bool:
+def _is_assigned(fact: TypedFact) -> bool:
     """Whether a post gives the value, so that a second one is reported as such."""
     match fact.meaning:
         case Compare(operator="=="):
@@ -91,7 +93,7 @@ def _computed(vocabulary: Vocabulary, effect: Effect, post: Requirement) -> Iter
     if term is not None and term.computed_by is not None:
         yield Diagnostic(
             "computed-property",
-            post.clause.span,
+            post.condition.span,
             f"`{local_name(term.iri)}` follows from other facts and cannot be set",
             help="mark the post `sensed`, or state the facts it follows from",
         )
@@ -115,8 +117,8 @@ def _conflict(
 
 
 def _either(name: str, post: Requirement, earlier: Requirement, message: str) -> Diagnostic:
-    labels = (Label(earlier.clause.span, "the other one"),)
-    return Diagnostic(name, post.clause.span, message, "keep one of the two", labels=labels)
+    labels = (Label(earlier.condition.span, "the other one"),)
+    return Diagnostic(name, post.condition.span, message, "keep one of the two", labels=labels)
 
 
 def _holds(effect: Assert | Retract) -> Holds:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program.labels import declared
+from skillc_compiler.program.labels import label_declaration
 from skillc_compiler.program.typed import Program, TypedExpression
-from skillc_compiler.program.types import Thing, describe, fits
-from skillc_compiler.program.walk import clauses, values
+from skillc_compiler.program.types import Thing, describe_type, fits
+from skillc_compiler.program.walk import all_conditions, all_values
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model.conditions import HasProperty, PropertyOf
 from skillc_rdf.vocabulary.types import local_name
@@ -17,12 +17,12 @@ NAMES = ("property-domain",)
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each property of something that cannot have it."""
-    for value in values(program):
+    for value in all_values(program):
         if isinstance(value.meaning, PropertyOf):
             yield from _fits(program, value.meaning.property, value.parts[0])
-    for clause in clauses(program):
-        if isinstance(clause.meaning, HasProperty):
-            yield from _fits(program, clause.meaning.property, clause.values[0])
+    for condition in all_conditions(program):
+        if isinstance(condition.meaning, HasProperty):
+            yield from _fits(program, condition.meaning.property, condition.values[0])
 
 
 def _fits(program: Program, iri: str, of: TypedExpression) -> Iterator[Diagnostic]:
@@ -33,7 +33,7 @@ def _fits(program: Program, iri: str, of: TypedExpression) -> Iterator[Diagnosti
     yield Diagnostic(
         "property-domain",
         of.span,
-        f"`{local_name(iri)}` is a property of {domains}, and this is {describe(of.type)}",
+        f"`{local_name(iri)}` is a property of {domains}, and this is {describe_type(of.type)}",
         help="read it of another individual, or narrow the class of the parameter",
-        labels=declared(term),
+        labels=label_declaration(term),
     )

@@ -8,18 +8,18 @@ from functools import cache
 from typing import TypeAlias
 
 from skillc_compiler.program.typed import Implementation, Program
-from skillc_compiler.python.found import (
+from skillc_compiler.python.info import (
     BrokenModule,
-    ClassFound,
-    Found,
-    FunctionFound,
+    ClassInfo,
+    FunctionInfo,
     NoModule,
     NoName,
     Other,
-    Signature,
+    PythonSignature,
+    TargetInfo,
     Unclear,
 )
-from skillc_compiler.python.reading import read
+from skillc_compiler.python.targets import read_target
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label, did_you_mean
 
@@ -27,13 +27,13 @@ NAMES = ("bad-python-target", "missing-python", "wrong-python-parameters", "not-
 PRIMITIVE = "skillc_runtime.primitives.primitive:Primitive"
 CALLED_WITH = {"start": 0, "tick": 0, "halt": 1, "pause": 0, "resume": 0, "release": 0}
 """The methods of a primitive that are called, with how many values."""
-_Reader: TypeAlias = Callable[[str, str], Found]
+_Reader: TypeAlias = Callable[[str, str], TargetInfo]
 _TARGET = re.compile(r"([A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*):([A-Za-z_]\w*)")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each target that does not name fitting Python; each target is read once."""
-    reader = cache(read)
+    reader = cache(read_target)
     for implementation in program.implementations:
         if isinstance(implementation.body, s.RunPython):
             yield from _primitive(implementation, implementation.body.target, reader)
@@ -45,9 +45,9 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 def _primitive(implementation: Implementation, written: s.Text, reader: _Reader) -> Iterator[Diagnostic]:
     match _found(written, reader):
-        case ClassFound() as found:
+        case ClassInfo() as found:
             yield from _class(implementation, written, found)
-        case FunctionFound() | Other():
+        case FunctionInfo() | Other():
             yield _no_primitive(written, "is no class", f"name a subclass of {PRIMITIVE.replace(':', '.')}")
         case Unclear():
             return
@@ -55,7 +55,7 @@ def _primitive(implementation: Implementation, written: s.Text, reader: _Reader)
             yield problem
 
 
-def _class(implementation: Implementation, written: s.Text, found: ClassFound) -> Iterator[Diagnostic]:
+def _class(implementation: Implementation, written: s.Text, found: ClassInfo) -> Iterator[Diagnostic]:
     tick = found.methods.get("tick")
     if found.complete and PRIMITIVE not in found.ancestors:
         yield _no_primitive(written, "is no primitive", f"let it inherit from {PRIMITIVE.replace(':', '.')}")
@@ -72,7 +72,7 @@ def _class(implementation: Implementation, written: s.Text, found: ClassFound) -
         yield _unlike(written, wrong, f"let its constructor take the cell and {_listed(given)}", label)
 
 
-def _by_name(taken: Signature, given: Sequence[str]) -> str | None:
+def _by_name(taken: PythonSignature, given: Sequence[str]) -> str | None:
     """Say why a constructor cannot be called with the cell and these parameters by name, None when it can."""
     if not taken.by_position and not taken.args:
         return "takes no cell as its first value"
@@ -88,7 +88,7 @@ def _by_name(taken: Signature, given: Sequence[str]) -> str | None:
     return f"needs `{'`, `'.join(ungiven)}`" if ungiven else None
 
 
-def _not_callable(method: FunctionFound, count: int) -> str | None:
+def _not_callable(method: FunctionInfo, count: int) -> str | None:
     """Say why a method cannot be called with so many values, None when it can or the text does not tell."""
     if method.asynchronous:
         return "is `async`, which is never waited for"
@@ -108,9 +108,9 @@ def _head(name: str, count: int) -> str:
 def _function(declared: s.FunctionDeclaration, reader: _Reader) -> Iterator[Diagnostic]:
     given = [parameter.name.text for parameter in declared.parameters]
     match _found(declared.python, reader):
-        case FunctionFound(asynchronous=True):
+        case FunctionInfo(asynchronous=True):
             wrong: str | None = "is `async`, which is never waited for"
-        case FunctionFound(signature=taken) | ClassFound(constructor=taken):
+        case FunctionInfo(signature=taken) | ClassInfo(constructor=taken):
             wrong = _in_order(taken, given) if taken is not None else None
         case Other():
             wrong = "is no function"
@@ -124,7 +124,7 @@ def _function(declared: s.FunctionDeclaration, reader: _Reader) -> Iterator[Diag
         yield _unlike(declared.python, wrong, f"let it take the world and {_listed(given)}", label)
 
 
-def _in_order(taken: Signature, given: Sequence[str]) -> str | None:
+def _in_order(taken: PythonSignature, given: Sequence[str]) -> str | None:
     """Say why a function cannot be called with the world and these values in order, None when it can."""
     if not taken.by_position and not taken.args:
         return "takes no world as its first value"
@@ -139,7 +139,7 @@ def _in_order(taken: Signature, given: Sequence[str]) -> str | None:
     return None
 
 
-def _found(written: s.Text, reader: _Reader) -> ClassFound | FunctionFound | Other | Unclear | Diagnostic:
+def _found(written: s.Text, reader: _Reader) -> ClassInfo | FunctionInfo | Other | Unclear | Diagnostic:
     """Return what the target is, or what is wrong with it."""
     target = _TARGET.fullmatch(written.value)
     if target is None:

@@ -7,7 +7,7 @@ from math import isfinite
 
 from skillc_compiler.program.typed import Parameter, Program, TypedExpression
 from skillc_compiler.program.types import INT, Measure, Type
-from skillc_compiler.program.walk import calls
+from skillc_compiler.program.walk import all_calls
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
 from skillc_dsl.units import NUMBER, UNITS
@@ -29,7 +29,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 new = refined[parameter.name]
                 yield from _empty(parameter)
                 yield from _outside(parameter, parameter.default, None if new.default else new.written.span)
-    for call in calls(program):
+    for call in all_calls(program):
         for argument in call.arguments:
             taken = call.skill.parameter(argument.name.text) if call.skill else None
             if taken:

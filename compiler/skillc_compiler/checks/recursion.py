@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from skillc_compiler.program.typed import Call, Implementation, Program, TypedNode
-from skillc_compiler.program.walk import within
+from skillc_compiler.program.walk import nodes_in
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("recursion",)
@@ -27,11 +27,11 @@ def check(program: Program) -> Iterator[Diagnostic]:
 def _edges(program: Program, implementation: Implementation) -> Iterator[tuple[str, Call]]:
     if not isinstance(implementation.body, TypedNode):
         return
-    for step in within(implementation.body):
-        if step.call and step.call.skill:
-            for called in program.implementations_of[step.call.skill.name]:
-                if step.call.implementation in (None, called.name):
-                    yield called.key, step.call
+    for node in nodes_in(implementation.body):
+        if node.call and node.call.skill:
+            for called in program.implementations_of[node.call.skill.name]:
+                if node.call.implementation in (None, called.name):
+                    yield called.key, node.call
 
 
 def _circles(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.program.typed import Parameter, Program, Refinement, TypedExpression
-from skillc_compiler.program.types import describe, fits
+from skillc_compiler.program.types import describe_type, fits
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.rewriting import constant_number
 
@@ -19,7 +19,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
             if new.of is None:
                 continue
             if not fits(program.vocabulary, new.type, new.of.type):
-                yield _problem(new, new.of, f"{describe(new.type)} is not always {describe(new.of.type)}")
+                yield _problem(new, new.of, f"{describe_type(new.type)} is not always {describe_type(new.of.type)}")
             elif new.type == new.of.type and _wider(new, new.of):
                 yield _problem(new, new.of, "the range goes beyond that of the description")
 

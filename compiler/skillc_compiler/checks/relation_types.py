@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program.labels import declared
+from skillc_compiler.program.labels import label_declaration
 from skillc_compiler.program.typed import Program, TypedExpression
-from skillc_compiler.program.types import Thing, Unknown, describe, fits
-from skillc_compiler.program.walk import clauses
+from skillc_compiler.program.types import Thing, UnknownType, describe_type, fits
+from skillc_compiler.program.walk import all_conditions
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model.conditions import Holds
 from skillc_rdf.vocabulary.types import RelationTerm, local_name
@@ -17,11 +17,11 @@ NAMES = ("relation-domain", "relation-range")
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each side of a relation whose class does not fit."""
-    for clause in clauses(program):
-        if isinstance(clause.meaning, Holds) and clause.meaning.relation in program.vocabulary.relations:
-            relation = program.vocabulary.relations[clause.meaning.relation]
-            subject, object_ = clause.values
-            if all(isinstance(side.type, Thing | Unknown) for side in clause.values):
+    for condition in all_conditions(program):
+        if isinstance(condition.meaning, Holds) and condition.meaning.relation in program.vocabulary.relations:
+            relation = program.vocabulary.relations[condition.meaning.relation]
+            subject, object_ = condition.values
+            if all(isinstance(side.type, Thing | UnknownType) for side in condition.values):
                 yield from _sides(program, relation, subject, object_)
 
 
@@ -40,7 +40,7 @@ def _problem(name: str, relation: RelationTerm, side: TypedExpression, where: st
     return Diagnostic(
         name,
         side.span,
-        f"`{local_name(relation.iri)}` goes from {ways}, but {where} stands {describe(side.type)}",
+        f"`{local_name(relation.iri)}` goes from {ways}, but {where} stands {describe_type(side.type)}",
         help="turn the sides round, narrow the class of the parameter, or take another relation",
-        labels=declared(relation),
+        labels=label_declaration(relation),
     )

@@ -5,10 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from skillc_compiler.logic.conflicts import Conflicts
-from skillc_compiler.logic.ranking import more_specific, ranked
-from skillc_compiler.logic.subsumption import asks, both_fit, subsumes
+from skillc_compiler.logic.selection import (
+    added_preconditions,
+    can_both_fit,
+    is_more_specific,
+    rank_implementations,
+    subsumes,
+)
 from skillc_compiler.program.typed import Implementation, Program
-from skillc_compiler.program.walk import calls
+from skillc_compiler.program.walk import all_calls
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("ambiguous-selection", "never-selected")
@@ -17,9 +22,9 @@ NAMES = ("ambiguous-selection", "never-selected")
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a warning for each implementation that one before it leaves no sure place."""
     conflicts = Conflicts(program.vocabulary)
-    fixed = {(call.skill.name, call.implementation) for call in calls(program) if call.skill}
+    fixed = {(call.skill.name, call.implementation) for call in all_calls(program) if call.skill}
     for declared in program.implementations_of.values():
-        order = ranked(program.vocabulary, declared)
+        order = rank_implementations(program.vocabulary, declared)
         for place, implementation in enumerate(order):
             called = (implementation.skill.name, implementation.name) in fixed
             yield from _placed(conflicts, implementation, order[:place], called)
@@ -29,7 +34,9 @@ def _placed(
     conflicts: Conflicts, late: Implementation, before: Sequence[Implementation], called: bool
 ) -> Iterator[Diagnostic]:
     for early in before:
-        shadowed = subsumes(conflicts.vocabulary, early, late) and asks(early) != asks(late)
+        shadowed = subsumes(conflicts.vocabulary, early, late) and added_preconditions(early) != added_preconditions(
+            late
+        )
         if shadowed and not called and "fallback" not in late.skill.flags:
             yield _never(late, early)
             return
@@ -39,8 +46,10 @@ def _placed(
 
 
 def _tied(conflicts: Conflicts, early: Implementation, late: Implementation) -> bool:
-    specific = more_specific(conflicts.vocabulary, early, late) or more_specific(conflicts.vocabulary, late, early)
-    return early.prefer == late.prefer and not specific and both_fit(conflicts, early, late)
+    specific = is_more_specific(conflicts.vocabulary, early, late) or is_more_specific(
+        conflicts.vocabulary, late, early
+    )
+    return early.prefer == late.prefer and not specific and can_both_fit(conflicts, early, late)
 
 
 def _never(late: Implementation, early: Implementation) -> Diagnostic:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.analysis.findings import Undecided
-from skillc_compiler.analysis.proving import found
+from skillc_compiler.analysis.findings import TooManyStates
+from skillc_compiler.analysis.proof import findings_of
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic
 
@@ -14,7 +14,7 @@ NAMES = ("not-decided",)
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a note for each body that was followed only in part."""
-    for one in found(program, Undecided):
+    for one in findings_of(program, TooManyStates):
         yield Diagnostic(
             "not-decided",
             one.span,

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.analysis.findings import Undeclared
-from skillc_compiler.analysis.proving import found
-from skillc_compiler.analysis.trail import labels
+from skillc_compiler.analysis.findings import UndeclaredEffect
+from skillc_compiler.analysis.paths import path_labels
+from skillc_compiler.analysis.proof import findings_of
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -15,7 +15,7 @@ NAMES = ("undeclared-effect",)
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each effect of a call that outlasts the skill and that no `post` tells."""
-    for one in found(program, Undeclared):
+    for one in findings_of(program, UndeclaredEffect):
         skill = one.implementation.skill
         yield Diagnostic(
             "undeclared-effect",
@@ -25,6 +25,6 @@ def check(program: Program) -> Iterator[Diagnostic]:
             labels=(
                 Label(one.post.span, "the effect"),
                 Label(skill.name_span, "whose posts do not tell it"),
-                *labels(one.way),
+                *path_labels(one.path),
             ),
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.program.typed import Implementation, Program, Skill, TypedNode
-from skillc_compiler.program.walk import within
+from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_rdf.vocabulary.closure import reachable
@@ -53,4 +53,4 @@ def _calls(implementation: Implementation) -> Iterator[str]:
 
 
 def _called(body: TypedNode) -> Iterator[str]:
-    return (step.call.skill.name for step in within(body) if step.call and step.call.skill)
+    return (node.call.skill.name for node in nodes_in(body) if node.call and node.call.skill)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.analysis.findings import Unreleased
-from skillc_compiler.analysis.proving import found
-from skillc_compiler.analysis.trail import labels
+from skillc_compiler.analysis.findings import LeakedChange
+from skillc_compiler.analysis.paths import path_labels
+from skillc_compiler.analysis.proof import findings_of
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -15,8 +15,8 @@ NAMES = ("not-released",)
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each call that sets up what is not put back."""
-    for one in found(program, Unreleased):
-        name, cause = one.call.written.skill, labels(one.way)
+    for one in findings_of(program, LeakedChange):
+        name, cause = one.call.written.skill, path_labels(one.path)
         if one.post is None:
             message = f"what `{name.text}` sets up is not undone when this skill ends"
             help_ = f"write `with {name.text}(..) {{ .. }}` around what needs it"

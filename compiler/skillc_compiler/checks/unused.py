@@ -6,14 +6,21 @@ from collections.abc import Iterable, Iterator
 
 from skillc_compiler.program.typed import (
     Implementation,
+    ParsedFile,
     Program,
-    ReadFile,
     Skill,
     TypedCondition,
     TypedExpression,
     TypedNode,
 )
-from skillc_compiler.program.walk import clauses_in, implementation_values, skill_values, step_values, values_in, within
+from skillc_compiler.program.walk import (
+    conditions_in,
+    implementation_values,
+    node_values,
+    nodes_in,
+    skill_values,
+    values_in,
+)
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -40,7 +47,7 @@ def _unused(name: str, span: Span, message: str) -> Diagnostic:
     return Diagnostic(name, span, message, help="take it away", severity="warning")
 
 
-def _header(program: Program, unit: ReadFile) -> Iterator[Diagnostic]:
+def _header(program: Program, unit: ParsedFile) -> Iterator[Diagnostic]:
     used = program.used[unit.file.path]
     prefixes = {text.partition(":")[0] for text in used if ":" in text}
     found = {line.path.span: path for line, path in unit.imports}
@@ -66,7 +73,7 @@ def _terms(vocabulary: Vocabulary, prefix: str) -> set[str]:
     return {local_name(iri) for iri in terms if iri.startswith(base)}
 
 
-def _import_used(program: Program, unit: ReadFile, path: str) -> bool:
+def _import_used(program: Program, unit: ParsedFile, path: str) -> bool:
     """Whether a file names something of another, or has a goal, for which a planner may use all of it."""
     if any(isinstance(d, s.TaskDeclaration) and d.goal is not None for d in unit.file.declarations):
         return True
@@ -79,7 +86,7 @@ def _parameters(program: Program, skill: Skill) -> Iterator[Diagnostic]:
     if not implementations or any(not isinstance(i.body, TypedNode) for i in implementations):
         return
     read = {device.parameter.text for device in skill.devices}
-    read |= _names(skill_values(skill), (r.clause for r in skill.requirements))
+    read |= _names(skill_values(skill), (r.condition for r in skill.requirements))
     for implementation in implementations:
         read |= _read_in(implementation)
     for parameter in skill.parameters:
@@ -89,18 +96,18 @@ def _parameters(program: Program, skill: Skill) -> Iterator[Diagnostic]:
 
 def _read_in(implementation: Implementation) -> set[str]:
     """Return the names that an implementation reads itself."""
-    read = _names(implementation_values(implementation), (r.clause for r in implementation.requirements))
+    read = _names(implementation_values(implementation), (r.condition for r in implementation.requirements))
     if isinstance(implementation.body, TypedNode):
-        for step in within(implementation.body):
-            read |= _names(step_values(step), step.clauses)
+        for node in nodes_in(implementation.body):
+            read |= _names(node_values(node), node.conditions)
     for event in (event for line in implementation.verify for event in (line.first, line.second) if event):
         limits = (event.measured.limit,) if event.measured else ()
-        read |= _names(limits, (event.clause,) if event.clause else ())
+        read |= _names(limits, (event.condition,) if event.condition else ())
     return read
 
 
-def _names(values: Iterable[TypedExpression], clauses: Iterable[TypedCondition]) -> set[str]:
-    conditions = [part for clause in clauses for part in clauses_in(clause)]
+def _names(values: Iterable[TypedExpression], given_conditions: Iterable[TypedCondition]) -> set[str]:
+    conditions = [part for condition in given_conditions for part in conditions_in(condition)]
     read = [part for value in (*values, *(v for c in conditions for v in c.values)) for part in values_in(value)]
     given = {c.meaning.parameter for c in conditions if isinstance(c.meaning, Given)}
     return given | {value.meaning.name for value in read if isinstance(value.meaning, Variable)}

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from skillc_compiler.logic.bounds import Bound, are_disjoint, bound, decided
+from skillc_compiler.logic.bounds import Bound, are_disjoint, compare_constants, constant_bound
 from skillc_compiler.logic.conflicts import Conflicts
-from skillc_compiler.logic.conjunctions import conjuncts
+from skillc_compiler.logic.conjunctions import facts_in
 from skillc_compiler.program.typed import Implementation, Parameter, Program, Skill, TypedCondition, TypedNode
-from skillc_compiler.program.types import Thing, describe
-from skillc_compiler.program.walk import clauses_in, within
+from skillc_compiler.program.types import Thing, describe_type
+from skillc_compiler.program.walk import conditions_in, nodes_in
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model.conditions import Compare, Given, Holds, IsA, Literal, Or, Same, Variable
 from skillc_model.rewriting import constant_number, fold
@@ -21,8 +21,8 @@ _Parameters = Mapping[str, Parameter]
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a warning for each condition that always holds, a problem for each that never does."""
     conflicts = Conflicts(program.vocabulary)
-    for clause, parameters in _conditions(program):
-        for part in clauses_in(clause):
+    for condition, parameters in _conditions(program):
+        for part in conditions_in(condition):
             yield from _judged(conflicts, part, parameters)
 
 
@@ -31,59 +31,59 @@ def _conditions(program: Program) -> Iterator[tuple[TypedCondition, _Parameters]
     owners: tuple[Skill | Implementation, ...] = (*program.skills.values(), *program.implementations)
     for owner in owners:
         parameters = {parameter.name: parameter for parameter in owner.parameters}
-        yield from ((clause, parameters) for clause in _written_in(owner))
+        yield from ((condition, parameters) for condition in _written_in(owner))
     for task in program.tasks:
         if task.goal:
             yield task.goal, {}
-        for step in within(task.body) if task.body else ():
-            yield from ((clause, {}) for clause in step.clauses)
+        for node in nodes_in(task.body) if task.body else ():
+            yield from ((condition, {}) for condition in node.conditions)
 
 
 def _written_in(owner: Skill | Implementation) -> Iterator[TypedCondition]:
-    yield from (requirement.clause for requirement in owner.requirements if requirement.kind != "post")
+    yield from (requirement.condition for requirement in owner.requirements if requirement.kind != "post")
     if isinstance(owner, Implementation) and isinstance(owner.body, TypedNode):
-        for step in within(owner.body):
-            yield from step.clauses
+        for node in nodes_in(owner.body):
+            yield from node.conditions
 
 
-def _judged(conflicts: Conflicts, clause: TypedCondition, parameters: _Parameters) -> Iterator[Diagnostic]:
-    found = _truth(conflicts, clause, parameters)
+def _judged(conflicts: Conflicts, condition: TypedCondition, parameters: _Parameters) -> Iterator[Diagnostic]:
+    found = _truth(conflicts, condition, parameters)
     if found is not None:
         answer, reason = found
         yield Diagnostic(
             "always-true" if answer else "always-false",
-            clause.span,
+            condition.span,
             f"this {'always' if answer else 'never'} holds: {reason}",
             help="take the condition away, or ask for something else",
             severity="warning" if answer else "error",
         )
 
 
-def _truth(conflicts: Conflicts, clause: TypedCondition, parameters: _Parameters) -> tuple[bool, str] | None:
+def _truth(conflicts: Conflicts, condition: TypedCondition, parameters: _Parameters) -> tuple[bool, str] | None:
     """Return whether a condition always or never holds, and why; None if it depends."""
-    match clause.meaning:
-        case Holds() as fact if conflicts.impossible(fact):
+    match condition.meaning:
+        case Holds() as fact if conflicts.is_impossible(fact):
             return False, "nothing has this relation to itself"
         case Same(left=left, right=right) if left == right:
             return True, "it is the same by name"
         case IsA(cls=cls):
-            of = clause.values[0].type
+            of = condition.values[0].type
             if isinstance(of, Thing) and of.cls is not None and conflicts.vocabulary.is_a(of.cls, cls):
-                return True, f"it is declared to be {describe(of)}"
+                return True, f"it is declared to be {describe_type(of)}"
         case Given(parameter=name) if name in parameters and parameters[name].direction == "in":
             return True, f"`{name}` has to be passed"
         case Or():
-            return _any_way(conflicts, clause)
+            return _any_way(conflicts, condition)
         case Compare() as comparison:
             return _compared(comparison, parameters)
     return None
 
 
-def _any_way(conflicts: Conflicts, clause: TypedCondition) -> tuple[bool, str] | None:
+def _any_way(conflicts: Conflicts, condition: TypedCondition) -> tuple[bool, str] | None:
     """Find two parts of an `or` of which one holds whenever the other does not."""
-    denied = [(fact, part) for part in clause.parts for fact in conjuncts(part, holds=False)]
+    denied = [(fact, part) for part in condition.parts for fact in facts_in(part, holds=False)]
     pairs = ((one, other) for i, (one, _) in enumerate(denied) for other, _ in denied[:i])
-    if any(conflicts.between(one, other) for one, other in pairs):
+    if any(conflicts.exclude(one, other) for one, other in pairs):
         return True, "where one part does not, another does"
     return None
 
@@ -91,10 +91,10 @@ def _any_way(conflicts: Conflicts, clause: TypedCondition) -> tuple[bool, str] |
 def _compared(comparison: Compare, parameters: _Parameters) -> tuple[bool, str] | None:
     match fold(comparison.left), comparison.operator, fold(comparison.right):
         case Literal(value=left), operator, Literal(value=right):
-            return decided(operator, left, right), "both sides are constants"
+            return compare_constants(operator, left, right), "both sides are constants"
         case left, "!=" | "<" | ">" as operator, right if left == right:
             return False, f"nothing is `{operator}` itself"
-    limit = bound(comparison)
+    limit = constant_bound(comparison)
     if limit is None or not isinstance(limit.of, Variable) or limit.of.name not in parameters:
         return None
     name, range_ = limit.of.name, tuple(_range(parameters[limit.of.name]))

@@ -4,13 +4,29 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass
 
-from skillc_compiler.program.expected import Place, places
-from skillc_compiler.program.typed import Program
-from skillc_compiler.program.types import INT, TEXT, Direction, Measure, Thing, Vector, describe, fits, of_library
+from skillc_compiler.program.typed import Call, Parameter, Program, Refinement, TypedExpression
+from skillc_compiler.program.types import (
+    INT,
+    TEXT,
+    UNKNOWN,
+    Direction,
+    ListOf,
+    Measure,
+    Thing,
+    Type,
+    Vector,
+    describe_type,
+    fits,
+    type_of,
+)
+from skillc_compiler.program.walk import all_calls, all_nodes, all_values
+from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
-from skillc_dsl.units import NUMBER, UNITS, Dimension
-from skillc_model.conditions import Individual, Literal, Variable
+from skillc_dsl.source import Span
+from skillc_dsl.units import NUMBER, TIME, UNITS, Dimension
+from skillc_model.conditions import Individual, Invoke, Literal, Variable
 from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("wrong-type", "wrong-dimension", "missing-unit")
@@ -19,20 +35,20 @@ _QUANTITY = re.compile(r"\s*(-?\d+(?:\.\d+)?)\s*([A-Za-z/0-9]*)\s*$")
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each value that does not fit where it stands."""
-    for place in places(program):
+    for place in type_constraints(program):
         if not fits(program.vocabulary, place.value.type, place.wanted):
             name, help_ = _problem(program.vocabulary, place)
-            has = "this number has no unit" if name == "missing-unit" else f"this is {describe(place.value.type)}"
+            has = "this number has no unit" if name == "missing-unit" else f"this is {describe_type(place.value.type)}"
             yield Diagnostic(
                 name,
                 place.value.span,
-                f"{has}, where {describe(place.wanted)} is expected {place.by}",
+                f"{has}, where {describe_type(place.wanted)} is expected {place.by}",
                 help=help_,
                 labels=(Label(place.cause, "declared here"),) if place.cause else (),
             )
 
 
-def _problem(vocabulary: Vocabulary, place: Place) -> tuple[str, str]:
+def _problem(vocabulary: Vocabulary, place: TypeConstraint) -> tuple[str, str]:
     """Return the name of the problem and what to type."""
     given, wanted, meaning = place.value.type, place.wanted, place.value.meaning
     match wanted, given, meaning:
@@ -47,7 +63,7 @@ def _problem(vocabulary: Vocabulary, place: Place) -> tuple[str, str]:
         case Measure(dimension=dimension), _, Literal(value=str(text)) if given == TEXT:
             return "wrong-type", _unquoted(text, dimension)
         case Thing(), Thing(), _ if fits(vocabulary, wanted, given):
-            return "wrong-type", f"not all of them are: declare or refine it as {describe(wanted)}"
+            return "wrong-type", f"not all of them are: declare or refine it as {describe_type(wanted)}"
         case _, Thing(), Variable() | Individual():
             return "wrong-type", _by_property(vocabulary, place)
     return "wrong-type", ""
@@ -66,14 +82,82 @@ def _unquoted(text: str, dimension: Dimension) -> str:
     return f"write it without quotes: `{' '.join(part for part in found.groups() if part)}`"
 
 
-def _by_property(vocabulary: Vocabulary, place: Place) -> str:
+def _by_property(vocabulary: Vocabulary, place: TypeConstraint) -> str:
     """Suggest a property that leads from the individual to what is wanted, such as `grasp.pose`."""
     leading = sorted(
         local_name(term.iri)
         for term in vocabulary.properties.values()
-        if of_library(term.type) == place.wanted
+        if type_of(term.type) == place.wanted
         and any(fits(vocabulary, place.value.type, Thing(domain)) for domain in term.domains)
     )
     if not isinstance(place.value.meaning, Variable) or not 0 < len(leading) <= 3:
         return ""
     return f"take a property of it: {' or '.join(f'`{place.value.meaning.name}.{name}`' for name in leading)}"
+
+
+SECONDS = Measure(TIME)
+
+
+@dataclass(frozen=True, slots=True)
+class TypeConstraint:
+    """A value and the type expected of it; `by` reads on from "is expected", `cause` is where that is said."""
+
+    value: TypedExpression
+    wanted: Type
+    by: str
+    cause: Span | None = None
+
+
+def type_constraints(program: Program) -> Iterator[TypeConstraint]:
+    """Yield every place where a type is expected of a value."""
+    for skill in program.skills.values():
+        for parameter in skill.parameters:
+            yield from _parameter_constraints(parameter, parameter.name, parameter.span)
+        yield from _time_constraint(skill.duration, "by `duration`")
+    for implementation in program.implementations:
+        for new in implementation.refinements:
+            yield from _parameter_constraints(new, new.written.name.text, new.written.name.span)
+        yield from _time_constraint(implementation.duration, "by `duration`")
+    for call in all_calls(program):
+        yield from argument_constraints(call)
+    for node in all_nodes(program):
+        match node.written:
+            case s.Timeout() | s.Wait():
+                yield from _time_constraint(node.values[0], "as time")
+            case s.For():
+                yield TypeConstraint(node.values[0], ListOf(UNKNOWN), "to go through")
+            case _:
+                pass
+    for value in all_values(program):
+        if isinstance(value.meaning, Invoke):
+            yield from _function_constraints(program, value, value.meaning)
+
+
+def argument_constraints(call: Call) -> Iterator[TypeConstraint]:
+    """Yield the arguments of a call that a parameter takes."""
+    for argument in call.arguments:
+        parameter = call.skill.parameter(argument.name.text) if call.skill else None
+        if call.skill and parameter:
+            by = f"by the parameter `{parameter.name}` of `{call.skill.name}`"
+            yield TypeConstraint(argument.value, parameter.type, by, parameter.span)
+
+
+def _parameter_constraints(parameter: Parameter | Refinement, name: str, declared: Span) -> Iterator[TypeConstraint]:
+    if parameter.default is not None:
+        yield TypeConstraint(parameter.default, parameter.type, f"as the default of `{name}`", declared)
+    for bound in (parameter.low, parameter.high):
+        if bound is not None:
+            yield TypeConstraint(bound, parameter.type, f"as a bound of `{name}`", declared)
+
+
+def _time_constraint(value: TypedExpression | None, by: str) -> Iterator[TypeConstraint]:
+    if value is not None:
+        yield TypeConstraint(value, SECONDS, by)
+
+
+def _function_constraints(program: Program, value: TypedExpression, meaning: Invoke) -> Iterator[TypeConstraint]:
+    function = program.vocabulary.functions.get(meaning.function)
+    if function is None:
+        return
+    for argument, (name, kind) in zip(value.parts, function.parameters, strict=False):
+        yield TypeConstraint(argument, type_of(kind), f"by `{name}` of the function `{function.name}`")

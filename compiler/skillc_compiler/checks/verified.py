@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.analysis.findings import Unverified, Violated
-from skillc_compiler.analysis.proving import found
-from skillc_compiler.analysis.trail import labels
+from skillc_compiler.analysis.findings import UndecidedProperty, ViolatedProperty
+from skillc_compiler.analysis.paths import path_labels
+from skillc_compiler.analysis.proof import findings_of
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic
 
@@ -15,15 +15,15 @@ NAMES = ("verify-violated", "verify-undecided")
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each property that does not hold in all executions, or is not known to."""
-    for one in found(program, Violated):
+    for one in findings_of(program, ViolatedProperty):
         yield Diagnostic(
             "verify-violated",
             one.property.span,
             f"an execution violates `{one.property.text.removeprefix('verify ')}`",
             help="change the body so that this way cannot be taken, or the property",
-            labels=labels(one.way),
+            labels=path_labels(one.path),
         )
-    for two in found(program, Unverified):
+    for two in findings_of(program, UndecidedProperty):
         yield Diagnostic(
             "verify-undecided",
             two.property.span,

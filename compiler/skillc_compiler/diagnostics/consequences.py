@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable, Iterator, Sequence, Set
 from typing import TypeAlias
 
 from skillc_compiler.diagnostics.renamed import told_once
-from skillc_compiler.program.spans import Disjoint, Places
-from skillc_compiler.program.typed import ReadFile
+from skillc_compiler.program.spans import DisjointSpans, SpanIndex
+from skillc_compiler.program.typed import ParsedFile
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -42,7 +42,7 @@ WHOLE = frozenset({"unachievable-goal", "no-implementation", "unreachable-skill"
 
 
 def without_consequences(
-    found: Iterable[Diagnostic], problems: Sequence[Diagnostic], files: Sequence[ReadFile]
+    found: Iterable[Diagnostic], problems: Sequence[Diagnostic], files: Sequence[ParsedFile]
 ) -> Iterator[Diagnostic]:
     """Yield what was found, without what any of all the problems explains, and a misspelt declaration once."""
     explanations = (
@@ -70,23 +70,23 @@ def _of_headers(problems: Iterable[Diagnostic]) -> Iterator[Explains]:
     yield lambda d: bool(unread) and d.name in WHOLE
 
 
-def _of_second_skills(problems: Iterable[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Explains]:
+def _of_second_skills(problems: Iterable[Diagnostic], files: Sequence[ParsedFile]) -> Iterator[Explains]:
     """A second skill of a name explains what calls and implementations say wrong of the first, or leave out."""
     second = [problem for problem in problems if problem.name == "duplicate-declaration"]
     first = {label.span for problem in second for label in problem.labels}
     spans = [d.span for unit in files for d in unit.file.declarations if _is_skill(d) and d.name.span in first]
-    skills = Disjoint(spans)
+    skills = DisjointSpans(spans)
     yield lambda d: bool(spans) and d.name in WHOLE
     yield (
         lambda d: (
             d.name != "duplicate-declaration"
-            and any(skills.around(label.span) not in (None, skills.around(d.span)) for label in d.labels)
+            and any(skills.enclosing(label.span) not in (None, skills.enclosing(d.span)) for label in d.labels)
         )
     )
     yield lambda d: bool(second) and d.name in UNUSED
 
 
-def _of_terms(problems: Sequence[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Explains]:
+def _of_terms(problems: Sequence[Diagnostic], files: Sequence[ParsedFile]) -> Iterator[Explains]:
     """An unknown term explains that its goal seems out of reach; one in a post explains that for every goal.
 
     Whatever is unknown explains what seems not to be used in the header of its file, an unknown skill also what no task
@@ -97,7 +97,7 @@ def _of_terms(problems: Sequence[Diagnostic], files: Sequence[ReadFile]) -> Iter
     called = any(problem.name == "unknown-skill" for problem in problems)
     yield lambda d: called and d.name == "unreachable-skill"
     wrong = [problem.span for problem in problems if problem.name in TERMS]
-    posts = Disjoint(
+    posts = DisjointSpans(
         member.span
         for unit in files
         for declaration in unit.file.declarations
@@ -105,12 +105,12 @@ def _of_terms(problems: Sequence[Diagnostic], files: Sequence[ReadFile]) -> Iter
         for member in declaration.members
         if isinstance(member, s.Requirement) and member.kind == "post"
     )
-    in_posts = any(posts.around(place) for place in wrong)
-    places = Places(wrong)
+    in_posts = any(posts.enclosing(place) for place in wrong)
+    places = SpanIndex(wrong)
     yield lambda d: d.name == "unachievable-goal" and (in_posts or places.any_inside(d.span))
 
 
-def _of_implemented(problems: Iterable[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Explains]:
+def _of_implemented(problems: Iterable[Diagnostic], files: Sequence[ParsedFile]) -> Iterator[Explains]:
     """An implementation of an unknown skill explains that a skill of a like name has none."""
     of = {
         declaration.skill.span
@@ -129,15 +129,15 @@ def _of_conditions(problems: Iterable[Diagnostic]) -> Iterator[Explains]:
     yield lambda d: d.name in LOGIC and any(wrong.any_inside(whole) for whole in _spans(d))
 
 
-def _of_bodies(problems: Iterable[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Explains]:
+def _of_bodies(problems: Iterable[Diagnostic], files: Sequence[ParsedFile]) -> Iterator[Explains]:
     """A declaration with another mistake, and what implements or calls such a skill, are not reasoned about."""
     wrong = _errors(problems, REASONED)
     declarations = [d for unit in files for d in unit.file.declarations]
     broken = [d for d in declarations if wrong.any_inside(d.span)]
     skills = {d.name.text for d in broken if isinstance(d, s.SkillDeclaration)}
     followers = _that_depend(skills, [d for d in declarations if isinstance(d, s.ImplementationDeclaration)])
-    wholes = Disjoint(d.span for d in (*broken, *followers))
-    yield lambda d: d.name in REASONED and any(wholes.around(place) for place in _spans(d))
+    wholes = DisjointSpans(d.span for d in (*broken, *followers))
+    yield lambda d: d.name in REASONED and any(wholes.enclosing(place) for place in _spans(d))
 
 
 def _that_depend(
@@ -178,20 +178,20 @@ def _called(declaration: s.ImplementationDeclaration) -> Iterator[str]:
                 pass
 
 
-def _of_arguments(problems: Iterable[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Explains]:
+def _of_arguments(problems: Iterable[Diagnostic], files: Sequence[ParsedFile]) -> Iterator[Explains]:
     """What is passed as an unknown argument, or to an unknown skill or function, is used after all."""
-    wrong = Places(problem.span for problem in problems if problem.name in PASSED)
+    wrong = SpanIndex(problem.span for problem in problems if problem.name in PASSED)
     done = [d for unit in files for d in unit.file.declarations if isinstance(d, s.ImplementationDeclaration)]
     broken = [d for d in done if wrong.any_inside(d.span)]
     skills = {d.skill.text for d in broken}
     described = [d for unit in files for d in unit.file.declarations if _is_skill(d) and d.name.text in skills]
-    wholes = Disjoint(d.span for d in (*broken, *described))
-    yield lambda d: d.name in UNUSED and wholes.around(d.span) is not None
+    wholes = DisjointSpans(d.span for d in (*broken, *described))
+    yield lambda d: d.name in UNUSED and wholes.enclosing(d.span) is not None
 
 
-def _errors(problems: Iterable[Diagnostic], other_than: Set[str]) -> Places:
+def _errors(problems: Iterable[Diagnostic], other_than: Set[str]) -> SpanIndex:
     found = (problem for problem in problems if problem.severity == "error" and problem.name not in other_than)
-    return Places(problem.span for problem in found)
+    return SpanIndex(problem.span for problem in found)
 
 
 def _spans(problem: Diagnostic) -> tuple[Span, ...]:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 
 from skillc_compiler.diagnostics.consequences import LOGIC, REASONED, TYPES
-from skillc_compiler.program.typed import ReadFile
+from skillc_compiler.program.typed import ParsedFile
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -52,7 +52,7 @@ WORD = re.compile(r"\w+")
 
 
 def without_followers(
-    found: Iterable[Diagnostic], syntax: Sequence[Diagnostic], files: Sequence[ReadFile]
+    found: Iterable[Diagnostic], syntax: Sequence[Diagnostic], files: Sequence[ParsedFile]
 ) -> Iterator[Diagnostic]:
     """Yield what was found, without what the syntax errors explain.
 
@@ -80,7 +80,7 @@ def without_followers(
             yield problem
 
 
-def _broken(syntax: Sequence[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Span]:
+def _broken(syntax: Sequence[Diagnostic], files: Sequence[ParsedFile]) -> Iterator[Span]:
     """Yield the spans of declarations with a syntax error, and of the implementations of such skills."""
     broken = _with_errors(syntax, files)
     yield from (declaration.span for declaration in broken)
@@ -90,7 +90,7 @@ def _broken(syntax: Sequence[Diagnostic], files: Sequence[ReadFile]) -> Iterator
             yield declaration.span
 
 
-def _speaking_of(syntax: Sequence[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Span]:
+def _speaking_of(syntax: Sequence[Diagnostic], files: Sequence[ParsedFile]) -> Iterator[Span]:
     """Yield the spans of the declarations that name one with a syntax error."""
     names = {declaration.name.text for declaration in _with_errors(syntax, files)}
     if not names:
@@ -103,11 +103,11 @@ def _speaking_of(syntax: Sequence[Diagnostic], files: Sequence[ReadFile]) -> Ite
                 yield declaration.span
 
 
-def _with_errors(syntax: Sequence[Diagnostic], files: Sequence[ReadFile]) -> list[s.Declaration]:
+def _with_errors(syntax: Sequence[Diagnostic], files: Sequence[ParsedFile]) -> list[s.Declaration]:
     return [each for each in _declarations(files) if any(_inside(problem.span, each.span) for problem in syntax)]
 
 
-def _declarations(files: Sequence[ReadFile]) -> Iterator[s.Declaration]:
+def _declarations(files: Sequence[ParsedFile]) -> Iterator[s.Declaration]:
     return (declaration for unit in files for declaration in unit.file.declarations)
 
 

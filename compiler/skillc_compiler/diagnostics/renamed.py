@@ -7,7 +7,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from skillc_compiler.program.typed import ReadFile
+from skillc_compiler.program.typed import ParsedFile
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
 
@@ -37,7 +37,7 @@ class _Slip:
     lacking: str = ""
 
 
-def told_once(found: Sequence[Diagnostic], files: Sequence[ReadFile]) -> Iterator[Diagnostic]:
+def told_once(found: Sequence[Diagnostic], files: Sequence[ParsedFile]) -> Iterator[Diagnostic]:
     """Yield what was found, uses of one misspelt declaration as one problem, without what names it besides.
 
     A declaration is misspelt, rather than its uses, where its name stands nowhere else. A prefix is declared once for a
@@ -60,7 +60,7 @@ def told_once(found: Sequence[Diagnostic], files: Sequence[ReadFile]) -> Iterato
             yield problem
 
 
-def _slip(problem: Diagnostic, files: Sequence[ReadFile]) -> _Slip | None:
+def _slip(problem: Diagnostic, files: Sequence[ParsedFile]) -> _Slip | None:
     if not problem.name.startswith("unknown-"):
         return None
     near = _MEANT.match(problem.help)
@@ -76,7 +76,7 @@ def _written(text: str, span: Span) -> str:
     return text.split("\n")[span.line - 1][span.column - 1 : span.end_column - 1] if span.line == span.end_line else ""
 
 
-def _times(files: Sequence[ReadFile]) -> Mapping[str, int]:
+def _times(files: Sequence[ParsedFile]) -> Mapping[str, int]:
     """Return how often each word stands in the files, comments left out."""
     return Counter(word for unit in files for word in _WORD.findall(_COMMENT.sub("", unit.text)))
 

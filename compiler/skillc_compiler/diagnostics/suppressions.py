@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from skillc_compiler.manual import page, page_names
-from skillc_compiler.resolve.near import correction
+from skillc_compiler.manual import load_page, page_names
+from skillc_compiler.resolve.spelling import suggest_fix
 from skillc_dsl import syntax as s
 from skillc_dsl.comments import Comment, find_comments
 from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean
@@ -39,7 +39,7 @@ def apply_suppressions(problems: Sequence[Diagnostic], sources: Iterable[Source]
     left = tuple(problem for problem in problems if problem not in warnings or _place(problem) not in allowed)
     errors = tuple(problem for problem in problems if problem not in warnings)
     used = {_place(problem) for problem in warnings}
-    return (*left, *(flaw for each in found for flaw in _flaws(each, used, errors)))
+    return (*left, *(flaw for each in found for flaw in _problems(each, used, errors)))
 
 
 def without_suppressed(problems: Iterable[Diagnostic], sources: Iterable[Source]) -> tuple[Diagnostic, ...]:
@@ -77,7 +77,7 @@ def _name(comment: Comment, match: re.Match[str]) -> s.Name:
     return s.Name(match["name"], Span(span.path, span.line, start, span.line, end))
 
 
-def _flaws(each: Suppression, used: set[tuple[str, int, str]], errors: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
+def _problems(each: Suppression, used: set[tuple[str, int, str]], errors: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
     name = each.name.text
     if name not in page_names():
         yield Diagnostic(
@@ -86,7 +86,7 @@ def _flaws(each: Suppression, used: set[tuple[str, int, str]], errors: Sequence[
             f"there is no warning called `{name}`",
             did_you_mean(name, page_names()) or "`skillc explain` lists them all",
             "warning",
-            fix=correction(each.name, page_names()),
+            fix=suggest_fix(each.name, page_names()),
         )
     elif any(_place(error) == (each.comment.path, each.line, name) for error in errors):
         yield _unused(each, f"`{name}` is an error here, which cannot be allowed", "cure it, and delete this comment")
@@ -99,7 +99,7 @@ def _flaws(each: Suppression, used: set[tuple[str, int, str]], errors: Sequence[
 
 def _is_found_later(name: str) -> bool:
     """Whether the compiler cannot tell if there is such a warning, because `skillc check` looks for it afterwards."""
-    return name == "unknown-value" or page(name).found_by == "check"
+    return name == "unknown-value" or load_page(name).found_by == "check"
 
 
 def _unused(each: Suppression, message: str, help_: str) -> Diagnostic:

@@ -12,42 +12,42 @@ from skillc_model.pddl.planning import planning_domain
 from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.types import Vocabulary
 
-TOLD = frozenset({"no-effect", "no-implementation", "numeric-effect", "unplannable-parameter"})
+EXPLAINED_BY = frozenset({"no-effect", "no-implementation", "numeric-effect", "unplannable-parameter"})
 COUNTING = ("compares", "no finite", "known only at run time")
 
 
-def unplannable(library: SkillLibrary, program: Program, problems: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+def report_unplannable(library: SkillLibrary, program: Program, problems: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
     """Yield a warning for each skill that no plan can contain, unless one of the problems says so already.
 
     Where there is an error, nothing is planned: what it leaves out is not told again.
     """
     problems = tuple(problems)
-    if any(problem.severity == "error" for problem in problems) or _goes_round(library.vocabulary):
+    if any(problem.severity == "error" for problem in problems) or _has_class_cycle(library.vocabulary):
         return
-    told = [problem.span for problem in problems if problem.name in TOLD]
+    told = [problem.span for problem in problems if problem.name in EXPLAINED_BY]
     for excluded in planning_domain(library).excluded:
         skill = program.skills[excluded.skill]
         if not any(_inside(span, skill.span) for span in told):
             yield _problem(skill, excluded)
 
 
-def _goes_round(vocabulary: Vocabulary) -> bool:
+def _has_class_cycle(vocabulary: Vocabulary) -> bool:
     """Whether a class is below itself, so that there is no hierarchy of types."""
     return any(vocabulary.is_a(parent, iri) for iri, term in vocabulary.classes.items() for parent in term.parents)
 
 
 def _problem(skill: Skill, excluded: Excluded) -> Diagnostic:
-    written = (r.clause.span for r in skill.requirements if f"`{r.text}`" in excluded.reason)
+    written = (r.condition.span for r in skill.requirements if f"`{r.text}`" in excluded.reason)
     return Diagnostic(
         "unplannable-construct",
         next(written, skill.name_span),
         f"planners leave `{skill.name}` out: {excluded.reason}",
-        help=f"{_who(excluded.reason)}; say it in another way, or add `noplan`",
+        help=f"{_suggest_planner(excluded.reason)}; say it in another way, or add `noplan`",
         severity="warning",
     )
 
 
-def _who(reason: str) -> str:
+def _suggest_planner(reason: str) -> str:
     """Say which planners could take it."""
     if any(words in reason for words in COUNTING):
         return "planners that count, such as ENHSP, could take it; Fast Downward and the built-in search do not count"

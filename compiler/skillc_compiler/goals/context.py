@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from skillc_compiler.program.typed import Parameter, Skill, TypedExpression
-from skillc_compiler.program.types import Type, of_library
-from skillc_compiler.resolve.individuals import Individuals, narrowest
+from skillc_compiler.program.types import Type, type_of
+from skillc_compiler.resolve.individuals import Individuals, most_specific_classes
 from skillc_compiler.resolve.names import Names, bare_terms
 from skillc_compiler.resolve.scope import FileContext
 from skillc_dsl.source import Span
@@ -44,7 +44,7 @@ def make_context(
         vocabulary=vocabulary,
         skills=callees,
         implementations={name: skill.implementations for name, skill in (skills or {}).items()},
-        individuals=narrowest(vocabulary, individuals),
+        individuals=most_specific_classes(vocabulary, individuals),
     )
 
 
@@ -64,7 +64,7 @@ def _skill(skill: library.Skill) -> Skill:
 
 
 def _parameter(parameter: library.Parameter) -> Parameter:
-    kind, span = of_library(parameter.type), _span(parameter.source)
+    kind, span = type_of(parameter.type), _span(parameter.source)
     return Parameter(
         name=parameter.name,
         direction=parameter.direction,

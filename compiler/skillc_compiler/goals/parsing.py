@@ -8,16 +8,16 @@ from typing import TypeVar
 
 import msgspec
 
-from skillc_compiler.checks import check
+from skillc_compiler.checks import run_checks
 from skillc_compiler.goals.context import make_context
 from skillc_compiler.goals.mistakes import EXAMPLES, Asked, find_mistakes, reword
 from skillc_compiler.goals.pddl_text import COMPARING, Group, PddlGoalError, Word, goal, read_group
-from skillc_compiler.lower.bodies import node
+from skillc_compiler.lower.bodies import lower_node
 from skillc_compiler.program.typed import Program, Task
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.names import KINDS, Names
 from skillc_compiler.resolve.scope import FileContext
-from skillc_compiler.resolve.tasks import task
+from skillc_compiler.resolve.tasks import resolve_task
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.parsing.parser import parse
@@ -92,7 +92,7 @@ def _call(text: str, asked: FileContext) -> Outcome[tree.Call | None]:
     if wrong:
         return Outcome(None, wrong)
     resolved = _in_text(_resolve(asked, _wrapped(text, "call")), text, "call")
-    called = node(resolved.value.body) if resolved.value and resolved.value.body else None
+    called = lower_node(resolved.value.body) if resolved.value and resolved.value.body else None
     if not isinstance(called, tree.Call):
         return Outcome(None, resolved.diagnostics)
     return Outcome(msgspec.structs.replace(called, source=Position("call", 1, 1)), resolved.diagnostics)
@@ -100,7 +100,7 @@ def _call(text: str, asked: FileContext) -> Outcome[tree.Call | None]:
 
 def _mistakes(asked: FileContext, text: str, what: Asked) -> tuple[Diagnostic, ...]:
     names = asked.names
-    written = (names.short(iri) for iri in asked.individuals or ())
+    written = (names.shorten(iri) for iri in asked.individuals or ())
     return find_mistakes(text, what, written, lambda word: any(names.is_term(kind, word) for kind in KINDS))
 
 
@@ -153,9 +153,9 @@ def _resolve(asked: FileContext, written: Outcome[s.TaskDeclaration | None]) -> 
     """Resolve and check; the value is None if there are errors."""
     if written.value is None:
         return Outcome(None, written.diagnostics)
-    resolved = task(asked, written.value)
+    resolved = resolve_task(asked, written.value)
     program = Program("", asked.vocabulary, (), {}, (), (resolved,), {})
-    outcome: Outcome[Task | None] = Outcome(resolved, (*asked.names.problems, *check(program)))
+    outcome: Outcome[Task | None] = Outcome(resolved, (*asked.names.problems, *run_checks(program)))
     return outcome if outcome.ok else Outcome(None, outcome.diagnostics)
 
 

@@ -8,13 +8,13 @@ from functools import cached_property
 
 from skillc_compiler.ide.index import Index, index_of
 from skillc_compiler.ide.visible import Visible, visible_in
-from skillc_compiler.pipeline import NO_SCENES, finish, problems
-from skillc_compiler.program.typed import Program, ReadFile
+from skillc_compiler.pipeline import NO_SCENES, find_problems, lower_and_report
+from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_compiler.program.types import Type
-from skillc_compiler.program.walk import values
-from skillc_compiler.resolve.files import Parse, read
+from skillc_compiler.program.walk import all_values
+from skillc_compiler.resolve.files import Parser, read_sources
 from skillc_compiler.resolve.individuals import Individuals
-from skillc_compiler.resolve.program import resolve
+from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source, Span
@@ -41,9 +41,9 @@ class Analysis:
     """A library with what was understood of it."""
 
     library: Library
-    files: Outcome[tuple[ReadFile, ...]]
+    files: Outcome[tuple[ParsedFile, ...]]
     resolved: Outcome[Program]
-    parsed_by: Parse = parse
+    parsed_by: Parser = parse
 
     @property
     def program(self) -> Program:
@@ -53,8 +53,8 @@ class Analysis:
     @cached_property
     def compiled(self) -> Outcome[SkillLibrary]:
         """The compiled library with what the author is told, as by the compiler. Takes longer than all else here."""
-        checked = Outcome(self.program, problems(self.files, self.resolved))
-        return finish(checked, _ordered(self.library))
+        checked = Outcome(self.program, find_problems(self.files, self.resolved))
+        return lower_and_report(checked, _ordered(self.library))
 
     @property
     def problems(self) -> tuple[Diagnostic, ...]:
@@ -80,7 +80,7 @@ class Analysis:
     @cached_property
     def types(self) -> Mapping[Span, Type]:
         """The type of every value that was understood, by its place."""
-        return {value.span: value.type for value in values(self.program)}
+        return {value.span: value.type for value in all_values(self.program)}
 
     def line(self, path: str, number: int) -> str:
         """Return a line of a file, counted from 1; empty where there is none."""
@@ -95,10 +95,10 @@ class Analysis:
         return " ".join(line.strip() for line in lines)
 
 
-def analyse(library: Library, parsed_by: Parse = parse) -> Analysis:
+def analyse(library: Library, parsed_by: Parser = parse) -> Analysis:
     """Understand a library; `parsed_by` may remember what it parsed before."""
-    files = read(_ordered(library), library.importable, library.name, parsed_by)
-    program = resolve(files.value, library.vocabulary, library.name, library.scenes)
+    files = read_sources(_ordered(library), library.importable, library.name, parsed_by)
+    program = resolve_program(files.value, library.vocabulary, library.name, library.scenes)
     return Analysis(library, files, program, parsed_by)
 
 

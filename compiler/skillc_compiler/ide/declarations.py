@@ -21,7 +21,7 @@ from skillc_compiler.ide.symbols import (
     TaskSymbol,
 )
 from skillc_compiler.ide.values import Locals
-from skillc_compiler.program.typed import ReadFile
+from skillc_compiler.program.typed import ParsedFile
 from skillc_dsl import syntax as s
 
 
@@ -30,7 +30,7 @@ class Walk(Bodies):
 
     __slots__ = ()
 
-    def file(self, unit: ReadFile) -> Iterator[Occurrence]:
+    def file(self, unit: ParsedFile) -> Iterator[Occurrence]:
         """Yield the occurrences in a file, in no particular order."""
         imported = {line.path.span: path for line, path in unit.imports}
         for line in unit.file.header:

@@ -26,7 +26,7 @@ from skillc_compiler.ide.symbols import (
 )
 from skillc_compiler.ide.term_pages import page
 from skillc_compiler.program.typed import Parameter, Requirement, Skill
-from skillc_compiler.program.types import describe
+from skillc_compiler.program.types import describe_type
 from skillc_rdf.vocabulary.types import local_name
 
 
@@ -104,11 +104,11 @@ def _parameter(analysis: Analysis, symbol: ParameterSymbol) -> str:
 
 def _local(analysis: Analysis, symbol: LocalSymbol) -> str:
     places = [occurrence.span for occurrence in analysis.index.of(symbol)]
-    kinds = [describe(analysis.types[place]) for place in places if place in analysis.types]
+    kinds = [describe_type(analysis.types[place]) for place in places if place in analysis.types]
     lets = (let for way in analysis.program.implementations for let in way.lets)
     value = next((let.value for let in lets if let.name.span in places), None)
     if value is not None:
-        return page(f"let {symbol.name} = {analysis.text_of(value.span)}", describe(value.type))
+        return page(f"let {symbol.name} = {analysis.text_of(value.span)}", describe_type(value.type))
     return f"`{symbol.name}`: the {symbol.origin}" + (f", {kinds[0]}" if kinds else "")
 
 

@@ -9,8 +9,8 @@ from lark import Token
 from skillc_compiler.ide.calls import OpenCall, open_call
 from skillc_compiler.ide.surroundings import Surroundings
 from skillc_compiler.program.typed import Skill
-from skillc_compiler.program.types import Measure, Thing, Type, Vector, fits, of_library
-from skillc_compiler.resolve.typenames import BUILT_IN
+from skillc_compiler.program.types import Measure, Thing, Type, Vector, fits, type_of
+from skillc_compiler.resolve.type_names import BUILT_IN
 from skillc_compiler.resolve.values import ANYTHING, ExpectedType
 from skillc_dsl.units import DIMENSIONS, TIME, UNITS
 
@@ -49,7 +49,7 @@ def _declared(around: Surroundings, tokens: Sequence[Token]) -> ExpectedType:
     if name.value == "Vector" and len(rest) > 1 and rest[0].type == "OF" and rest[1].value in DIMENSIONS:
         return ExpectedType(Vector(DIMENSIONS[rest[1].value]))
     if name.value in BUILT_IN:
-        return ExpectedType(of_library(BUILT_IN[name.value]))
+        return ExpectedType(type_of(BUILT_IN[name.value]))
     iri = around.visible.term("class", name.value)
     return ExpectedType(Thing(iri)) if iri else ANYTHING
 
@@ -73,7 +73,7 @@ def _argument(around: Surroundings, skills: Mapping[str, Skill], call: OpenCall)
     function = around.visible.vocabulary.functions.get(call.name)
     if function is None or call.position >= len(function.parameters):
         return ANYTHING
-    return ExpectedType(of_library(function.parameters[call.position][1]))
+    return ExpectedType(type_of(function.parameters[call.position][1]))
 
 
 def ranges(around: Surroundings, relation: str, subject: Type) -> tuple[str, ...]:

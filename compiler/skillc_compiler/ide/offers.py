@@ -12,9 +12,9 @@ from skillc_compiler.ide.imports import importable
 from skillc_compiler.ide.surroundings import Surroundings
 from skillc_compiler.ide.term_pages import function_head, type_text
 from skillc_compiler.program.typed import Parameter
-from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, Type, describe, fits, of_library
+from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, Type, describe_type, fits, type_of
 from skillc_compiler.resolve.names import Kind
-from skillc_compiler.resolve.typenames import BUILT_IN
+from skillc_compiler.resolve.type_names import BUILT_IN
 from skillc_compiler.resolve.values import ExpectedType
 from skillc_dsl import syntax as s
 from skillc_dsl.units import DIMENSIONS
@@ -95,10 +95,10 @@ def values(around: Surroundings, wanted: ExpectedType) -> Iterator[Offer]:
         yield from (Offer(text, "keyword", rank=0 if wanted.type == BOOL else 5) for text in ("true", "false"))
     for name, kind in around.locals.items():
         if fits(vocabulary, kind, wanted.type) and not wanted.values:
-            yield Offer(name, "variable", describe(kind), rank=1)
+            yield Offer(name, "variable", describe_type(kind), rank=1)
     for name in sorted(around.visible.functions):
         function = vocabulary.functions[name]
-        if fits(vocabulary, of_library(function.result), wanted.type) and not wanted.values:
+        if fits(vocabulary, type_of(function.result), wanted.type) and not wanted.values:
             yield Offer(name, "function", function_head(function).removeprefix("function "), function.comment, rank=3)
     yield from individuals(around, wanted.type)
     if wanted.type != UNKNOWN and not wanted.values and not isinstance(wanted.type, Thing):
@@ -110,7 +110,7 @@ def individuals(around: Surroundings, wanted: Type) -> Iterator[Offer]:
     for iri, cls in sorted(around.individuals.items()):
         text = around.visible.written(iri)
         if text and fits(around.visible.vocabulary, Thing(cls), wanted):
-            yield Offer(text, "individual", describe(Thing(cls)), rank=2)
+            yield Offer(text, "individual", describe_type(Thing(cls)), rank=2)
 
 
 def arguments(analysis: Analysis, around: Surroundings, callee: str, passed: Iterable[str]) -> Iterator[Offer]:
@@ -176,7 +176,7 @@ def _read_properties(around: Surroundings, wanted: Type) -> Iterator[Offer]:
         if not isinstance(kind, Thing):
             continue
         for text, term in _properties_of(around, kind):
-            if fits(around.visible.vocabulary, of_library(term.type), wanted):
+            if fits(around.visible.vocabulary, type_of(term.type), wanted):
                 yield Offer(
                     f"{name}.{text}", "property", type_text(term.type), term.comment, rank=4 + _generality(term)
                 )

@@ -21,7 +21,7 @@ from skillc_compiler.ide.symbols import (
     TaskSymbol,
     TermSymbol,
 )
-from skillc_compiler.resolve.files import Parse
+from skillc_compiler.resolve.files import Parser
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.edits import apply_fixes
 from skillc_dsl.parsing.parser import parse
@@ -56,7 +56,7 @@ def renamable(analysis: Analysis, path: str, line: int, column: int) -> Span | R
 
 
 def rename(
-    analysis: Analysis, path: str, line: int, column: int, new: str, parsed_by: Parse = parse
+    analysis: Analysis, path: str, line: int, column: int, new: str, parsed_by: Parser = parse
 ) -> Renaming | Refused:
     """Return the edits in all files that give the thing under the cursor the name `new`.
 
@@ -133,7 +133,7 @@ def _text(analysis: Analysis, span: Span) -> str:
     return analysis.text_of(span)
 
 
-def _broken(analysis: Analysis, edits: Iterable[Fix], parsed_by: Parse) -> Diagnostic | None:
+def _broken(analysis: Analysis, edits: Iterable[Fix], parsed_by: Parser) -> Diagnostic | None:
     """Return the first error that the edits would bring."""
     library = analysis.library
     sources = {**library.sources, **_edited(library.sources, edits)}

@@ -11,9 +11,9 @@ from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.cursor import InCode
 from skillc_compiler.ide.visible import Visible
 from skillc_compiler.program.typed import Implementation, Skill, Task, TypedNode
-from skillc_compiler.program.types import UNKNOWN, ListOf, Thing, Type, of_library
-from skillc_compiler.program.walk import within
-from skillc_compiler.resolve.individuals import narrowest
+from skillc_compiler.program.types import UNKNOWN, ListOf, Thing, Type, type_of
+from skillc_compiler.program.walk import nodes_in
+from skillc_compiler.resolve.individuals import most_specific_classes
 from skillc_dsl import syntax as s
 from skillc_dsl.source import Span
 
@@ -39,7 +39,7 @@ class Surroundings:
         if len(tokens) > 2 and tokens[-2].type == "DOT":
             iri = self.visible.term("property", last.value)
             known = self.visible.vocabulary.properties
-            return of_library(known[iri].type) if iri in known else UNKNOWN
+            return type_of(known[iri].type) if iri in known else UNKNOWN
         if ":" in last.value:
             iri = self.visible.iri(last.value)
             return Thing(self.individuals.get(iri)) if iri else UNKNOWN
@@ -51,7 +51,7 @@ class Surroundings:
             depth += (tokens[index].type == "RPAR") - (tokens[index].type == "LPAR")
             if depth == 0:
                 function = self.visible.vocabulary.functions.get(tokens[index - 1].value)
-                return of_library(function.result) if function else UNKNOWN
+                return type_of(function.result) if function else UNKNOWN
         return UNKNOWN
 
 
@@ -72,7 +72,7 @@ def surroundings(analysis: Analysis, path: str, cursor: InCode) -> Surroundings 
     scene = analysis.library.scenes.get(name, {}) if kind == "task" else {}
     found = dict(_locals(skill, implementation, analysis.types))
     found |= dict(_quantified(cursor.before, visible))
-    return Surroundings(visible, skill, implementation, task, narrowest(program.vocabulary, scene), found)
+    return Surroundings(visible, skill, implementation, task, most_specific_classes(program.vocabulary, scene), found)
 
 
 def _locals(
@@ -86,7 +86,7 @@ def _locals(
     for let in implementation.lets:
         yield let.name.text, let.value.type
     if isinstance(implementation.body, TypedNode):
-        for step in within(implementation.body):
+        for step in nodes_in(implementation.body):
             yield from _bound(step)
 
 

@@ -20,7 +20,7 @@ from skillc_compiler.ide.symbols import (
 from skillc_compiler.ide.visible import Visible
 from skillc_compiler.program.typed import Skill
 from skillc_compiler.resolve.names import Kind
-from skillc_compiler.resolve.typenames import BUILT_IN
+from skillc_compiler.resolve.type_names import BUILT_IN
 from skillc_dsl import syntax as s
 from skillc_dsl.source import Span
 

@@ -5,8 +5,15 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
-from skillc_compiler.program.typed import Program, ReadFile
-from skillc_compiler.resolve.declared import Bare, Declared, declare, prefixes_in, used, visible
+from skillc_compiler.program.typed import ParsedFile, Program
+from skillc_compiler.resolve.declarations import (
+    Bare,
+    Declarations,
+    collect_declarations,
+    merge_imported,
+    prefixes_in,
+    used_vocabularies,
+)
 from skillc_compiler.resolve.names import Kind, bare_terms
 from skillc_rdf.vocabulary.types import Vocabulary
 
@@ -49,14 +56,14 @@ class Visible:
 
 def visible_in(program: Program, base: Vocabulary) -> dict[str, Visible]:
     """Return by path what each file of a program can name; `base` is the vocabulary without the program's own terms."""
-    declared = declare(program.files, base)
+    declared = collect_declarations(program.files, base)
     return {unit.file.path: _visible(unit, declared, program.vocabulary, base) for unit in program.files}
 
 
-def _visible(unit: ReadFile, declared: Mapping[str, Declared], whole: Vocabulary, base: Vocabulary) -> Visible:
+def _visible(unit: ParsedFile, declared: Mapping[str, Declarations], whole: Vocabulary, base: Vocabulary) -> Visible:
     here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports if path in declared)]
     return Visible(
-        bare=visible(bare_terms(base, used(unit.file, base)), here),
+        bare=merge_imported(bare_terms(base, used_vocabularies(unit.file, base)), here),
         prefixes=prefixes_in(unit.file, base),
         functions=frozenset(name for there in here for name in there.functions),
         skills=frozenset(name for there in here for name in there.skills),

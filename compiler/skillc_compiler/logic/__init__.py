@@ -1,4 +1,4 @@
-"""What conditions say together: constants folded, effects, conjunctions, bounds, conflicts, subsumption.
+"""Reasoning about conditions without executing bodies: effects, facts, bounds, conflicts, selection.
 
 Start with `conjunctions`: it splits a condition into the facts that the other modules compare.
 """

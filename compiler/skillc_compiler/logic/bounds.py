@@ -1,4 +1,4 @@
-"""Which values of something a comparison with a constant allows."""
+"""Comparisons of an expression with a constant, and the values that they allow."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from skillc_model.conditions import Compare, Condition, Expression, Literal, Ope
 from skillc_model.rewriting import fold
 
 MIRRORED: dict[Operator, Operator] = {"==": "==", "!=": "!=", "<": ">", "<=": ">=", ">": "<", ">=": "<="}
-"""What a comparison says with its sides exchanged."""
+"""The operator that means the same with its sides exchanged."""
 _OPPOSITE: dict[Operator, Operator] = {"==": "!=", "!=": "==", "<": ">=", "<=": ">", ">": "<=", ">=": "<"}
 
 
@@ -23,12 +23,12 @@ class Bound:
     value: float | str | bool
 
     def opposite(self) -> Bound:
-        """Return what is true of a value where this is not."""
+        """Return the bound that holds where this one does not."""
         return Bound(self.of, _OPPOSITE[self.operator], self.value)
 
 
-def bound(condition: Condition) -> Bound | None:
-    """Return a comparison of something with a constant, None for any other condition."""
+def constant_bound(condition: Condition) -> Bound | None:
+    """Return a comparison of an expression with a constant as a bound, None for any other condition."""
     if not isinstance(condition, Compare):
         return None
     match fold(condition.left), fold(condition.right):
@@ -42,18 +42,20 @@ def bound(condition: Condition) -> Bound | None:
 
 
 def are_disjoint(one: Bound, other: Bound) -> bool:
-    """Whether no value is allowed by both; they must be about the same thing."""
+    """Whether no value satisfies both bounds, which must be of the same expression."""
     first, second = one.value, other.value
     if isinstance(first, str | bool) or isinstance(second, str | bool):
         equal = type(first) is type(second) and first == second
         return ({one.operator, other.operator} == {"==", "!="} and equal) or (
             one.operator == other.operator == "==" and not equal
         )
-    return not _overlap(_interval(one.operator, first), _interval(other.operator, second)) or _spared(one, other)
+    return not _overlap(_interval(one.operator, first), _interval(other.operator, second)) or _are_equal_and_unequal(
+        one, other
+    )
 
 
-def decided(operator: Operator, left: float | str | bool, right: float | str | bool) -> bool:
-    """Whether a comparison of two constants holds; texts and truth values have no order."""
+def compare_constants(operator: Operator, left: float | str | bool, right: float | str | bool) -> bool:
+    """Return whether a comparison of two constants holds; texts and truth values have no order."""
     match operator:
         case "==":
             return left == right
@@ -96,6 +98,6 @@ def _overlap(one: _Interval, other: _Interval) -> bool:
     return low < high or (low == high and lows and highs)
 
 
-def _spared(one: Bound, other: Bound) -> bool:
-    """Whether one says `==` and the other `!=` of the same number."""
+def _are_equal_and_unequal(one: Bound, other: Bound) -> bool:
+    """Whether one is `==` and the other `!=` with the same number."""
     return {one.operator, other.operator} == {"==", "!="} and one.value == other.value

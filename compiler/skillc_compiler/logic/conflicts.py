@@ -1,19 +1,19 @@
-"""Whether two facts can both be: by what they say, by the axioms of relations, by the values a property can have."""
+"""Whether two facts exclude each other, by their meaning, the axioms of relations, or the values of a property."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from skillc_compiler.logic.bounds import Bound, are_disjoint, bound
-from skillc_compiler.logic.conjunctions import Fact
+from skillc_compiler.logic.bounds import Bound, are_disjoint, constant_bound
+from skillc_compiler.logic.conjunctions import TypedFact
 from skillc_model.conditions import Anything, HasProperty, Holds, Individual, IsA, PropertyOf, Term
 from skillc_rdf.vocabulary.types import Vocabulary
 
 
 @dataclass(frozen=True, slots=True)
 class Link:
-    """A relation read from its subject to its object."""
+    """A relation from its subject to its object."""
 
     subject: Term
     relation: str
@@ -22,33 +22,33 @@ class Link:
 
 @dataclass(frozen=True)
 class Conflicts:
-    """What excludes what under the axioms of a vocabulary."""
+    """The facts that exclude each other under the axioms of a vocabulary."""
 
     vocabulary: Vocabulary
 
     def implied(self, fact: Holds) -> Iterator[Link]:
-        """Yield every link that is there when the relation holds: its own, those above it, inverses."""
+        """Yield every link that a relation implies: its own, those of its super-relations, and inverses."""
         for each in self.vocabulary.closure.implied.get(fact.relation, ()):
             subject, object_ = each.ends(fact.subject, fact.object)
             yield Link(subject, each.relation, object_)
 
-    def between(self, one: Fact, other: Fact) -> bool:
-        """Whether the two facts cannot both be."""
+    def exclude(self, one: TypedFact, other: TypedFact) -> bool:
+        """Whether the two facts cannot both be true."""
         if one.meaning == other.meaning:
             return one.holds != other.holds
         if not one.holds:
             one, other = other, one
         return one.holds and (self._related(one, other) or self._valued(one, other) or self._classed(one, other))
 
-    def impossible(self, fact: Holds) -> bool:
-        """Whether an axiom forbids a relation between the very two terms."""
+    def is_impossible(self, fact: Holds) -> bool:
+        """Whether an axiom forbids the relation between its two terms."""
         return any(
             link.subject == link.object and not isinstance(link.object, Anything) and self._never_to_itself(link)
             for link in self.implied(fact)
         )
 
     def two_values(self, one: Holds, other: Holds) -> str | None:
-        """Return a relation that can have one value only and is given two, named unlike; None where there is none."""
+        """Return a single-valued relation that is given two differently named values, or None."""
         for mine in self.implied(one):
             for theirs in (link for link in self.implied(other) if link.relation == mine.relation):
                 term = self.vocabulary.relations[mine.relation]
@@ -59,8 +59,8 @@ class Conflicts:
                     return mine.relation
         return None
 
-    def opposite(self, one: Holds, other: Holds) -> bool:
-        """Whether one goes from a to b and the other from b to a in a relation that never goes both ways."""
+    def are_opposite(self, one: Holds, other: Holds) -> bool:
+        """Whether an asymmetric relation holds from a to b in one fact and from b to a in the other."""
         back = {(link.relation, link.object, link.subject) for link in self.implied(other)}
         return any(
             self.vocabulary.relations[link.relation].asymmetric and (link.relation, link.subject, link.object) in back
@@ -71,23 +71,23 @@ class Conflicts:
         term = self.vocabulary.relations[link.relation]
         return term.irreflexive or term.asymmetric
 
-    def _related(self, one: Fact, other: Fact) -> bool:
+    def _related(self, one: TypedFact, other: TypedFact) -> bool:
         match one.meaning, other.meaning:
             case Holds() as mine, Holds() as theirs if other.holds:
                 named = self.two_values(mine, theirs)
-                return self.opposite(mine, theirs) or (named is not None and self._distinct(named, mine, theirs))
+                return self.are_opposite(mine, theirs) or (named is not None and self._distinct(named, mine, theirs))
             case Holds() as mine, Holds() as absent:
                 return any(covers(absent, link) for link in self.implied(mine))
         return False
 
     def _distinct(self, relation: str, one: Holds, other: Holds) -> bool:
-        """Whether the ends in which two facts of a relation differ are certainly two individuals."""
+        """Whether the sides in which two facts of a relation differ are certainly two individuals."""
         links = [next(link for link in self.implied(fact) if link.relation == relation) for fact in (one, other)]
         ends = [(getattr(links[0], end), getattr(links[1], end)) for end in ("subject", "object")]
         return any(isinstance(a, Individual) and isinstance(b, Individual) and a != b for a, b in ends)
 
-    def _valued(self, one: Fact, other: Fact) -> bool:
-        mine, theirs = bound(one.meaning), bound(other.meaning)
+    def _valued(self, one: TypedFact, other: TypedFact) -> bool:
+        mine, theirs = constant_bound(one.meaning), constant_bound(other.meaning)
         if mine is not None and theirs is not None and mine.of == theirs.of:
             return are_disjoint(mine, theirs if other.holds else theirs.opposite())
         match mine, other.meaning:
@@ -95,7 +95,7 @@ class Conflicts:
                 return not other.holds and (of, name) == (subject, absent)
         return False
 
-    def _classed(self, one: Fact, other: Fact) -> bool:
+    def _classed(self, one: TypedFact, other: TypedFact) -> bool:
         match one.meaning, other.meaning:
             case IsA(subject=mine, cls=cls), IsA(subject=theirs, cls=other_cls) if mine == theirs:
                 clash = self.vocabulary.disjoint if other.holds else self.vocabulary.is_a
@@ -104,7 +104,7 @@ class Conflicts:
 
 
 def covers(absent: Holds, link: Link) -> bool:
-    """Whether a link is one of those that are said not to be."""
+    """Whether a negated relation covers a link."""
     subject = isinstance(absent.subject, Anything) or absent.subject == link.subject
     object_ = isinstance(absent.object, Anything) or absent.object == link.object
     return absent.relation == link.relation and subject and object_

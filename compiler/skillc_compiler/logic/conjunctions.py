@@ -1,4 +1,4 @@
-"""The literals that a condition, when it holds, makes true or false, each with its place."""
+"""The literals that a condition makes true or false if it holds, each with its place."""
 
 from __future__ import annotations
 
@@ -6,56 +6,58 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from skillc_compiler.program.typed import Implementation, Program, Requirement, Skill, TypedCondition
-from skillc_compiler.program.walk import clauses_in, steps
+from skillc_compiler.program.walk import all_nodes, conditions_in
 from skillc_model.conditions import And, Condition, Expression, Individual, Not, Or, Same, Variable
 from skillc_model.rewriting import substitute
 
 
 @dataclass(frozen=True, slots=True)
-class Fact:
-    """A condition without `and` and `not`, and whether it holds; `source` is what was written for that."""
+class TypedFact:
+    """A condition without `and` and `not`, and whether it holds; `source` is the condition as written."""
 
-    clause: TypedCondition
+    condition: TypedCondition
     holds: bool
     source: TypedCondition
 
     @property
     def meaning(self) -> Condition:
-        """The condition that holds or not."""
-        return self.clause.meaning
+        """The condition that holds or does not hold."""
+        return self.condition.meaning
 
 
 @dataclass(frozen=True, slots=True)
 class ConjunctionGroup:
-    """Facts that shall be true at the same time; of those `given` no problem is told again."""
+    """Facts that have to be true at the same time; problems among those `given` are not reported again."""
 
-    own: tuple[Fact, ...]
-    given: tuple[Fact, ...] = ()
+    own: tuple[TypedFact, ...]
+    given: tuple[TypedFact, ...] = ()
 
 
-def conjuncts(clause: TypedCondition, holds: bool = True, source: TypedCondition | None = None) -> Iterator[Fact]:
-    """Yield what certainly is the case when the condition holds, or when it does not."""
-    match clause.meaning:
+def facts_in(
+    condition: TypedCondition, holds: bool = True, source: TypedCondition | None = None
+) -> Iterator[TypedFact]:
+    """Yield the facts that are certain if the condition holds, or if it does not."""
+    match condition.meaning:
         case Not():
-            yield from conjuncts(clause.parts[0], not holds, source or clause)
+            yield from facts_in(condition.parts[0], not holds, source or condition)
         case And() if holds:
-            for part in clause.parts:
-                yield from conjuncts(part)
+            for part in condition.parts:
+                yield from facts_in(part)
         case Or() if not holds:
-            for part in clause.parts:
-                yield from conjuncts(part, holds=False, source=source)
+            for part in condition.parts:
+                yield from facts_in(part, holds=False, source=source)
         case _:
-            yield Fact(clause, holds, source or clause)
+            yield TypedFact(condition, holds, source or condition)
 
 
 def equal_names(requirements: Iterable[Requirement]) -> dict[str, Expression]:
-    """Return for each name that preconditions say to be the same as another which of these stands for all of them."""
-    facts = (fact for r in requirements if r.kind != "post" for fact in conjuncts(r.clause))
-    return names_of(facts)
+    """Return, for each name that preconditions equate with another, the representative of its class of names."""
+    facts = (fact for r in requirements if r.kind != "post" for fact in facts_in(r.condition))
+    return equal_names_in(facts)
 
 
-def names_of(facts: Iterable[Fact]) -> dict[str, Expression]:
-    """Return for each name that facts say to be the same as another which of these stands for all of them."""
+def equal_names_in(facts: Iterable[TypedFact]) -> dict[str, Expression]:
+    """Return, for each name that facts equate with another, the representative of its class of names."""
     names: dict[str, Expression] = {}
     for fact in facts:
         if fact.holds and isinstance(fact.meaning, Same):
@@ -67,38 +69,38 @@ def names_of(facts: Iterable[Fact]) -> dict[str, Expression]:
     return names
 
 
-def renamed(fact: Fact, names: Mapping[str, Expression]) -> Fact:
-    """Return the fact with one name for all that are the same."""
-    return replace(fact, clause=replace(fact.clause, meaning=substitute(fact.meaning, names))) if names else fact
+def rename_fact(fact: TypedFact, names: Mapping[str, Expression]) -> TypedFact:
+    """Return the fact with equal names replaced by their representative."""
+    return replace(fact, condition=replace(fact.condition, meaning=substitute(fact.meaning, names))) if names else fact
 
 
 def conjunction_groups(program: Program) -> Iterator[ConjunctionGroup]:
-    """Yield every group of facts that a description, implementation, goal, node or part of a condition joins."""
+    """Yield every group of facts that a description, implementation, goal, node or condition joins."""
     for skill in program.skills.values():
         yield ConjunctionGroup(_facts(skill.requirements))
     for implementation in program.implementations:
         yield ConjunctionGroup(_facts(implementation.requirements), _facts(implementation.skill.requirements))
     alone = [task.goal for task in program.tasks if task.goal]
-    alone += [clause for step in steps(program) for clause in step.clauses]
-    for clause in alone:
-        yield ConjunctionGroup(tuple(conjuncts(clause)))
-    for clause in (*alone, *_conditions(program)):
-        yield from _inner(clause)
+    alone += [condition for node in all_nodes(program) for condition in node.conditions]
+    for condition in alone:
+        yield ConjunctionGroup(tuple(facts_in(condition)))
+    for condition in (*alone, *_conditions(program)):
+        yield from _inner(condition)
 
 
 def _conditions(program: Program) -> Iterator[TypedCondition]:
     owners: tuple[Skill | Implementation, ...] = (*program.skills.values(), *program.implementations)
     for owner in owners:
-        yield from (requirement.clause for requirement in owner.requirements)
+        yield from (requirement.condition for requirement in owner.requirements)
 
 
-def _facts(requirements: tuple[Requirement, ...]) -> tuple[Fact, ...]:
-    return tuple(fact for r in requirements if r.kind != "post" for fact in conjuncts(r.clause))
+def _facts(requirements: tuple[Requirement, ...]) -> tuple[TypedFact, ...]:
+    return tuple(fact for r in requirements if r.kind != "post" for fact in facts_in(r.condition))
 
 
-def _inner(clause: TypedCondition) -> Iterator[ConjunctionGroup]:
+def _inner(condition: TypedCondition) -> Iterator[ConjunctionGroup]:
     """Yield the groups inside `or` and quantifiers."""
-    for part in clauses_in(clause):
+    for part in conditions_in(condition):
         if not isinstance(part.meaning, And | Not):
             for below in part.parts:
-                yield ConjunctionGroup(tuple(conjuncts(below)))
+                yield ConjunctionGroup(tuple(facts_in(below)))

@@ -1,4 +1,4 @@
-"""Which facts a postcondition makes true."""
+"""The effects of a postcondition."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ from skillc_model.conditions import (
 
 @dataclass(frozen=True, slots=True)
 class NoEffect:
-    """A part of a post that says nothing definite about the world afterwards, and why."""
+    """A part of a postcondition that does not determine the world afterwards, and why."""
 
     span: Span
     reason: str
 
 
-def effects(post: TypedCondition) -> tuple[Effect | NoEffect, ...]:
-    """Return what a post, a conjunction of literals, changes; a part that is no literal gives a NoEffect."""
+def effects_of(post: TypedCondition) -> tuple[Effect | NoEffect, ...]:
+    """Return the effects of a postcondition, a conjunction of literals; any other part gives a NoEffect."""
     match post.meaning:
         case And():
-            return tuple(effect for part in post.parts for effect in effects(part))
+            return tuple(effect for part in post.parts for effect in effects_of(part))
         case Not():
             return (_negative(post, post.parts[0]),)
         case _:

@@ -1,4 +1,4 @@
-"""Between which numbers the value of an expression lies, by the ranges of the parameters that it reads."""
+"""Interval arithmetic: the range of an expression, from the ranges of the parameters in it."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from skillc_model.conditions import Arithmetic, Expression, Individual, Invoke, 
 from skillc_model.rewriting import constant_number
 
 Interval: TypeAlias = tuple[float, float]
-"""The least and the greatest number, in SI units."""
+"""The least and the greatest value, in SI units."""
 
 
-def intervals(parameters: Iterable[Parameter], lets: Iterable[Let] = ()) -> dict[str, Interval]:
-    """Return the intervals of the parameters that have a range, and of what is made of them."""
+def parameter_intervals(parameters: Iterable[Parameter], lets: Iterable[Let] = ()) -> dict[str, Interval]:
+    """Return the intervals of parameters that have a range, and of `let` values computed from them."""
     known: dict[str, Interval] = {}
     for parameter in parameters:
         low, high = (constant_number(bound.meaning) if bound else None for bound in (parameter.low, parameter.high))
@@ -29,7 +29,7 @@ def intervals(parameters: Iterable[Parameter], lets: Iterable[Let] = ()) -> dict
 
 
 def interval_of(expression: Expression, known: Mapping[str, Interval]) -> Interval | None:
-    """Return the interval of an expression, None where nothing is known of a part of it."""
+    """Return the interval of an expression, or None if a part of it is unknown."""
     match expression:
         case Literal(value=bool() | str()):
             return None
@@ -39,14 +39,14 @@ def interval_of(expression: Expression, known: Mapping[str, Interval]) -> Interv
             return known.get(name)
         case Arithmetic(operator=operator, left=left, right=right):
             one, other = interval_of(left, known), interval_of(right, known)
-            return _joined(operator, one, other) if one is not None and other is not None else None
+            return _combine(operator, one, other) if one is not None and other is not None else None
         case Individual() | PropertyOf() | Invoke():
             return None
         case _:
             assert_never(expression)
 
 
-def _joined(operator: str, one: Interval, other: Interval) -> Interval | None:
+def _combine(operator: str, one: Interval, other: Interval) -> Interval | None:
     match operator:
         case "+":
             return one[0] + other[0], one[1] + other[1]

@@ -1,1 +1,1 @@
-"""From a checked program to the library that the runtime loads."""
+"""From a checked program to the library that the runtime loads. Start with `library`."""

@@ -1,4 +1,4 @@
-"""From understood nodes to the library's tree."""
+"""From typed nodes to the behaviour tree of the library."""
 
 from __future__ import annotations
 
@@ -6,110 +6,110 @@ from collections.abc import Sequence
 from typing import assert_never
 
 from skillc_compiler.logic.rounds import count_rounds
-from skillc_compiler.program.typed import TypedNode, position
+from skillc_compiler.program.typed import TypedNode, start_position
 from skillc_dsl import syntax as s
 from skillc_model import tree as t
 from skillc_model.conditions import Condition, Expression
 from skillc_model.rewriting import fold
 
 
-def node(step: TypedNode) -> t.Node:
-    """Return the tree node that a step stands for."""
-    written = step.written
-    source = position(written.span)
+def lower_node(node: TypedNode) -> t.Node:
+    """Return the tree node of a typed node."""
+    written = node.written
+    source = start_position(written.span)
     match written:
         case s.Block():
-            return _block(step, written)
+            return _lower_block(node, written)
         case s.Counted() | s.Timeout() | s.While() | s.For() | s.With():
-            return _around(step, written)
+            return _lower_decorator(node, written)
         case s.If(text=text, orelse=orelse):
-            otherwise = None if orelse is None else _together(step.orelse, step)
-            return t.If(_condition(step), text, _together(step.children, step), otherwise, source)
+            otherwise = None if orelse is None else _lower_as_one(node.orelse, node)
+            return t.If(_condition(node), text, _lower_as_one(node.children, node), otherwise, source)
         case s.Wait():
-            return t.Wait(_value(step), source)
+            return t.Wait(_value(node), source)
         case s.WaitUntil(text=text):
-            return t.WaitUntil(_condition(step), text, source)
+            return t.WaitUntil(_condition(node), text, source)
         case s.CheckNode(text=text):
-            return t.Check(_condition(step), text, source)
+            return t.Check(_condition(node), text, source)
         case s.ApplyPosts(labels=labels):
             return t.Apply(tuple(label.text for label in labels), source)
         case s.CallSkill():
-            return _call(step)
+            return _lower_call(node)
         case _:
             assert_never(written)
 
 
-def _around(step: TypedNode, written: s.Counted | s.Timeout | s.While | s.For | s.With) -> t.Node:
-    source = position(written.span)
-    child = _together(step.children, step)
+def _lower_decorator(node: TypedNode, written: s.Counted | s.Timeout | s.While | s.For | s.With) -> t.Node:
+    source = start_position(written.span)
+    child = _lower_as_one(node.children, node)
     match written:
         case s.Counted(kind="retry", count=count):
             return t.Retry(count_rounds(count), child, source)
         case s.Counted(count=count):
             return t.Repeat(count_rounds(count), child, source)
         case s.Timeout():
-            return t.Timeout(_value(step), child, source)
+            return t.Timeout(_value(node), child, source)
         case s.While(text=text, limit=limit):
-            return t.While(_condition(step), text, count_rounds(limit), child, source)
+            return t.While(_condition(node), text, count_rounds(limit), child, source)
         case s.For(variable=variable):
-            return t.ForEach(variable.text, _value(step), child, source)
+            return t.ForEach(variable.text, _value(node), child, source)
         case s.With():
-            return t.With(_call(step), child, source)
+            return t.With(_lower_call(node), child, source)
         case _:
             assert_never(written)
 
 
-def _block(step: TypedNode, written: s.Block) -> t.Node:
-    source = position(written.span)
+def _lower_block(node: TypedNode, written: s.Block) -> t.Node:
+    source = start_position(written.span)
     match written.kind:
         case "seq" | "reactive seq":
-            return t.Sequence(_nodes(step), written.kind == "reactive seq", source)
+            return t.Sequence(_lower_all(node), written.kind == "reactive seq", source)
         case "sel" | "reactive sel":
-            return t.Selector(_nodes(step), written.kind == "reactive sel", source)
+            return t.Selector(_lower_all(node), written.kind == "reactive sel", source)
         case "par all":
-            return t.Parallel("all", _nodes(step), source)
+            return t.Parallel("all", _lower_all(node), source)
         case "par any":
-            return t.Parallel("any", _nodes(step), source)
+            return t.Parallel("any", _lower_all(node), source)
         case "par race":
-            return t.Parallel("race", _nodes(step), source)
+            return t.Parallel("race", _lower_all(node), source)
         case "par lead":
-            return t.Parallel("lead", _nodes(step), source)
+            return t.Parallel("lead", _lower_all(node), source)
         case "try":
-            return t.Try(_together(step.children, step), source)
+            return t.Try(_lower_as_one(node.children, node), source)
         case "invert":
-            return t.Invert(_together(step.children, step), source)
+            return t.Invert(_lower_as_one(node.children, node), source)
         case "once":
-            return t.Once(_together(step.children, step), source)
+            return t.Once(_lower_as_one(node.children, node), source)
         case _:
             assert_never(written.kind)
 
 
-def _nodes(step: TypedNode) -> tuple[t.Node, ...]:
-    return tuple(node(child) for child in step.children)
+def _lower_all(node: TypedNode) -> tuple[t.Node, ...]:
+    return tuple(lower_node(child) for child in node.children)
 
 
-def _together(children: Sequence[TypedNode], of: TypedNode) -> t.Node:
-    """Return the one child, or several as a sequence."""
+def _lower_as_one(children: Sequence[TypedNode], of: TypedNode) -> t.Node:
+    """Return the only child, or several children as a sequence."""
     if len(children) == 1:
-        return node(children[0])
-    return t.Sequence(tuple(node(child) for child in children), False, position(of.written.span))
+        return lower_node(children[0])
+    return t.Sequence(tuple(lower_node(child) for child in children), False, start_position(of.written.span))
 
 
-def _call(step: TypedNode) -> t.Call:
-    call = step.call
+def _lower_call(node: TypedNode) -> t.Call:
+    call = node.call
     assert call is not None and call.skill is not None, "calls of unknown skills are left out with their implementation"
     return t.Call(
         skill=call.skill.name,
         implementation=call.implementation,
         arguments={argument.name.text: fold(argument.value.meaning) for argument in call.arguments},
         out=call.out.text if call.out else None,
-        source=position(call.written.span),
+        source=start_position(call.written.span),
     )
 
 
-def _value(step: TypedNode) -> Expression:
-    return fold(step.values[0].meaning)
+def _value(node: TypedNode) -> Expression:
+    return fold(node.values[0].meaning)
 
 
-def _condition(step: TypedNode) -> Condition:
-    return fold(step.clauses[0].meaning)
+def _condition(node: TypedNode) -> Condition:
+    return fold(node.conditions[0].meaning)

@@ -72,13 +72,13 @@ def page_names() -> frozenset[str]:
 
 
 @cache
-def pages() -> Mapping[str, Page]:
+def load_pages() -> Mapping[str, Page]:
     """Return the pages of all diagnostics by name, in alphabetical order."""
-    return MappingProxyType({name: page(name) for name in sorted(page_names())})
+    return MappingProxyType({name: load_page(name) for name in sorted(page_names())})
 
 
 @cache
-def page(name: str) -> Page:
+def load_page(name: str) -> Page:
     """Return the page of a diagnostic; ValueError if it does not have the form of a page."""
     return parse_page(name, (_FOLDER / f"{name}.md").read_text("utf-8"))
 
@@ -97,7 +97,7 @@ def parse_page(name: str, text: str) -> Page:
     return found
 
 
-def by_family(shown: Iterable[Page]) -> Mapping[str, tuple[Page, ...]]:
+def group_by_family(shown: Iterable[Page]) -> Mapping[str, tuple[Page, ...]]:
     """Return pages in alphabetical order by their family, the families in the order of `FAMILIES`."""
     ordered = sorted(shown, key=lambda each: each.name)
     grouped = {family: tuple(each for each in ordered if each.family == family) for family in FAMILIES}

@@ -1,1 +1,1 @@
-"""A program whose names are resolved and values typed (`typed`), its types, and walks over it. Start with `typed`."""
+"""The typed program: names resolved, expressions typed, with its types and iterators. Start with `typed`."""

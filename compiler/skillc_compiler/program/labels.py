@@ -1,4 +1,4 @@
-"""Labels that point to where a term of the vocabulary is declared."""
+"""Labels that point to the declaration of a term of the vocabulary."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.types import ClassTerm, FunctionTerm, PropertyTerm, RelationTerm
 
 
-def declared(term: ClassTerm | RelationTerm | PropertyTerm | FunctionTerm) -> tuple[Label, ...]:
-    """Return a label at a term's declaration, in a `.skill` or Turtle file; none if its place is not known."""
+def label_declaration(term: ClassTerm | RelationTerm | PropertyTerm | FunctionTerm) -> tuple[Label, ...]:
+    """Return a label at a term's declaration in a `.skill` or Turtle file, or no label if its place is unknown."""
     place = term.source
     if place is None:
         return ()

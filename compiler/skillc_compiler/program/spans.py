@@ -1,4 +1,4 @@
-"""Which of many spans is around another one, or within it, found by bisection instead of by trying each."""
+"""Search in many spans by bisection: which one encloses a place, and whether one is within a span."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from skillc_dsl.source import Span
 Point: TypeAlias = tuple[int, int]
 
 
-class Disjoint:
-    """Spans of which no two overlap, such as those of declarations."""
+class DisjointSpans:
+    """Spans that do not overlap, such as those of declarations."""
 
     def __init__(self, spans: Iterable[Span]) -> None:
         self._spans = _by_path(spans)
         self._starts = {path: [_start(each) for each in spans] for path, spans in self._spans.items()}
 
-    def around(self, place: Span) -> Span | None:
-        """Return the span that has the place inside it."""
+    def enclosing(self, place: Span) -> Span | None:
+        """Return the span that encloses the place, or None."""
         index = bisect_right(self._starts.get(place.path, ()), _start(place)) - 1
         if index < 0:
             return None
@@ -29,7 +29,7 @@ class Disjoint:
         return candidate if _end(place) <= _end(candidate) else None
 
 
-class Places:
+class SpanIndex:
     """Spans that may overlap."""
 
     def __init__(self, spans: Iterable[Span]) -> None:
@@ -39,13 +39,13 @@ class Places:
         self._lines = {path: [each.line for each in spans] for path, spans in by_path.items()}
 
     def any_inside(self, whole: Span) -> bool:
-        """Whether one of them is inside the span."""
+        """Whether any of the spans is within `whole`."""
         index = bisect_left(self._starts.get(whole.path, ()), _start(whole))
         ends = self._least_ends.get(whole.path, [])
         return index < len(ends) and ends[index] <= _end(whole)
 
     def any_on_lines_of(self, whole: Span) -> bool:
-        """Whether one of them begins on a line of the span."""
+        """Whether any of the spans begins on a line of `whole`."""
         lines = self._lines.get(whole.path, [])
         index = bisect_left(lines, whole.line)
         return index < len(lines) and lines[index] <= whole.end_line
@@ -59,7 +59,7 @@ def _by_path(spans: Iterable[Span]) -> dict[str, list[Span]]:
 
 
 def _least_ends(spans: list[Span]) -> list[Point]:
-    """Return for each of the spans, in order, the first end among it and those after it."""
+    """Return for each of the sorted spans the first end among it and those after it."""
     return list(accumulate(map(_end, reversed(spans)), min))[::-1]
 
 

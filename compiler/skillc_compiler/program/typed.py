@@ -1,4 +1,4 @@
-"""A program: every name resolved, every value typed, and beside each meaning the place where it is written."""
+"""The typed program: every name is resolved, every value typed, and each part has its place in the source."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from skillc_rdf.vocabulary.types import Position, ValueType, Vocabulary
 
 @dataclass(frozen=True, slots=True)
 class TypedExpression:
-    """A value: what it means, its type, its place and the values it is made of. `_` is a variable of that name."""
+    """An expression: its meaning, its type, its place and its operands. `_` is a variable of that name."""
 
     meaning: Expression
     type: Type
@@ -27,7 +27,7 @@ class TypedExpression:
 
 @dataclass(frozen=True, slots=True)
 class TypedCondition:
-    """A condition: what it means, where it stands, the values it speaks of and the conditions it is made of."""
+    """A condition: its meaning, its place, the expressions in it and its parts."""
 
     meaning: Condition
     span: Span
@@ -63,14 +63,14 @@ class Requirement:
     kind: OneOf["pre", "hold", "post"]
     label: s.Name | None
     sensed: bool
-    clause: TypedCondition
+    condition: TypedCondition
     text: str
     span: Span
 
 
 @dataclass(frozen=True, slots=True)
 class Skill:
-    """A description."""
+    """The description of a skill."""
 
     name: str
     doc: str
@@ -83,13 +83,13 @@ class Skill:
     span: Span
 
     def parameter(self, name: str) -> Parameter | None:
-        """Return the parameter of that name."""
+        """Return the parameter of that name, or None."""
         return next((p for p in self.parameters if p.name == name), None)
 
 
 @dataclass(frozen=True, slots=True)
 class Argument:
-    """A value for a parameter of a called skill or function."""
+    """The value of a parameter in a call."""
 
     name: s.Name
     value: TypedExpression
@@ -97,7 +97,7 @@ class Argument:
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """A call of a skill. `skill` is None when no such skill is known."""
+    """A call of a skill. `skill` is None if the skill is unknown."""
 
     skill: Skill | None
     implementation: str | None
@@ -108,11 +108,11 @@ class Call:
 
 @dataclass(frozen=True, slots=True)
 class TypedNode:
-    """A node of a body: as written, with its values, conditions and call understood."""
+    """A node of a body: its syntax, with its expressions, conditions and call resolved."""
 
     written: s.Node
     values: tuple[TypedExpression, ...] = ()
-    clauses: tuple[TypedCondition, ...] = ()
+    conditions: tuple[TypedCondition, ...] = ()
     call: Call | None = None
     children: tuple[TypedNode, ...] = ()
     orelse: tuple[TypedNode, ...] = ()
@@ -120,7 +120,7 @@ class TypedNode:
 
 @dataclass(frozen=True, slots=True)
 class Refinement:
-    """What an implementation says anew about a parameter; `of` is None when the skill has no such parameter."""
+    """The changes of an implementation to a parameter; `of` is None if the skill has no such parameter."""
 
     of: Parameter | None
     declared: ValueType
@@ -140,8 +140,8 @@ class Let:
 
 
 @dataclass(frozen=True, slots=True)
-class Measured:
-    """The measured contact force, compared with a limit."""
+class ForceLimit:
+    """A comparison of the measured contact force with a limit."""
 
     operator: Operator
     limit: TypedExpression
@@ -149,12 +149,12 @@ class Measured:
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """What a `verify` line speaks of: one of a skill, a condition and the measured force."""
+    """An event of a `verify` line: one of a skill, a condition and the measured force."""
 
     span: Span
     skill: str | None = None
-    clause: TypedCondition | None = None
-    measured: Measured | None = None
+    condition: TypedCondition | None = None
+    measured: ForceLimit | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,7 +173,10 @@ Body: TypeAlias = TypedNode | s.RunPython | None
 
 @dataclass(frozen=True, slots=True)
 class Implementation:
-    """A way to do a skill. `parameters` are the skill's with the refinements merged in, `requirements` only its own."""
+    """A way to execute a skill.
+
+    `parameters` are those of the skill with the refinements merged in; `requirements` are only its own.
+    """
 
     name: str
     doc: str
@@ -191,13 +194,13 @@ class Implementation:
 
     @property
     def key(self) -> str:
-        """The name by which the library knows it."""
+        """The name of the implementation in the library, `Skill.name`."""
         return f"{self.skill.name}.{self.name}"
 
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """A scene with a goal or a body."""
+    """A task: a scene with a goal or a body."""
 
     name: str
     doc: str
@@ -210,8 +213,8 @@ class Task:
 
 
 @dataclass(frozen=True, slots=True)
-class ReadFile:
-    """A parsed file, the library it belongs to, the files it imports, and the names looked up while resolving it.
+class ParsedFile:
+    """A parsed file, the library it belongs to, and the files it imports.
 
     `imports` pairs each import that was found with the path of its file.
     """
@@ -224,11 +227,11 @@ class ReadFile:
 
 @dataclass(frozen=True, eq=False)
 class Program:
-    """A library understood. `used` holds, by file, the bare and qualified names that were looked up in it."""
+    """A resolved library. `used` holds for each file the bare and qualified names that were looked up in it."""
 
     name: str
     vocabulary: Vocabulary
-    files: tuple[ReadFile, ...]
+    files: tuple[ParsedFile, ...]
     skills: Mapping[str, Skill]
     implementations: tuple[Implementation, ...]
     tasks: tuple[Task, ...]
@@ -243,6 +246,6 @@ class Program:
         return found
 
 
-def position(span: Span) -> Position:
-    """Return where a span begins."""
+def start_position(span: Span) -> Position:
+    """Return the position where a span begins."""
     return Position(span.path, span.line, span.column)

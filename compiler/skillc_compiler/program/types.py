@@ -1,4 +1,4 @@
-"""The types of values while compiling, and which fits where."""
+"""The types of expressions in the compiler, and which type fits where."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from skillc_rdf.vocabulary.types import (
 
 
 @dataclass(frozen=True, slots=True)
-class Unknown:
-    """The type of what was not understood; it fits everywhere, so that one mistake gives one error."""
+class UnknownType:
+    """The type of an unresolved expression; it fits everywhere, so that one mistake gives one error."""
 
 
 @dataclass(frozen=True, slots=True)
 class Thing:
-    """An individual; `cls` is the IRI of its class, None where only the scene knows it."""
+    """An individual; `cls` is the IRI of its class, None if only the scene determines it."""
 
     cls: str | None
 
@@ -47,7 +47,7 @@ class Vector:
 
 @dataclass(frozen=True, slots=True)
 class Direction:
-    """A vector of pure numbers whose length is 1."""
+    """A dimensionless vector of length 1."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,18 +59,18 @@ class Plain:
 
 @dataclass(frozen=True, slots=True)
 class ListOf:
-    """`[T]`"""
+    """A list, `[T]`."""
 
     element: Type
 
 
-Type: TypeAlias = Unknown | Thing | Measure | Vector | Direction | Plain | ListOf
-UNKNOWN = Unknown()
+Type: TypeAlias = UnknownType | Thing | Measure | Vector | Direction | Plain | ListOf
+UNKNOWN = UnknownType()
 BOOL, INT, TEXT, POSE = (Plain(name) for name in ("Bool", "Int", "Text", "Pose"))
 
 
-def of_library(declared: ValueType) -> Type:
-    """Return the type that a declared one stands for; an undeclared dimension is unknown."""
+def type_of(declared: ValueType) -> Type:
+    """Return the type for a declared type; an undeclared dimension gives UNKNOWN."""
     match declared:
         case ClassType(iri=iri):
             return Thing(iri)
@@ -83,13 +83,13 @@ def of_library(declared: ValueType) -> Type:
         case PlainType(name=name):
             return Plain(name)
         case ListType(element=element):
-            return ListOf(of_library(element))
+            return ListOf(type_of(element))
 
 
 def fits(vocabulary: Vocabulary, given: Type, wanted: Type) -> bool:
     """Whether a value of type `given` may stand where one of type `wanted` is expected."""
     match given, wanted:
-        case (Unknown(), _) | (_, Unknown()):
+        case (UnknownType(), _) | (_, UnknownType()):
             return True
         case Thing(cls=one), Thing(cls=other):
             return one is None or other is None or vocabulary.is_a(one, other)
@@ -102,27 +102,27 @@ def fits(vocabulary: Vocabulary, given: Type, wanted: Type) -> bool:
     return given == wanted
 
 
-def describe(kind: Type) -> str:
-    """Return the type in an author's words, with its article: `a Force`, `an ArmDevice`."""
+def describe_type(kind: Type) -> str:
+    """Return the type as it is shown to authors, with its article: `a Force`, `an ArmDevice`."""
     match kind:
-        case Unknown():
+        case UnknownType():
             return "something unknown"
         case Thing(cls=iri):
             return _with_article(local_name(iri)) if iri else "an individual"
         case Vector(dimension=dimension):
-            return "a Vector of pure numbers" if dimension == NUMBER else f"a Vector of {name(dimension)}"
+            return "a Vector of pure numbers" if dimension == NUMBER else f"a Vector of {dimension_name(dimension)}"
         case Direction():
             return "a Direction"
         case ListOf(element=element):
-            return f"a list, each {describe(element)}"
+            return f"a list, each {describe_type(element)}"
         case Measure(dimension=dimension):
-            return _with_article(name(dimension))
+            return _with_article(dimension_name(dimension))
         case Plain(name=text):
             return _with_article(text)
 
 
-def name(dimension: Dimension) -> str:
-    """Return a dimension's name, in words also for those the language has none for."""
+def dimension_name(dimension: Dimension) -> str:
+    """Return the name of a dimension, also for dimensions without a name in the language."""
     return "Number" if dimension == NUMBER else dimension.name
 
 

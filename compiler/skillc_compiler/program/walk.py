@@ -1,4 +1,4 @@
-"""Walks over a program: every step, call, condition and value, nested ones included, in order of the text."""
+"""Iterators over a program: every node, call, condition and expression, nested ones included, in source order."""
 
 from __future__ import annotations
 
@@ -17,29 +17,34 @@ from skillc_compiler.program.typed import (
 )
 
 
-def steps(program: Program) -> Iterator[TypedNode]:
+def all_nodes(program: Program) -> Iterator[TypedNode]:
     """Yield every node of every body."""
     for implementation in program.implementations:
         if isinstance(implementation.body, TypedNode):
-            yield from within(implementation.body)
+            yield from nodes_in(implementation.body)
     for task in program.tasks:
         if task.body:
-            yield from within(task.body)
+            yield from nodes_in(task.body)
 
 
-def within(step: TypedNode) -> Iterator[TypedNode]:
-    """Yield a step and all steps in it."""
-    yield step
-    for child in (*step.children, *step.orelse):
-        yield from within(child)
+def nodes_in(node: TypedNode) -> Iterator[TypedNode]:
+    """Yield a node and all nodes in it."""
+    yield node
+    for child in (*node.children, *node.orelse):
+        yield from nodes_in(child)
 
 
-def calls(program: Program) -> Iterator[Call]:
+def all_calls(program: Program) -> Iterator[Call]:
     """Yield every call."""
-    return (step.call for step in steps(program) if step.call)
+    return (node.call for node in all_nodes(program) if node.call)
 
 
-def requirements(program: Program) -> Iterator[Requirement]:
+def calls_in(node: TypedNode) -> Iterator[Call]:
+    """Yield the calls in a node and in all nodes in it."""
+    return (inner.call for inner in nodes_in(node) if inner.call)
+
+
+def all_requirements(program: Program) -> Iterator[Requirement]:
     """Yield every pre-, hold and postcondition."""
     for skill in program.skills.values():
         yield from skill.requirements
@@ -47,52 +52,52 @@ def requirements(program: Program) -> Iterator[Requirement]:
         yield from implementation.requirements
 
 
-def clauses(program: Program) -> Iterator[TypedCondition]:
+def all_conditions(program: Program) -> Iterator[TypedCondition]:
     """Yield every condition and its parts."""
-    for requirement in requirements(program):
-        yield from clauses_in(requirement.clause)
-    for event in events(program):
-        if event.clause:
-            yield from clauses_in(event.clause)
+    for requirement in all_requirements(program):
+        yield from conditions_in(requirement.condition)
+    for event in all_events(program):
+        if event.condition:
+            yield from conditions_in(event.condition)
     for task in program.tasks:
         if task.goal:
-            yield from clauses_in(task.goal)
-    for step in steps(program):
-        for clause in step.clauses:
-            yield from clauses_in(clause)
+            yield from conditions_in(task.goal)
+    for node in all_nodes(program):
+        for condition in node.conditions:
+            yield from conditions_in(condition)
 
 
-def events(program: Program) -> Iterator[Event]:
-    """Yield what all `verify` lines speak of."""
+def all_events(program: Program) -> Iterator[Event]:
+    """Yield the events of all `verify` lines."""
     for implementation in program.implementations:
         for line in implementation.verify:
             yield from (event for event in (line.first, line.second) if event)
 
 
-def clauses_in(clause: TypedCondition) -> Iterator[TypedCondition]:
+def conditions_in(condition: TypedCondition) -> Iterator[TypedCondition]:
     """Yield a condition and its parts."""
-    yield clause
-    for part in clause.parts:
-        yield from clauses_in(part)
+    yield condition
+    for part in condition.parts:
+        yield from conditions_in(part)
 
 
-def values(program: Program) -> Iterator[TypedExpression]:
-    """Yield every value and what it is made of."""
+def all_values(program: Program) -> Iterator[TypedExpression]:
+    """Yield every expression and its operands."""
     for skill in program.skills.values():
         yield from _all(*skill_values(skill))
     for implementation in program.implementations:
         yield from _all(*implementation_values(implementation))
-    for clause in clauses(program):
-        yield from _all(*clause.values)
-    for event in events(program):
+    for condition in all_conditions(program):
+        yield from _all(*condition.values)
+    for event in all_events(program):
         if event.measured:
             yield from _all(event.measured.limit)
-    for step in steps(program):
-        yield from _all(*step_values(step))
+    for node in all_nodes(program):
+        yield from _all(*node_values(node))
 
 
 def skill_values(skill: Skill) -> Iterator[TypedExpression]:
-    """Yield the values in a skill's head, without those in its conditions."""
+    """Yield the expressions in the head of a skill, without those in its conditions."""
     for parameter in skill.parameters:
         yield from (value for value in (parameter.default, parameter.low, parameter.high) if value)
     if skill.duration:
@@ -100,7 +105,7 @@ def skill_values(skill: Skill) -> Iterator[TypedExpression]:
 
 
 def implementation_values(implementation: Implementation) -> Iterator[TypedExpression]:
-    """Yield the values an implementation adds, without those in its conditions and body."""
+    """Yield the expressions that an implementation adds, without those in its conditions and body."""
     for new in implementation.refinements:
         yield from (value for value in (new.default, new.low, new.high) if value)
     if implementation.duration:
@@ -108,15 +113,15 @@ def implementation_values(implementation: Implementation) -> Iterator[TypedExpre
     yield from (let.value for let in implementation.lets)
 
 
-def step_values(step: TypedNode) -> Iterator[TypedExpression]:
-    """Yield the values of one node, those in its conditions excepted."""
-    yield from step.values
-    if step.call:
-        yield from (argument.value for argument in step.call.arguments)
+def node_values(node: TypedNode) -> Iterator[TypedExpression]:
+    """Yield the expressions of one node, without those in its conditions."""
+    yield from node.values
+    if node.call:
+        yield from (argument.value for argument in node.call.arguments)
 
 
 def values_in(value: TypedExpression) -> Iterator[TypedExpression]:
-    """Yield a value and what it is made of."""
+    """Yield an expression and its operands."""
     yield value
     for part in value.parts:
         yield from values_in(part)

@@ -6,10 +6,10 @@ import ast
 from collections.abc import Iterator, Sequence
 from typing import TypeAlias
 
-from skillc_compiler.python.dataclass_fields import DATACLASS, fields_taken, is_dataclass
-from skillc_compiler.python.found import UNCLEAR, ClassFound, Method, Signature, Unclear
-from skillc_compiler.python.modules import Defined, Function, defined_by, dotted
-from skillc_compiler.python.signatures import method_found
+from skillc_compiler.python.dataclass_fields import DATACLASS, constructor_signature, is_dataclass
+from skillc_compiler.python.info import UNCLEAR, ClassInfo, Method, PythonSignature, Unclear
+from skillc_compiler.python.modules import Defined, Function, dotted_name, resolve_expression
+from skillc_compiler.python.signatures import inspect_method
 
 Lineage: TypeAlias = "tuple[Defined | Unclear, ...]"
 """A class and what it inherits from, in the order in which Python looks for methods."""
@@ -20,14 +20,14 @@ PLAIN_DECORATORS = frozenset((DATACLASS, "typing.final", "typing.runtime_checkab
 PLAIN_METACLASSES = frozenset(("abc.ABCMeta", "type"))
 
 
-def class_found(of: Defined) -> ClassFound:
+def inspect_class(of: Defined) -> ClassInfo:
     """Return what is certain of a class."""
     lineage = _lineage(of, frozenset())
     known = tuple(each for each in lineage if isinstance(each, Defined))
-    unusual = any(_is_decorated(each) or _is_made_otherwise(each) for each in known)
-    return ClassFound(
+    unusual = any(_is_decorated(each) or _has_custom_creation(each) for each in known)
+    return ClassInfo(
         constructor=None if unusual else _constructor(lineage),
-        ancestors=tuple(_called(each) for each in known),
+        ancestors=tuple(_qualified_name(each) for each in known),
         complete=len(known) == len(lineage) and not any(map(_is_decorated, known)),
         methods=dict(_methods(lineage)),
     )
@@ -38,31 +38,31 @@ def _lineage(of: Defined, around: frozenset[str]) -> Lineage:
     found: list[Defined | Unclear] = [of]
     bases = of.node.bases if isinstance(of.node, ast.ClassDef) else []
     for base in bases:
-        if dotted(of.module, base.value if isinstance(base, ast.Subscript) else base) in NEUTRAL:
+        if dotted_name(of.module, base.value if isinstance(base, ast.Subscript) else base) in NEUTRAL:
             continue
-        match defined_by(of.module, base):
-            case Defined(node=ast.ClassDef()) as parent if _called(parent) not in around:
-                found += _lineage(parent, around | {_called(of)})
+        match resolve_expression(of.module, base):
+            case Defined(node=ast.ClassDef()) as parent if _qualified_name(parent) not in around:
+                found += _lineage(parent, around | {_qualified_name(of)})
             case _:
                 found.append(UNCLEAR)
-    names = [each if isinstance(each, Unclear) else _called(each) for each in found]
+    names = [each if isinstance(each, Unclear) else _qualified_name(each) for each in found]
     return tuple(each for index, each in enumerate(found) if names[index] not in names[index + 1 :])
 
 
-def _called(of: Defined) -> str:
+def _qualified_name(of: Defined) -> str:
     return f"{of.module}:{of.node.name}"
 
 
 def _is_decorated(of: Defined) -> bool:
     """Whether a decorator may make something else of a class."""
-    return any(dotted(of.module, each) not in PLAIN_DECORATORS for each in of.node.decorator_list)
+    return any(dotted_name(of.module, each) not in PLAIN_DECORATORS for each in of.node.decorator_list)
 
 
-def _is_made_otherwise(of: Defined) -> bool:
+def _has_custom_creation(of: Defined) -> bool:
     """Whether a metaclass or `__new__` may take what the constructor would not."""
     keywords = of.node.keywords if isinstance(of.node, ast.ClassDef) else []
     metaclasses = (each.value for each in keywords if each.arg == "metaclass")
-    unusual = any(dotted(of.module, each) not in PLAIN_METACLASSES for each in metaclasses)
+    unusual = any(dotted_name(of.module, each) not in PLAIN_METACLASSES for each in metaclasses)
     return unusual or "__new__" in dict(_members(of.node))
 
 
@@ -87,29 +87,29 @@ def _methods(lineage: Lineage) -> Iterator[tuple[str, Method | None]]:
             return
         for name, member in dict(_members(each.node)).items():
             if name not in seen:
-                found = method_found(each.module, member) if isinstance(member, Function) else None
-                yield name, Method(_called(each), found) if found else None
+                found = inspect_method(each.module, member) if isinstance(member, Function) else None
+                yield name, Method(_qualified_name(each), found) if found else None
             seen.add(name)
 
 
-def _constructor(lineage: Sequence[Defined | Unclear]) -> Signature | None:
+def _constructor(lineage: Sequence[Defined | Unclear]) -> PythonSignature | None:
     """Return what the first class that has a constructor takes, without `self`; None where that is not certain."""
     for index, each in enumerate(lineage):
         if isinstance(each, Unclear):
             return None
         match dict(_members(each.node)).get("__init__"):
             case ast.FunctionDef() as function:
-                own = method_found(each.module, function).signature
+                own = inspect_method(each.module, function).signature
                 return own and _passed_on(own, function, lineage[index + 1 :])
             case None:
                 if is_dataclass(each):
-                    return fields_taken([one for one in lineage[index:] if isinstance(one, Defined)])
+                    return constructor_signature([one for one in lineage[index:] if isinstance(one, Defined)])
             case _:
                 return None
-    return Signature()
+    return PythonSignature()
 
 
-def _passed_on(own: Signature, function: ast.FunctionDef, above: Sequence[Defined | Unclear]) -> Signature:
+def _passed_on(own: PythonSignature, function: ast.FunctionDef, above: Sequence[Defined | Unclear]) -> PythonSignature:
     """Return what a constructor takes; what it takes in `**rest` and only passes on is what the next one takes."""
     rest = function.args.kwarg.arg if function.args.kwarg else ""
     uses = [node for node in ast.walk(function) if isinstance(node, ast.Name) and node.id == rest]
@@ -122,7 +122,7 @@ def _passed_on(own: Signature, function: ast.FunctionDef, above: Sequence[Define
         return own
     left = next_one.without_first(len(calls[0].args))
     names = tuple(n for n in (*left.by_position, *left.by_name) if n not in passing and n not in own.by_position)
-    return Signature(
+    return PythonSignature(
         own.by_position,
         own.unnamed,
         tuple(dict.fromkeys((*own.by_name, *names))),

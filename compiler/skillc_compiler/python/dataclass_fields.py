@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from skillc_compiler.python.found import Signature
-from skillc_compiler.python.modules import Defined, dotted
+from skillc_compiler.python.info import PythonSignature
+from skillc_compiler.python.modules import Defined, dotted_name
 
 DATACLASS = "dataclasses.dataclass"
 
@@ -21,16 +21,18 @@ class _Field:
 
 def is_dataclass(of: Defined) -> bool:
     """Whether `dataclass` writes the class's constructor."""
-    return any(dotted(of.module, each) == DATACLASS and not _is_set(each, "init", False) for each in _decorators(of))
+    return any(
+        dotted_name(of.module, each) == DATACLASS and not _is_set(each, "init", False) for each in _decorators(of)
+    )
 
 
-def fields_taken(lineage: Sequence[Defined]) -> Signature:
+def constructor_signature(lineage: Sequence[Defined]) -> PythonSignature:
     """Return what a dataclass takes, with the fields of the dataclasses that it inherits from."""
     fields: dict[str, _Field] = {}
     for each in reversed(lineage):
-        if any(dotted(each.module, decorator) == DATACLASS for decorator in _decorators(each)):
+        if any(dotted_name(each.module, decorator) == DATACLASS for decorator in _decorators(each)):
             fields |= {field.name: field for field in _fields(each)}
-    return Signature(
+    return PythonSignature(
         by_position=tuple(name for name, field in fields.items() if not field.by_name),
         by_name=tuple(name for name, field in fields.items() if field.by_name),
         needed=tuple(name for name, field in fields.items() if field.needed),

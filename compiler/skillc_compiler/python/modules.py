@@ -11,10 +11,10 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TypeAlias
 
-from skillc_compiler.python.found import UNCLEAR, BrokenModule, NoModule, NoName, Other, Unclear
+from skillc_compiler.python.info import UNCLEAR, BrokenModule, NoModule, NoName, Other, Unclear
 
 Function: TypeAlias = ast.FunctionDef | ast.AsyncFunctionDef
-Place: TypeAlias = tuple[str, str]
+QualifiedName: TypeAlias = tuple[str, str]
 """A module and a name in it."""
 
 
@@ -37,7 +37,7 @@ class _Names:
 Definition: TypeAlias = Defined | Other | NoModule | BrokenModule | NoName | Unclear
 
 
-def definition(module: str, name: str, seen: frozenset[Place] = frozenset()) -> Definition:
+def find_definition(module: str, name: str, seen: frozenset[QualifiedName] = frozenset()) -> Definition:
     """Return where a name of a module is really defined."""
     names = _names_in(module)
     if not isinstance(names, _Names):
@@ -48,39 +48,39 @@ def definition(module: str, name: str, seen: frozenset[Place] = frozenset()) -> 
         case ast.ClassDef() | ast.FunctionDef() | ast.AsyncFunctionDef() as node:
             return Defined(module, node)
         case ast.ImportFrom() as line:
-            found = definition(_source(module, line), _original(line, name), seen | {(module, name)})
+            found = find_definition(_source(module, line), _original(line, name), seen | {(module, name)})
             return Other() if isinstance(found, NoName) and _module_at(module, ast.Name(name)) else found
         case ast.Import() | ast.Constant() | ast.JoinedStr() | ast.List() | ast.Dict() | ast.Tuple() | ast.Set():
             return Other()
         case ast.Name() | ast.Attribute() as alias:
-            return defined_by(module, alias, seen | {(module, name)})
+            return resolve_expression(module, alias, seen | {(module, name)})
         case None:
-            return _starred(module, name, names, seen | {(module, name)})
+            return _find_starred(module, name, names, seen | {(module, name)})
         case _:
             return UNCLEAR
 
 
-def defined_by(module: str, written: ast.expr, seen: frozenset[Place] = frozenset()) -> Definition:
+def resolve_expression(module: str, written: ast.expr, seen: frozenset[QualifiedName] = frozenset()) -> Definition:
     """Return what a name, or a name in an imported module, stands for in a module."""
     match written:
         case ast.Name(id=name):
-            return definition(module, name, seen)
+            return find_definition(module, name, seen)
         case ast.Attribute(value=value, attr=name):
             of = _module_at(module, value)
-            return definition(of, name, seen) if of else UNCLEAR
+            return find_definition(of, name, seen) if of else UNCLEAR
         case ast.Subscript(value=value):
-            return defined_by(module, value, seen)
+            return resolve_expression(module, value, seen)
         case _:
             return UNCLEAR
 
 
-def dotted(module: str, written: ast.expr) -> str:
+def dotted_name(module: str, written: ast.expr) -> str:
     """Return the "module.name" that an expression imports, as far as its own file tells; else as it is written."""
     match written:
         case ast.Call(func=func):
-            return dotted(module, func)
+            return dotted_name(module, func)
         case ast.Attribute(value=value, attr=name):
-            return f"{_module_at(module, value) or dotted(module, value)}.{name}"
+            return f"{_module_at(module, value) or dotted_name(module, value)}.{name}"
         case ast.Name(id=name):
             names = _names_in(module)
             line = names.bound.get(name) if isinstance(names, _Names) else None
@@ -90,13 +90,13 @@ def dotted(module: str, written: ast.expr) -> str:
     return ""
 
 
-def _starred(module: str, name: str, names: _Names, seen: frozenset[Place]) -> Definition:
+def _find_starred(module: str, name: str, names: _Names, seen: frozenset[QualifiedName]) -> Definition:
     """Return what `import *` brings; the last that has the name wins."""
     if "__getattr__" in names.bound:
         return UNCLEAR
     if not name.startswith("_"):
         for line in reversed(names.stars):
-            found = definition(_source(module, line), name, seen)
+            found = find_definition(_source(module, line), name, seen)
             if not isinstance(found, NoName):
                 return found if isinstance(found, Defined | Other) else UNCLEAR
     return NoName(tuple(sorted(n for n, node in names.bound.items() if isinstance(node, ast.ClassDef | Function))))
@@ -145,13 +145,13 @@ def _file(module: str) -> Path | NoModule | Unclear:
     if spec is None:
         return NoModule(installed=False)
     for depth, _ in enumerate(rest, 2):
-        spec = _below(spec, ".".join(module.split(".")[:depth]))
+        spec = _submodule_spec(spec, ".".join(module.split(".")[:depth]))
         if spec is None:
             return NoModule(installed=True)
     return Path(spec.origin) if spec.origin and spec.origin.endswith(".py") else UNCLEAR
 
 
-def _below(package: ModuleSpec, name: str) -> ModuleSpec | None:
+def _submodule_spec(package: ModuleSpec, name: str) -> ModuleSpec | None:
     places = package.submodule_search_locations
     return PathFinder.find_spec(name, list(places)) if places is not None else None
 

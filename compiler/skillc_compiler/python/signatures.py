@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import ast
 
-from skillc_compiler.python.found import FunctionFound, Signature
-from skillc_compiler.python.modules import Function, dotted
+from skillc_compiler.python.info import FunctionInfo, PythonSignature
+from skillc_compiler.python.modules import Function, dotted_name
 
 PLAIN_DECORATORS = frozenset(
     (
@@ -16,25 +16,25 @@ PLAIN_DECORATORS = frozenset(
 """Decorators that leave what a function takes as it is."""
 
 
-def function_found(module: str, function: Function) -> FunctionFound:
+def inspect_function(module: str, function: Function) -> FunctionInfo:
     """Return a function's signature, None for one that a decorator may have changed."""
-    plain = all(dotted(module, each) in PLAIN_DECORATORS for each in function.decorator_list)
-    return FunctionFound(signature_of(function) if plain else None, isinstance(function, ast.AsyncFunctionDef))
+    plain = all(dotted_name(module, each) in PLAIN_DECORATORS for each in function.decorator_list)
+    return FunctionInfo(read_signature(function) if plain else None, isinstance(function, ast.AsyncFunctionDef))
 
 
-def method_found(module: str, function: Function) -> FunctionFound:
+def inspect_method(module: str, function: Function) -> FunctionInfo:
     """Return a method's signature without `self`."""
-    found = function_found(module, function)
-    return FunctionFound(found.signature and found.signature.without_first(1), found.asynchronous)
+    found = inspect_function(module, function)
+    return FunctionInfo(found.signature and found.signature.without_first(1), found.asynchronous)
 
 
-def signature_of(function: Function) -> Signature:
+def read_signature(function: Function) -> PythonSignature:
     """Return all parameters of a function."""
     arguments = function.args
     positional = [*arguments.posonlyargs, *arguments.args]
     optional = [*positional[len(positional) - len(arguments.defaults) :]] if arguments.defaults else []
     optional += [each for each, default in zip(arguments.kwonlyargs, arguments.kw_defaults, strict=True) if default]
-    return Signature(
+    return PythonSignature(
         by_position=tuple(each.arg for each in positional),
         unnamed=len(arguments.posonlyargs),
         by_name=tuple(each.arg for each in arguments.kwonlyargs),

@@ -6,38 +6,38 @@ from collections.abc import Iterator
 
 from skillc_compiler.program.typed import Argument, Call, Parameter, Skill
 from skillc_compiler.program.types import UNKNOWN, Type, fits
-from skillc_compiler.resolve.scope import FileContext, Scope, Variable
-from skillc_compiler.resolve.values import ANYTHING, ExpectedType, value
+from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
+from skillc_compiler.resolve.values import ANYTHING, ExpectedType, resolve_value
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 
 
-def call(context: FileContext, scope: Scope, written: s.CallSkill) -> tuple[Call, Scope]:
+def resolve_call(context: FileContext, scope: Scope, written: s.CallSkill) -> tuple[Call, Scope]:
     """Return what a call means, and the scope after it, in which its output has a value."""
-    name = context.names.skill(written.skill)
+    name = context.names.look_up_skill(written.skill)
     skill = context.skills.get(name) if name else None
     arguments = tuple(_arguments(context, scope, written, skill))
     understood = Call(skill, _implementation(context, written, skill), arguments, written.out, written)
-    return understood, _after(context, scope, written, skill)
+    return understood, _scope_after(context, scope, written, skill)
 
 
 def _arguments(context: FileContext, scope: Scope, written: s.CallSkill, skill: Skill | None) -> Iterator[Argument]:
     for argument in written.arguments:
         parameter = skill.parameter(argument.name.text) if skill else None
         if skill and (parameter is None or parameter.direction == "out"):
-            _not_a_parameter(context, scope, argument, skill, parameter, written)
+            _report_argument(context, scope, argument, skill, parameter, written)
         elif skill is None and _is_shorthand(argument) and argument.name.text not in scope.variables:
             continue
         else:
             wanted = ExpectedType(parameter.type) if parameter else ANYTHING
-            yield Argument(argument.name, value(context, scope, argument.value, wanted))
+            yield Argument(argument.name, resolve_value(context, scope, argument.value, wanted))
 
 
 def _is_shorthand(argument: s.Argument) -> bool:
     return isinstance(argument.value, s.Reference) and argument.value.span == argument.name.span
 
 
-def _not_a_parameter(
+def _report_argument(
     context: FileContext,
     scope: Scope,
     argument: s.Argument,
@@ -47,7 +47,7 @@ def _not_a_parameter(
 ) -> None:
     """Report an argument that no parameter takes; its value is still looked at unless it is only the name again."""
     name = argument.name.text
-    kind = UNKNOWN if _is_shorthand(argument) else value(context, scope, argument.value).type
+    kind = UNKNOWN if _is_shorthand(argument) else resolve_value(context, scope, argument.value).type
     if out is not None:
         context.report(
             "unknown-argument",
@@ -61,20 +61,20 @@ def _not_a_parameter(
         "unknown-argument",
         argument.name,
         f"the skill `{skill.name}` has no parameter `{name}`",
-        _free(context, skill, written, kind),
-        f"it takes {_list(skill)}",
+        _free_parameters(context, skill, written, kind),
+        f"it takes {_format_parameters(skill)}",
         Label(skill.name_span, "declared here"),
     )
 
 
-def _free(context: FileContext, skill: Skill, written: s.CallSkill, kind: Type) -> list[str]:
+def _free_parameters(context: FileContext, skill: Skill, written: s.CallSkill, kind: Type) -> list[str]:
     """Return the parameters that are not passed yet and take a value of this type."""
     passed = {a.name.text for a in written.arguments}
     takes = [p for p in skill.parameters if p.direction != "out" and p.name not in passed]
     return [p.name for p in takes if fits(context.vocabulary, kind, p.type)]
 
 
-def _list(skill: Skill) -> str:
+def _format_parameters(skill: Skill) -> str:
     return ", ".join(f"`{p.name}`" for p in skill.parameters if p.direction != "out") or "no arguments"
 
 
@@ -89,7 +89,7 @@ def _implementation(context: FileContext, written: s.CallSkill, skill: Skill | N
     return name.text
 
 
-def _after(context: FileContext, scope: Scope, written: s.CallSkill, skill: Skill | None) -> Scope:
+def _scope_after(context: FileContext, scope: Scope, written: s.CallSkill, skill: Skill | None) -> Scope:
     if written.out is None:
         return scope
     outputs = [p for p in skill.parameters if p.direction == "out"] if skill else []
@@ -102,13 +102,13 @@ def _after(context: FileContext, scope: Scope, written: s.CallSkill, skill: Skil
             "take `->` away, or declare one `out` parameter in the skill",
             Label(skill.name_span, "declared here"),
         )
-    return _assigned(context, scope, written.out, kind)
+    return _assign_output(context, scope, written.out, kind)
 
 
-def _assigned(context: FileContext, scope: Scope, name: s.Name, kind: Type) -> Scope:
+def _assign_output(context: FileContext, scope: Scope, name: s.Name, kind: Type) -> Scope:
     former = scope.variables.get(name.text)
     if former is None or former.origin not in ("out", "output"):
-        return context.bind(scope, name, Variable(kind, "output", name.span))
+        return context.bind(scope, name, LocalName(kind, "output", name.span))
     if not fits(context.vocabulary, kind, former.type):
         context.report(
             "wrong-type",
@@ -117,4 +117,4 @@ def _assigned(context: FileContext, scope: Scope, name: s.Name, kind: Type) -> S
             "give the output another name",
             Label(former.span, "declared here"),
         )
-    return scope.having(name.text, Variable(former.type, former.origin, former.span))
+    return scope.with_name(name.text, LocalName(former.type, former.origin, former.span))

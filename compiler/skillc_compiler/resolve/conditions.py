@@ -7,8 +7,8 @@ from typing import assert_never
 
 from skillc_compiler.program.typed import TypedCondition, TypedExpression
 from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, Type, fits
-from skillc_compiler.resolve.scope import FileContext, Scope, Variable
-from skillc_compiler.resolve.values import ANYTHING, ExpectedType, property_of, value
+from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
+from skillc_compiler.resolve.values import ANYTHING, ExpectedType, resolve_property, resolve_value
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.source import Span
@@ -34,7 +34,7 @@ from skillc_model.conditions import Variable as VariableTerm
 from skillc_rdf.vocabulary.types import THING
 
 
-def clause(context: FileContext, scope: Scope, written: s.Condition) -> TypedCondition:
+def resolve_condition(context: FileContext, scope: Scope, written: s.Condition) -> TypedCondition:
     """Return what a condition means; what cannot be understood is reported."""
     match written:
         case s.Relation():
@@ -42,24 +42,24 @@ def clause(context: FileContext, scope: Scope, written: s.Condition) -> TypedCon
         case s.Compare():
             return _compare(context, scope, written)
         case s.Has(subject=subject, property=name, span=span):
-            of = value(context, scope, subject)
-            iri = property_of(context, of, name) or name.text
+            of = resolve_value(context, scope, subject)
+            iri = resolve_property(context, of, name) or name.text
             return TypedCondition(HasProperty(_term(context, of), iri), span, (of,))
         case s.Is(subject=subject, cls=name, span=span):
-            of = value(context, scope, subject, ExpectedType(Thing(None)))
+            of = resolve_value(context, scope, subject, ExpectedType(Thing(None)))
             return TypedCondition(IsA(_term(context, of), _class(context, name)), span, (of,))
         case s.Given(parameter=name, span=span):
             return _given(context, scope, name, span)
         case s.Not(body=body, span=span):
-            return _not(clause(context, scope, body), span)
+            return _not(resolve_condition(context, scope, body), span)
         case s.And(parts=parts, span=span):
-            clauses = tuple(clause(context, scope, part) for part in parts)
-            return TypedCondition(And(tuple(c.meaning for c in clauses)), span, parts=clauses)
+            conditions = tuple(resolve_condition(context, scope, part) for part in parts)
+            return TypedCondition(And(tuple(c.meaning for c in conditions)), span, parts=conditions)
         case s.Or(parts=parts, span=span):
-            return _or([clause(context, scope, part) for part in parts], span)
+            return _or([resolve_condition(context, scope, part) for part in parts], span)
         case s.Implies(if_=if_, then=then, span=span):
-            premise = clause(context, scope, if_)
-            return _or([_not(premise, premise.span), clause(context, scope, then)], span)
+            premise = resolve_condition(context, scope, if_)
+            return _or([_not(premise, premise.span), resolve_condition(context, scope, then)], span)
         case s.Quantified():
             return _quantified(context, scope, written)
         case s.Bare():
@@ -87,7 +87,7 @@ def _holds(context: FileContext, scope: Scope, written: s.Relation) -> TypedCond
 def _side(context: FileContext, scope: Scope, written: s.Value | s.Anything) -> TypedExpression:
     if isinstance(written, s.Anything):
         return TypedExpression(VariableTerm("_"), UNKNOWN, written.span)
-    return value(context, scope, written, ExpectedType(Thing(None)))
+    return resolve_value(context, scope, written, ExpectedType(Thing(None)))
 
 
 def _relation(context: FileContext, name: s.Name, subject: Type, object_: Type) -> str | None:
@@ -100,7 +100,7 @@ def _relation(context: FileContext, name: s.Name, subject: Type, object_: Type) 
             f"compare its value: `a.{name.text} == ..`",
         )
         return None
-    return names.term(
+    return names.look_up_term(
         "relation",
         name,
         lambda iri: any(
@@ -128,7 +128,7 @@ def _term(context: FileContext, of: TypedExpression) -> Term:
 
 
 def _class(context: FileContext, name: s.Name) -> str:
-    return context.names.term("class", name) or name.text
+    return context.names.look_up_term("class", name) or name.text
 
 
 def _compare(context: FileContext, scope: Scope, written: s.Compare) -> TypedCondition:
@@ -147,9 +147,9 @@ def _all_terms(*sides: TypedExpression) -> bool:
 def _sides(context: FileContext, scope: Scope, written: s.Compare) -> tuple[TypedExpression, TypedExpression]:
     """Understand the side with the property first: it tells which values a bare name on the other may be."""
     if isinstance(written.left, s.Reference) and isinstance(written.right, s.Member):
-        right = value(context, scope, written.right)
+        right = resolve_value(context, scope, written.right)
         return _other_side(context, scope, written.left, right), right
-    left = value(context, scope, written.left)
+    left = resolve_value(context, scope, written.left)
     return left, _other_side(context, scope, written.right, left)
 
 
@@ -161,7 +161,7 @@ def _other_side(context: FileContext, scope: Scope, written: s.Value, known: Typ
                 return TypedExpression(VariableTerm(text), UNKNOWN, span)
         case _:
             pass
-    return value(context, scope, written, _wanted(context, known))
+    return resolve_value(context, scope, written, _wanted(context, known))
 
 
 def _wanted(context: FileContext, other: TypedExpression) -> ExpectedType:
@@ -183,17 +183,17 @@ def _given(context: FileContext, scope: Scope, name: s.Name, span: Span) -> Type
 
 
 def _quantified(context: FileContext, scope: Scope, written: s.Quantified) -> TypedCondition:
-    iri = context.names.term("class", written.cls)
+    iri = context.names.look_up_term("class", written.cls)
     kind = (Thing(None) if iri == THING else Thing(iri)) if iri else UNKNOWN
-    inner = context.bind(scope, written.variable, Variable(kind, "variable", written.variable.span))
-    body = clause(context, inner, written.body)
+    inner = context.bind(scope, written.variable, LocalName(kind, "variable", written.variable.span))
+    body = resolve_condition(context, inner, written.body)
     quantifier = Exists if written.quantifier == "exists" else Forall
     return TypedCondition(quantifier(written.variable.text, iri or THING, body.meaning), written.span, parts=(body,))
 
 
 def _bare(context: FileContext, scope: Scope, written: s.Bare) -> TypedCondition:
     """A value is no condition; a truth value is one once it is compared."""
-    of = value(context, scope, written.value)
+    of = resolve_value(context, scope, written.value)
     span = written.span
     end = Span(span.path, span.end_line, span.end_column, span.end_line, span.end_column)
     if of.type == BOOL:

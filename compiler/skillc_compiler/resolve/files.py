@@ -7,20 +7,20 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
-from skillc_compiler.program.typed import ReadFile
-from skillc_compiler.resolve.near import correction
+from skillc_compiler.program.typed import ParsedFile
+from skillc_compiler.resolve.spelling import suggest_fix
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 
 STANDARD_LIBRARY = "std"
-Parse: TypeAlias = Callable[[Source], Outcome[s.File]]
+Parser: TypeAlias = Callable[[Source], Outcome[s.File]]
 
 
-def read(
-    sources: Sequence[Source], importable: Mapping[str, Source], name: str, parsed_by: Parse = parse
-) -> Outcome[tuple[ReadFile, ...]]:
+def read_sources(
+    sources: Sequence[Source], importable: Mapping[str, Source], name: str, parsed_by: Parser = parse
+) -> Outcome[tuple[ParsedFile, ...]]:
     """Parse the sources and what they import; `importable` is keyed by file name, `name` is the library's.
 
     Importable files belong to the library `std` if their path says so, else to this one. `parsed_by` may remember.
@@ -36,8 +36,8 @@ class _Reader:
     own: Mapping[str, Source]
     importable: Mapping[str, Source]
     name: str
-    parse: Parse
-    files: dict[str, ReadFile] = field(default_factory=dict)
+    parse: Parser
+    files: dict[str, ParsedFile] = field(default_factory=dict)
     problems: list[Diagnostic] = field(default_factory=list)
 
     def read(self, source: Source, library: str, importing: tuple[str, ...]) -> None:
@@ -47,7 +47,7 @@ class _Reader:
         parsed = self.parse(source)
         self.problems.extend(parsed.diagnostics)
         imports = tuple(self._imports(parsed.value, library, (*importing, source.path)))
-        self.files[source.path] = ReadFile(parsed.value, library, source.text, imports)
+        self.files[source.path] = ParsedFile(parsed.value, library, source.text, imports)
 
     def _imports(self, file: s.File, library: str, chain: tuple[str, ...]) -> Iterable[tuple[s.Import, str]]:
         for line in (h for h in file.header if isinstance(h, s.Import)):
@@ -78,7 +78,7 @@ class _Reader:
         beside = [posixpath.relpath(p, folder or ".") for p in self.own] if library == self.name else []
         candidates = [name for name in (*beside, *self.importable) if name != posixpath.basename(file.path)]
         wrong = line.path.value
-        near = correction(s.Name(wrong, line.path.span), candidates)
+        near = suggest_fix(s.Name(wrong, line.path.span), candidates)
         self.problems.append(
             Diagnostic(
                 "unknown-import",

@@ -6,38 +6,38 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from skillc_compiler.program.typed import Body, Implementation, Let, Parameter, Property, Refinement, Skill
-from skillc_compiler.program.types import of_library
-from skillc_compiler.resolve.members import constant, duration, only, requirements
-from skillc_compiler.resolve.nodes import assignable, step
-from skillc_compiler.resolve.properties import verified
-from skillc_compiler.resolve.scope import FileContext, Scope, Variable
-from skillc_compiler.resolve.skills import scopes
-from skillc_compiler.resolve.typenames import value_type
-from skillc_compiler.resolve.values import value
+from skillc_compiler.program.types import type_of
+from skillc_compiler.resolve.members import resolve_constant, resolve_duration, resolve_requirements, single_member
+from skillc_compiler.resolve.nodes import assume_outputs_assigned, resolve_node
+from skillc_compiler.resolve.properties import resolve_verify
+from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
+from skillc_compiler.resolve.skills import build_scopes
+from skillc_compiler.resolve.type_names import resolve_type
+from skillc_compiler.resolve.values import resolve_value
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.source import Span
 
 
-def implementation(
+def resolve_implementation(
     context: FileContext, written: s.ImplementationDeclaration, skill: Skill, lines: Sequence[str]
 ) -> Implementation:
     """Return what an implementation means; `lines` is the file's text."""
     refinements = tuple(_refinements(context, written, skill))
-    parameters = tuple(_merged(p, refinements) for p in skill.parameters)
+    parameters = tuple(_merge_refinement(p, refinements) for p in skill.parameters)
     owner = f"the implementation `{written.name.text}` of `{skill.name}`"
-    before, after = scopes(owner, parameters)
+    before, after = build_scopes(owner, parameters)
     lets, inner = _lets(context, before, written)
     labels = {r.label.text: r.label for r in skill.requirements if r.label}
-    prefer = only(context, written.members, s.Prefer, "prefer")
+    prefer = single_member(context, written.members, s.Prefer, "prefer")
     return Implementation(
         name=written.name.text,
         doc=written.doc,
         skill=skill,
         refinements=refinements,
         parameters=parameters,
-        requirements=tuple(requirements(context, before, after, written.members, labels)),
-        duration=duration(context, before, written.members),
+        requirements=tuple(resolve_requirements(context, before, after, written.members, labels)),
+        duration=resolve_duration(context, before, written.members),
         prefer=prefer.value.value if prefer else 0.0,
         lets=lets,
         body=_body(context, inner, written),
@@ -52,8 +52,8 @@ def _refinements(context: FileContext, written: s.ImplementationDeclaration, ski
     for member in written.members:
         if not isinstance(member, s.Refinement):
             continue
-        declared = value_type(context.names, member.type)
-        kind = of_library(declared)
+        declared = resolve_type(context.names, member.type)
+        kind = type_of(declared)
         if seen.setdefault(member.name.text, member) is not member:
             context.report(
                 "duplicate-parameter",
@@ -67,9 +67,9 @@ def _refinements(context: FileContext, written: s.ImplementationDeclaration, ski
             of=_refined(context, member, skill),
             declared=declared,
             type=kind,
-            default=constant(context, member.default, kind),
-            low=constant(context, member.range.low if member.range else None, kind),
-            high=constant(context, member.range.high if member.range else None, kind),
+            default=resolve_constant(context, member.default, kind),
+            low=resolve_constant(context, member.range.low if member.range else None, kind),
+            high=resolve_constant(context, member.range.high if member.range else None, kind),
             written=member,
         )
 
@@ -88,7 +88,7 @@ def _refined(context: FileContext, member: s.Refinement, skill: Skill) -> Parame
     return parameter
 
 
-def _merged(parameter: Parameter, refinements: Sequence[Refinement]) -> Parameter:
+def _merge_refinement(parameter: Parameter, refinements: Sequence[Refinement]) -> Parameter:
     for new in refinements:
         if new.of is parameter:
             return replace(
@@ -106,9 +106,9 @@ def _lets(context: FileContext, scope: Scope, written: s.ImplementationDeclarati
     lets = []
     for member in written.members:
         if isinstance(member, s.Let):
-            named = value(context, scope, member.value)
+            named = resolve_value(context, scope, member.value)
             lets.append(Let(member.name, named))
-            scope = context.bind(scope, member.name, Variable(named.type, "let", member.name.span))
+            scope = context.bind(scope, member.name, LocalName(named.type, "let", member.name.span))
     return tuple(lets), scope
 
 
@@ -124,7 +124,7 @@ def _body(context: FileContext, scope: Scope, written: s.ImplementationDeclarati
         )
     match bodies[:1]:
         case [s.Body(node=node)]:
-            understood, _ = step(context, assignable(scope), node)
+            understood, _ = resolve_node(context, assume_outputs_assigned(scope), node)
             return understood
         case [s.RunPython() as python]:
             return python
@@ -136,7 +136,7 @@ def _verified(
 ) -> Iterator[Property]:
     for member in written.members:
         if isinstance(member, s.Verify):
-            understood = verified(context, scope, member, _text(lines, member.span))
+            understood = resolve_verify(context, scope, member, _text(lines, member.span))
             yield from (understood,) if understood is not None else ()
 
 

@@ -11,12 +11,12 @@ Individuals: TypeAlias = Mapping[str, Sequence[str]]
 """The IRIs of a scene's individuals, each with those of its classes."""
 
 
-def narrowest(vocabulary: Vocabulary, individuals: Individuals) -> dict[str, str | None]:
+def most_specific_classes(vocabulary: Vocabulary, individuals: Individuals) -> dict[str, str | None]:
     """Return each individual's class of which no other of its classes is a subclass, None where there are several."""
-    return {iri: _narrowest(vocabulary, classes) for iri, classes in individuals.items()}
+    return {iri: _most_specific(vocabulary, classes) for iri, classes in individuals.items()}
 
 
-def _narrowest(vocabulary: Vocabulary, classes: Sequence[str]) -> str | None:
+def _most_specific(vocabulary: Vocabulary, classes: Sequence[str]) -> str | None:
     others = {one: [other for other in classes if other != one] for one in classes}
     lowest = [one for one, rest in others.items() if not any(vocabulary.is_a(other, one) for other in rest)]
     return lowest[0] if len(lowest) == 1 else (None if classes else THING)

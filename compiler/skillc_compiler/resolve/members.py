@@ -7,18 +7,18 @@ from typing import TypeVar
 
 from skillc_compiler.program.typed import Requirement, TypedExpression
 from skillc_compiler.program.types import Measure, Type
-from skillc_compiler.resolve.conditions import clause
+from skillc_compiler.resolve.conditions import resolve_condition
 from skillc_compiler.resolve.scope import FileContext, Scope
-from skillc_compiler.resolve.values import ExpectedType, value
+from skillc_compiler.resolve.values import ExpectedType, resolve_value
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.units import TIME
 
 Member = TypeVar("Member", s.Duration, s.Prefer)
-CONSTANT = Scope("a default or range, which is a constant,")
+CONSTANT_SCOPE = Scope("a default or range, which is a constant,")
 
 
-def requirements(
+def resolve_requirements(
     context: FileContext, before: Scope, after: Scope, members: Sequence[object], labels: dict[str, s.Name]
 ) -> Iterator[Requirement]:
     """Yield the conditions; posts are understood in the scope `after`, where outputs have values.
@@ -27,25 +27,25 @@ def requirements(
     """
     for member in members:
         if isinstance(member, s.Requirement):
-            _note_label(context, member, labels)
+            _check_label(context, member, labels)
             scope = after if member.kind == "post" else before
             yield Requirement(
                 member.kind,
                 member.label,
                 member.sensed,
-                clause(context, scope, member.condition),
+                resolve_condition(context, scope, member.condition),
                 member.text,
                 member.span,
             )
 
 
-def duration(context: FileContext, scope: Scope, members: Sequence[object]) -> TypedExpression | None:
+def resolve_duration(context: FileContext, scope: Scope, members: Sequence[object]) -> TypedExpression | None:
     """Return the expected time; a second one is reported."""
-    written = only(context, members, s.Duration, "duration")
-    return value(context, scope, written.value, ExpectedType(Measure(TIME))) if written else None
+    written = single_member(context, members, s.Duration, "duration")
+    return resolve_value(context, scope, written.value, ExpectedType(Measure(TIME))) if written else None
 
 
-def only(context: FileContext, members: Sequence[object], kind: type[Member], word: str) -> Member | None:
+def single_member(context: FileContext, members: Sequence[object], kind: type[Member], word: str) -> Member | None:
     """Return the one member of a kind; every further one is reported."""
     found = [member for member in members if isinstance(member, kind)]
     for extra in found[1:]:
@@ -59,12 +59,12 @@ def only(context: FileContext, members: Sequence[object], kind: type[Member], wo
     return found[0] if found else None
 
 
-def constant(context: FileContext, written: s.Value | None, kind: Type) -> TypedExpression | None:
+def resolve_constant(context: FileContext, written: s.Value | None, kind: Type) -> TypedExpression | None:
     """Return a default or a bound of a range."""
-    return value(context, CONSTANT, written, ExpectedType(kind)) if written is not None else None
+    return resolve_value(context, CONSTANT_SCOPE, written, ExpectedType(kind)) if written is not None else None
 
 
-def _note_label(context: FileContext, member: s.Requirement, labels: dict[str, s.Name]) -> None:
+def _check_label(context: FileContext, member: s.Requirement, labels: dict[str, s.Name]) -> None:
     if member.label is None:
         return
     former = labels.setdefault(member.label.text, member.label)

@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable, Mapping, Set
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
-from skillc_compiler.program.labels import declared
-from skillc_compiler.resolve.near import correction
+from skillc_compiler.program.labels import label_declaration
+from skillc_compiler.resolve.spelling import suggest_fix
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean
 from skillc_rdf.vocabulary.types import (
@@ -42,7 +42,7 @@ class Names:
     problems: list[Diagnostic] = field(default_factory=list)
     used: set[str] = field(default_factory=set)
 
-    def term(self, kind: Kind, name: s.Name, fits: Callable[[str], bool] = lambda _: True) -> str | None:
+    def look_up_term(self, kind: Kind, name: s.Name, fits: Callable[[str], bool] = lambda _: True) -> str | None:
         """Return the IRI that a name means, or report that it means none or several. Near misses satisfy `fits`."""
         self.used.add(name.text)
         if ":" in name.text:
@@ -56,7 +56,7 @@ class Names:
             self._deprecated(kind, name, found[0])
         return found[0] if found else None
 
-    def individual(self, name: s.Name) -> str | None:
+    def look_up_individual(self, name: s.Name) -> str | None:
         """Return the IRI of a qualified name; report an unknown prefix."""
         self.used.add(name.text)
         prefix, _, local = name.text.partition(":")
@@ -72,14 +72,14 @@ class Names:
         )
         return None
 
-    def function(self, name: s.Name) -> FunctionTerm | None:
+    def look_up_function(self, name: s.Name) -> FunctionTerm | None:
         """Return the function of that name, or report that there is none."""
         self.used.add(name.text)
         if name.text not in self.functions:
             self._report_unknown("function", name, self.functions)
         return self.functions.get(name.text)
 
-    def skill(self, name: s.Name) -> str | None:
+    def look_up_skill(self, name: s.Name) -> str | None:
         """Return the name if it is a visible skill's, or report that there is none."""
         self.used.add(name.text)
         if name.text in self.skills:
@@ -99,7 +99,7 @@ class Names:
         iri = self.prefixes.get(prefix, "") + local
         return self.vocabulary.aliases.get(iri, iri) in self.known[kind]
 
-    def short(self, iri: str) -> str:
+    def shorten(self, iri: str) -> str:
         """Return an IRI as it can be written here: with the longest prefix that fits."""
         fitting = [(len(base), prefix) for prefix, base in self.prefixes.items() if iri.startswith(base)]
         if not fitting:
@@ -108,7 +108,7 @@ class Names:
         return f"{prefix}:{iri[length:]}"
 
     def _qualified_term(self, kind: Kind, name: s.Name, fits: Callable[[str], bool]) -> str | None:
-        written = self.individual(name)
+        written = self.look_up_individual(name)
         if written is None:
             return None
         iri = self.vocabulary.aliases.get(written, written)
@@ -117,7 +117,7 @@ class Names:
             return iri
         base = self.prefixes[name.text.partition(":")[0]]
         there = (i for i in self.known[kind] if i.startswith(base) and fits(i))
-        candidates = [self.short(i) for i in there]
+        candidates = [self.shorten(i) for i in there]
         self._report_unknown(kind, name, candidates)
         return None
 
@@ -126,7 +126,7 @@ class Names:
             return
         other = self.vocabulary.deprecated[iri]
         bare = self.bare[kind].get(local_name(other)) == (other,) and ":" not in name.text
-        text = local_name(other) if bare else self.short(other)
+        text = local_name(other) if bare else self.shorten(other)
         self.problems.append(
             Diagnostic(
                 "deprecated-term",
@@ -134,7 +134,7 @@ class Names:
                 f"the {kind} `{name.text}` should not be used any more",
                 help=f"use `{text}` instead" if other else "its vocabulary names nothing to use instead",
                 severity="warning",
-                labels=declared(self._table(kind)[iri]) if iri in self._table(kind) else (),
+                labels=label_declaration(self._table(kind)[iri]) if iri in self._table(kind) else (),
                 fix=Fix(name.span, text, f"write `{text}`") if other else None,
             )
         )
@@ -149,13 +149,13 @@ class Names:
                 return self.vocabulary.properties
 
     def _ambiguous(self, name: s.Name, found: tuple[str, ...]) -> None:
-        ways = " and ".join(f"`{self.short(iri)}`" for iri in found)
+        ways = " and ".join(f"`{self.shorten(iri)}`" for iri in found)
         self.problems.append(
             Diagnostic(
                 "ambiguous-name",
                 name.span,
                 f"`{name.text}` may mean {ways}",
-                help=f"write the prefix, such as `{self.short(found[0])}`",
+                help=f"write the prefix, such as `{self.shorten(found[0])}`",
             )
         )
 
@@ -188,7 +188,7 @@ class Names:
                 name.span,
                 f"there is no {what} `{name.text}`",
                 help=elsewhere or did_you_mean(name.text, near) or otherwise,
-                fix=None if home else correction(name, near),
+                fix=None if home else suggest_fix(name, near),
             )
         )
 

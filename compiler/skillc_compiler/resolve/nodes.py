@@ -8,92 +8,96 @@ from typing import assert_never
 
 from skillc_compiler.program.typed import TypedNode
 from skillc_compiler.program.types import UNKNOWN, ListOf, Measure
-from skillc_compiler.resolve.calls import call
-from skillc_compiler.resolve.conditions import clause
-from skillc_compiler.resolve.scope import FileContext, Scope, Variable
-from skillc_compiler.resolve.values import ExpectedType, value
+from skillc_compiler.resolve.calls import resolve_call
+from skillc_compiler.resolve.conditions import resolve_condition
+from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
+from skillc_compiler.resolve.values import ExpectedType, resolve_value
 from skillc_dsl import syntax as s
 from skillc_dsl.units import TIME
 
 SECONDS = ExpectedType(Measure(TIME))
 
 
-def step(context: FileContext, scope: Scope, written: s.Node) -> tuple[TypedNode, Scope]:
+def resolve_node(context: FileContext, scope: Scope, written: s.Node) -> tuple[TypedNode, Scope]:
     """Return what a node means, and the scope after it."""
     match written:
         case s.Block():
             return _block(context, scope, written)
         case s.Counted(children=children):
-            inner, after = _in_order(context, scope, children)
+            inner, after = _resolve_sequence(context, scope, children)
             return TypedNode(written, children=inner), after
         case s.Timeout(limit=limit, children=children):
-            seconds = value(context, scope, limit, SECONDS)
-            inner, after = _in_order(context, scope, children)
+            seconds = resolve_value(context, scope, limit, SECONDS)
+            inner, after = _resolve_sequence(context, scope, children)
             return TypedNode(written, (seconds,), children=inner), after
         case s.Wait(time=time):
-            return TypedNode(written, (value(context, scope, time, SECONDS),)), scope
+            return TypedNode(written, (resolve_value(context, scope, time, SECONDS),)), scope
         case s.WaitUntil(condition=condition) | s.CheckNode(condition=condition):
-            return TypedNode(written, clauses=(clause(context, scope, condition),)), scope
+            return TypedNode(written, conditions=(resolve_condition(context, scope, condition),)), scope
         case s.If():
             return _if(context, scope, written)
         case s.While(condition=condition, children=children):
-            guard = clause(context, scope, condition)
-            inner, after = _in_order(context, scope, children)
-            return TypedNode(written, clauses=(guard,), children=inner), _together(scope, after)
+            guard = resolve_condition(context, scope, condition)
+            inner, after = _resolve_sequence(context, scope, children)
+            return TypedNode(written, conditions=(guard,), children=inner), _merge_scopes(scope, after)
         case s.For():
             return _for(context, scope, written)
         case s.ApplyPosts():
             return TypedNode(written), scope
         case s.CallSkill():
-            understood, after = call(context, scope, written)
+            understood, after = resolve_call(context, scope, written)
             return TypedNode(written, call=understood), after
         case s.With(call=opening, children=children):
-            understood, opened = call(context, scope, opening)
-            inner, after = _in_order(context, opened, children)
+            understood, opened = resolve_call(context, scope, opening)
+            inner, after = _resolve_sequence(context, opened, children)
             return TypedNode(written, call=understood, children=inner), after
         case _:
             assert_never(written)
 
 
-def _in_order(context: FileContext, scope: Scope, nodes: Sequence[s.Node]) -> tuple[tuple[TypedNode, ...], Scope]:
+def _resolve_sequence(
+    context: FileContext, scope: Scope, nodes: Sequence[s.Node]
+) -> tuple[tuple[TypedNode, ...], Scope]:
     steps = []
     for node in nodes:
-        understood, scope = step(context, scope, node)
+        understood, scope = resolve_node(context, scope, node)
         steps.append(understood)
     return tuple(steps), scope
 
 
 def _block(context: FileContext, scope: Scope, written: s.Block) -> tuple[TypedNode, Scope]:
     if written.kind in ("seq", "reactive seq", "once", "try", "invert"):
-        inner, after = _in_order(context, scope, written.children)
+        inner, after = _resolve_sequence(context, scope, written.children)
         return TypedNode(written, children=inner), after
-    apart = [step(context, scope, child) for child in written.children]
+    apart = [resolve_node(context, scope, child) for child in written.children]
     children = tuple(understood for understood, _ in apart)
-    return TypedNode(written, children=children), _together(scope, *(after for _, after in apart))
+    return TypedNode(written, children=children), _merge_scopes(scope, *(after for _, after in apart))
 
 
 def _if(context: FileContext, scope: Scope, written: s.If) -> tuple[TypedNode, Scope]:
-    guard = clause(context, scope, written.condition)
-    then, after_then = _in_order(context, scope, written.then)
-    otherwise, after_else = _in_order(context, scope, written.orelse or ())
-    return TypedNode(written, clauses=(guard,), children=then, orelse=otherwise), _together(after_then, after_else)
+    guard = resolve_condition(context, scope, written.condition)
+    then, after_then = _resolve_sequence(context, scope, written.then)
+    otherwise, after_else = _resolve_sequence(context, scope, written.orelse or ())
+    return TypedNode(written, conditions=(guard,), children=then, orelse=otherwise), _merge_scopes(
+        after_then, after_else
+    )
 
 
 def _for(context: FileContext, scope: Scope, written: s.For) -> tuple[TypedNode, Scope]:
-    items = value(context, scope, written.items, ExpectedType(ListOf(UNKNOWN)))
+    items = resolve_value(context, scope, written.items, ExpectedType(ListOf(UNKNOWN)))
     element = items.type.element if isinstance(items.type, ListOf) else UNKNOWN
-    bound = context.bind(scope, written.variable, Variable(element, "loop variable", written.variable.span))
-    inner, after = _in_order(context, bound, written.children)
+    bound = context.bind(scope, written.variable, LocalName(element, "loop variable", written.variable.span))
+    inner, after = _resolve_sequence(context, bound, written.children)
     left = replace(after, variables={n: v for n, v in after.variables.items() if n != written.variable.text})
-    return TypedNode(written, (items,), children=inner), _together(scope, left)
+    return TypedNode(written, (items,), children=inner), _merge_scopes(scope, left)
 
 
-def assignable(scope: Scope) -> Scope:
+def assume_outputs_assigned(scope: Scope) -> Scope:
     """Return the scope of a body, in which outputs may be read; whether they have a value there is proved later."""
-    return replace(scope, variables={name: replace(v, sure=True) for name, v in scope.variables.items()})
+    return replace(scope, variables={name: replace(v, is_assigned=True) for name, v in scope.variables.items()})
 
 
-def _together(*scopes: Scope) -> Scope:
+def _merge_scopes(*scopes: Scope) -> Scope:
     """Return a scope with the names of all."""
     merged = {name: variable for scope in reversed(scopes) for name, variable in scope.variables.items()}
     return replace(scopes[0], variables=merged)

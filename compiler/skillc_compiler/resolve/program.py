@@ -5,34 +5,40 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from skillc_compiler.program.typed import Implementation, Program, ReadFile, Skill, Task
-from skillc_compiler.resolve.declared import Declared, bare_in, declare, prefixes_in, visible
-from skillc_compiler.resolve.implementations import implementation
-from skillc_compiler.resolve.individuals import Individuals, narrowest
+from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, Task
+from skillc_compiler.resolve.declarations import (
+    Declarations,
+    bare_names_in,
+    collect_declarations,
+    merge_imported,
+    prefixes_in,
+)
+from skillc_compiler.resolve.duplicates import remove_duplicates
+from skillc_compiler.resolve.implementations import resolve_implementation
+from skillc_compiler.resolve.individuals import Individuals, most_specific_classes
 from skillc_compiler.resolve.names import KINDS, Kind, Names
-from skillc_compiler.resolve.near import correction
-from skillc_compiler.resolve.repeats import without_repeats
 from skillc_compiler.resolve.scope import FileContext
-from skillc_compiler.resolve.skills import skill
-from skillc_compiler.resolve.tasks import task
-from skillc_compiler.resolve.terms import extend
+from skillc_compiler.resolve.skills import resolve_skill
+from skillc_compiler.resolve.spelling import suggest_fix
+from skillc_compiler.resolve.tasks import resolve_task
+from skillc_compiler.resolve.terms import extend_vocabulary
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
 from skillc_rdf.vocabulary.types import Vocabulary
 
 
-def resolve(
-    read: Sequence[ReadFile], base: Vocabulary, name: str, scenes: Mapping[str, Individuals]
+def resolve_program(
+    read: Sequence[ParsedFile], base: Vocabulary, name: str, scenes: Mapping[str, Individuals]
 ) -> Outcome[Program]:
     """Return the program that the files mean together; what cannot be understood is reported and left unknown.
 
     `scenes` holds the individuals that tasks may name, by task.
     """
-    declared = declare(read, base)
-    repeats = without_repeats(read, declared)
+    declared = collect_declarations(read, base)
+    repeats = remove_duplicates(read, declared)
     files = repeats.value
     names = _names(files, declared, base)
-    vocabulary = extend(base, files, declared, names)
+    vocabulary = extend_vocabulary(base, files, declared, names)
     for visible_names in names.values():
         visible_names.vocabulary = vocabulary
     _make_functions_visible(files, declared, names, vocabulary)
@@ -53,15 +59,15 @@ def resolve(
     return Outcome(program, (*_headers(files, base), *repeats.diagnostics, *problems))
 
 
-def _names(files: Sequence[ReadFile], declared: Mapping[str, Declared], base: Vocabulary) -> dict[str, Names]:
+def _names(files: Sequence[ParsedFile], declared: Mapping[str, Declarations], base: Vocabulary) -> dict[str, Names]:
     known = _known(declared, base)
     homes = {name: path for path, there in sorted(declared.items(), reverse=True) for name in there.names()}
-    bare, found = bare_in(files, base), {}
+    bare, found = bare_names_in(files, base), {}
     for unit in files:
         here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports)]
         visible_here = {name for there in here for name in there.names()}
         found[unit.file.path] = Names(
-            bare=visible(bare[unit.file.path], here),
+            bare=merge_imported(bare[unit.file.path], here),
             known=known,
             vocabulary=base,
             prefixes=prefixes_in(unit.file, base),
@@ -72,7 +78,7 @@ def _names(files: Sequence[ReadFile], declared: Mapping[str, Declared], base: Vo
     return found
 
 
-def _known(declared: Mapping[str, Declared], base: Vocabulary) -> dict[Kind, set[str]]:
+def _known(declared: Mapping[str, Declarations], base: Vocabulary) -> dict[Kind, set[str]]:
     known: dict[Kind, set[str]] = {
         "class": set(base.classes),
         "relation": set(base.relations),
@@ -85,7 +91,10 @@ def _known(declared: Mapping[str, Declared], base: Vocabulary) -> dict[Kind, set
 
 
 def _make_functions_visible(
-    files: Sequence[ReadFile], declared: Mapping[str, Declared], names: Mapping[str, Names], vocabulary: Vocabulary
+    files: Sequence[ParsedFile],
+    declared: Mapping[str, Declarations],
+    names: Mapping[str, Names],
+    vocabulary: Vocabulary,
 ) -> None:
     for unit in files:
         here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports)]
@@ -93,16 +102,16 @@ def _make_functions_visible(
         names[unit.file.path].functions = {name: vocabulary.functions[name] for name in sorted(own)}
 
 
-def _skills(files: Sequence[ReadFile], settings: Mapping[str, FileContext]) -> dict[str, Skill]:
+def _skills(files: Sequence[ParsedFile], settings: Mapping[str, FileContext]) -> dict[str, Skill]:
     found: dict[str, Skill] = {}
     for unit in files:
         for declaration in unit.file.declarations:
             if isinstance(declaration, s.SkillDeclaration):
-                found[declaration.name.text] = skill(settings[unit.file.path], declaration)
+                found[declaration.name.text] = resolve_skill(settings[unit.file.path], declaration)
     return found
 
 
-def _implementation_names(files: Sequence[ReadFile]) -> dict[str, list[str]]:
+def _implementation_names(files: Sequence[ParsedFile]) -> dict[str, list[str]]:
     found: dict[str, list[str]] = {}
     for unit in files:
         for declaration in unit.file.declarations:
@@ -111,19 +120,19 @@ def _implementation_names(files: Sequence[ReadFile]) -> dict[str, list[str]]:
     return found
 
 
-def _implementations(files: Sequence[ReadFile], settings: Mapping[str, FileContext]) -> Iterator[Implementation]:
+def _implementations(files: Sequence[ParsedFile], settings: Mapping[str, FileContext]) -> Iterator[Implementation]:
     for unit in files:
         context, lines = settings[unit.file.path], unit.text.split("\n")
         for declaration in unit.file.declarations:
             if not isinstance(declaration, s.ImplementationDeclaration):
                 continue
-            of = context.names.skill(declaration.skill)
+            of = context.names.look_up_skill(declaration.skill)
             if of is not None:
-                yield implementation(context, declaration, context.skills[of], lines)
+                yield resolve_implementation(context, declaration, context.skills[of], lines)
 
 
 def _tasks(
-    files: Sequence[ReadFile], settings: Mapping[str, FileContext], scenes: Mapping[str, Individuals]
+    files: Sequence[ParsedFile], settings: Mapping[str, FileContext], scenes: Mapping[str, Individuals]
 ) -> Iterator[Task]:
     for unit in files:
         context = settings[unit.file.path]
@@ -131,11 +140,11 @@ def _tasks(
             if not isinstance(declaration, s.TaskDeclaration):
                 continue
             there = scenes.get(declaration.name.text)
-            known = None if there is None else narrowest(context.vocabulary, there)
-            yield task(replace(context, individuals=known), declaration)
+            known = None if there is None else most_specific_classes(context.vocabulary, there)
+            yield resolve_task(replace(context, individuals=known), declaration)
 
 
-def _headers(files: Sequence[ReadFile], base: Vocabulary) -> Iterator[Diagnostic]:
+def _headers(files: Sequence[ParsedFile], base: Vocabulary) -> Iterator[Diagnostic]:
     """Report vocabularies that there are not, and prefixes that mean something else already."""
     for unit in files:
         for line in unit.file.header:
@@ -147,7 +156,7 @@ def _headers(files: Sequence[ReadFile], base: Vocabulary) -> Iterator[Diagnostic
                             name.span,
                             f"there is no vocabulary `{name.text}`",
                             did_you_mean(name.text, base.prefixes),
-                            fix=correction(name, base.prefixes),
+                            fix=suggest_fix(name, base.prefixes),
                         )
                 case s.Prefix(name=name, iri=iri) if base.prefixes.get(name.text, iri) != iri:
                     yield Diagnostic(

@@ -9,7 +9,7 @@ from typing import Literal, TypeAlias
 from skillc_compiler.program.typed import Skill
 from skillc_compiler.program.types import UNKNOWN, Type
 from skillc_compiler.resolve.names import Names
-from skillc_compiler.resolve.near import correction
+from skillc_compiler.resolve.spelling import suggest_fix
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label, did_you_mean
 from skillc_dsl.source import Span
@@ -19,13 +19,13 @@ Origin: TypeAlias = Literal["parameter", "out", "let", "output", "loop variable"
 
 
 @dataclass(frozen=True, slots=True)
-class Variable:
-    """A local name; `sure` unless it is an output that has no value yet on some path."""
+class LocalName:
+    """A local name; `is_assigned` unless it is an output that has no value yet on some path."""
 
     type: Type
     origin: Origin
     span: Span
-    sure: bool = True
+    is_assigned: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,9 +33,9 @@ class Scope:
     """Local names; `owner` says in messages what they belong to: "skill `Pick`"."""
 
     owner: str
-    variables: Mapping[str, Variable] = field(default_factory=dict)
+    variables: Mapping[str, LocalName] = field(default_factory=dict)
 
-    def having(self, name: str, variable: Variable) -> Scope:
+    def with_name(self, name: str, variable: LocalName) -> Scope:
         """Return the scope with one more name."""
         return replace(self, variables={**self.variables, name: variable})
 
@@ -62,10 +62,10 @@ class FileContext:
     ) -> None:
         """Note that a name means nothing; help is the names it is like, else `otherwise`."""
         help_ = did_you_mean(wrong.text, candidates) or otherwise
-        fix = correction(wrong, candidates)
+        fix = suggest_fix(wrong, candidates)
         self.names.problems.append(Diagnostic(name, wrong.span, message, help_, labels=labels, fix=fix))
 
-    def bind(self, scope: Scope, name: s.Name, variable: Variable) -> Scope:
+    def bind(self, scope: Scope, name: s.Name, variable: LocalName) -> Scope:
         """Return the scope with a new name; a name that is taken is reported."""
         former = scope.variables.get(name.text)
         if former is not None:
@@ -76,5 +76,5 @@ class FileContext:
                 "choose another name",
                 Label(former.span, "declared here"),
             )
-            return scope.having(name.text, replace(former, type=UNKNOWN, sure=True))
-        return scope.having(name.text, variable)
+            return scope.with_name(name.text, replace(former, type=UNKNOWN, is_assigned=True))
+        return scope.with_name(name.text, variable)

@@ -5,24 +5,24 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.program.typed import Parameter, Skill
-from skillc_compiler.program.types import of_library
-from skillc_compiler.resolve.members import constant, duration, requirements
-from skillc_compiler.resolve.scope import FileContext, Scope, Variable
-from skillc_compiler.resolve.typenames import value_type
+from skillc_compiler.program.types import type_of
+from skillc_compiler.resolve.members import resolve_constant, resolve_duration, resolve_requirements
+from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
+from skillc_compiler.resolve.type_names import resolve_type
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 
 
-def skill(context: FileContext, written: s.SkillDeclaration) -> Skill:
+def resolve_skill(context: FileContext, written: s.SkillDeclaration) -> Skill:
     """Return what a description means."""
     parameters = tuple(_parameters(context, written))
-    before, after = scopes(f"the skill `{written.name.text}`", parameters)
+    before, after = build_scopes(f"the skill `{written.name.text}`", parameters)
     return Skill(
         name=written.name.text,
         doc=written.doc,
         parameters=parameters,
-        requirements=tuple(requirements(context, before, after, written.members, {})),
-        duration=duration(context, before, written.members),
+        requirements=tuple(resolve_requirements(context, before, after, written.members, {})),
+        duration=resolve_duration(context, before, written.members),
         devices=tuple(_devices(context, written, parameters)),
         flags=frozenset(m.flag for m in written.members if isinstance(m, s.Flag)),
         name_span=written.name.span,
@@ -30,12 +30,14 @@ def skill(context: FileContext, written: s.SkillDeclaration) -> Skill:
     )
 
 
-def scopes(owner: str, parameters: tuple[Parameter, ...]) -> tuple[Scope, Scope]:
+def build_scopes(owner: str, parameters: tuple[Parameter, ...]) -> tuple[Scope, Scope]:
     """Return the names that can be read before a skill has run, when outputs have no values, and after."""
-    inputs = {p.name: Variable(p.type, "parameter", p.span) for p in parameters if p.direction != "out"}
+    inputs = {p.name: LocalName(p.type, "parameter", p.span) for p in parameters if p.direction != "out"}
     outputs = {p.name: p for p in parameters if p.direction == "out"}
-    before = Scope(owner, {**inputs, **{n: Variable(p.type, "out", p.span, sure=False) for n, p in outputs.items()}})
-    after = Scope(owner, {**inputs, **{n: Variable(p.type, "out", p.span) for n, p in outputs.items()}})
+    before = Scope(
+        owner, {**inputs, **{n: LocalName(p.type, "out", p.span, is_assigned=False) for n, p in outputs.items()}}
+    )
+    after = Scope(owner, {**inputs, **{n: LocalName(p.type, "out", p.span) for n, p in outputs.items()}})
     return before, after
 
 
@@ -58,17 +60,17 @@ def _parameters(context: FileContext, written: s.SkillDeclaration) -> Iterator[P
 
 
 def _parameter(context: FileContext, written: s.Parameter) -> Parameter:
-    declared = value_type(context.names, written.type)
-    kind = of_library(declared)
+    declared = resolve_type(context.names, written.type)
+    kind = type_of(declared)
     return Parameter(
         name=written.name.text,
         direction=written.direction,
         any_=written.any,
         declared=declared,
         type=kind,
-        default=constant(context, written.default, kind),
-        low=constant(context, written.range.low if written.range else None, kind),
-        high=constant(context, written.range.high if written.range else None, kind),
+        default=resolve_constant(context, written.default, kind),
+        low=resolve_constant(context, written.range.low if written.range else None, kind),
+        high=resolve_constant(context, written.range.high if written.range else None, kind),
         doc=written.doc,
         span=written.name.span,
     )

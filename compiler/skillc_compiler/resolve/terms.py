@@ -7,10 +7,10 @@ from typing import TypeVar
 
 import msgspec
 
-from skillc_compiler.program.typed import ReadFile, position
-from skillc_compiler.resolve.declared import Declared, kind_of, namespace, prefix
+from skillc_compiler.program.typed import ParsedFile, start_position
+from skillc_compiler.resolve.declarations import Declarations, library_namespace, library_prefix, term_kind
 from skillc_compiler.resolve.names import Kind, Names
-from skillc_compiler.resolve.typenames import BUILT_IN, value_type
+from skillc_compiler.resolve.type_names import BUILT_IN, resolve_type
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
@@ -19,8 +19,11 @@ from skillc_rdf.vocabulary.types import ClassTerm, FunctionTerm, PropertyTerm, R
 Term = TypeVar("Term", ClassTerm, RelationTerm, PropertyTerm)
 
 
-def extend(
-    vocabulary: Vocabulary, files: Sequence[ReadFile], declared: Mapping[str, Declared], names: Mapping[str, Names]
+def extend_vocabulary(
+    vocabulary: Vocabulary,
+    files: Sequence[ParsedFile],
+    declared: Mapping[str, Declarations],
+    names: Mapping[str, Names],
 ) -> Vocabulary:
     """Return the vocabulary with everything the files declare; problems are told to the files' names."""
     classes, relations = dict(vocabulary.classes), dict(vocabulary.relations)
@@ -47,20 +50,20 @@ def extend(
         vocabulary,
         prefixes=_prefixes(vocabulary, files, declared),
         classes=classes,
-        relations=_with_inverses(relations),
+        relations=_complete_inverses(relations),
         properties=properties,
         functions=functions,
     )
 
 
-def _declared(kind: Kind, name: s.Name, here: Declared, names: Names) -> str:
+def _declared(kind: Kind, name: s.Name, here: Declarations, names: Names) -> str:
     """Return the IRI under which a term is declared; report a prefix that there is not."""
     if ":" in name.text:
-        names.individual(name)
+        names.look_up_individual(name)
     return here.terms[kind][name.text]
 
 
-def _added_to(unit: ReadFile, here: Declared, vocabulary: Vocabulary) -> Iterator[Diagnostic]:
+def _added_to(unit: ParsedFile, here: Declarations, vocabulary: Vocabulary) -> Iterator[Diagnostic]:
     """Report the first declaration of each bare name that adds to a term of a vocabulary instead of making a new one.
 
     A property of another type is reported elsewhere.
@@ -69,7 +72,7 @@ def _added_to(unit: ReadFile, here: Declared, vocabulary: Vocabulary) -> Iterato
     for declaration in unit.file.declarations:
         if not isinstance(declaration, s.ClassDeclaration | s.RelationDeclaration | s.PropertyDeclaration):
             continue
-        name, kind = declaration.name, kind_of(declaration)
+        name, kind = declaration.name, term_kind(declaration)
         table = {"class": vocabulary.classes, "relation": vocabulary.relations, "property": vocabulary.properties}
         old: ClassTerm | RelationTerm | PropertyTerm | None = table[kind].get(here.terms[kind][name.text])  # type: ignore[attr-defined]
         if old is None or ":" in name.text or old.iri in told or _differs(declaration, old):
@@ -99,21 +102,21 @@ def _declared_at(term: ClassTerm | RelationTerm | PropertyTerm) -> tuple[Label, 
 
 
 def _class(written: s.ClassDeclaration, iri: str, old: ClassTerm | None, names: Names) -> ClassTerm:
-    parents = _all(names, written.parents)
-    disjoint = _all(names, written.disjoint)
+    parents = _resolve_classes(names, written.parents)
+    disjoint = _resolve_classes(names, written.disjoint)
     if old is None:
         return ClassTerm(
-            iri=iri, parents=parents, disjoint=disjoint, comment=written.doc, source=position(written.span)
+            iri=iri, parents=parents, disjoint=disjoint, comment=written.doc, source=start_position(written.span)
         )
     return msgspec.structs.replace(old, parents=_union(old.parents, parents), disjoint=_union(old.disjoint, disjoint))
 
 
 def _relation(written: s.RelationDeclaration, iri: str, old: RelationTerm | None, names: Names) -> RelationTerm:
-    domain, range_ = names.term("class", written.domain), names.term("class", written.range)
+    domain, range_ = names.look_up_term("class", written.domain), names.look_up_term("class", written.range)
     signatures = (Signature(domain, range_),) if domain and range_ else ()
     traits = {trait.kind: trait for trait in written.traits}
-    others = {kind: names.term("relation", t.name) for kind, t in traits.items() if t.name is not None}
-    term = old or RelationTerm(iri=iri, signatures=(), comment=written.doc, source=position(written.span))
+    others = {kind: names.look_up_term("relation", t.name) for kind, t in traits.items() if t.name is not None}
+    term = old or RelationTerm(iri=iri, signatures=(), comment=written.doc, source=start_position(written.span))
     parent = others.get("sub")
     return msgspec.structs.replace(
         term,
@@ -127,17 +130,19 @@ def _relation(written: s.RelationDeclaration, iri: str, old: RelationTerm | None
 
 
 def _property(written: s.PropertyDeclaration, iri: str, old: PropertyTerm | None, names: Names) -> PropertyTerm:
-    domain = names.term("class", written.domain)
+    domain = names.look_up_term("class", written.domain)
     domains = (domain,) if domain else ()
-    declared = value_type(names, written.type)
+    declared = resolve_type(names, written.type)
     if old is None:
-        return PropertyTerm(iri=iri, domains=domains, type=declared, comment=written.doc, source=position(written.span))
+        return PropertyTerm(
+            iri=iri, domains=domains, type=declared, comment=written.doc, source=start_position(written.span)
+        )
     if old.type != declared:
-        names.problems.append(_contradicted(written, old, names))
+        names.problems.append(_contradiction(written, old, names))
     return msgspec.structs.replace(old, domains=_union(old.domains, domains))
 
 
-def _contradicted(written: s.PropertyDeclaration, old: PropertyTerm, names: Names) -> Diagnostic:
+def _contradiction(written: s.PropertyDeclaration, old: PropertyTerm, names: Names) -> Diagnostic:
     return Diagnostic(
         "contradicting-declaration",
         written.type.span,
@@ -150,15 +155,15 @@ def _contradicted(written: s.PropertyDeclaration, old: PropertyTerm, names: Name
 def _function(written: s.FunctionDeclaration, names: Names) -> FunctionTerm:
     return FunctionTerm(
         name=written.name.text,
-        parameters=tuple((p.name.text, value_type(names, p.type)) for p in written.parameters),
-        result=value_type(names, written.result),
+        parameters=tuple((p.name.text, resolve_type(names, p.type)) for p in written.parameters),
+        result=resolve_type(names, written.result),
         python=written.python.value,
         comment=written.doc,
-        source=position(written.span),
+        source=start_position(written.span),
     )
 
 
-def _with_inverses(relations: Mapping[str, RelationTerm]) -> dict[str, RelationTerm]:
+def _complete_inverses(relations: Mapping[str, RelationTerm]) -> dict[str, RelationTerm]:
     """Say of both relations that they are inverse, where only one was said to be."""
     stated = {term.inverse: iri for iri, term in relations.items() if term.inverse}
     return {
@@ -167,20 +172,22 @@ def _with_inverses(relations: Mapping[str, RelationTerm]) -> dict[str, RelationT
     }
 
 
-def _prefixes(vocabulary: Vocabulary, files: Sequence[ReadFile], declared: Mapping[str, Declared]) -> dict[str, str]:
+def _prefixes(
+    vocabulary: Vocabulary, files: Sequence[ParsedFile], declared: Mapping[str, Declarations]
+) -> dict[str, str]:
     prefixes = dict(vocabulary.prefixes)
     for unit in files:
         terms = declared[unit.file.path].terms.values()
-        if any(iri.startswith(namespace(unit.library)) for table in terms for iri in table.values()):
-            prefixes[prefix(unit.library, vocabulary.prefixes)] = namespace(unit.library)
+        if any(iri.startswith(library_namespace(unit.library)) for table in terms for iri in table.values()):
+            prefixes[library_prefix(unit.library, vocabulary.prefixes)] = library_namespace(unit.library)
         for line in unit.file.header:
             if isinstance(line, s.Prefix):
                 prefixes.setdefault(line.name.text, line.iri)
     return dict(sorted(prefixes.items()))
 
 
-def _all(names: Names, written: Sequence[s.Name]) -> tuple[str, ...]:
-    return tuple(iri for name in written if (iri := names.term("class", name)))
+def _resolve_classes(names: Names, written: Sequence[s.Name]) -> tuple[str, ...]:
+    return tuple(iri for name in written if (iri := names.look_up_term("class", name)))
 
 
 def _union(one: tuple[str, ...], other: tuple[str, ...]) -> tuple[str, ...]:

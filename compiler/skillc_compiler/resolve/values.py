@@ -18,7 +18,7 @@ from skillc_compiler.program.types import (
     Type,
     Vector,
     fits,
-    of_library,
+    type_of,
 )
 from skillc_compiler.resolve.scope import FileContext, Scope
 from skillc_dsl import syntax as s
@@ -37,7 +37,9 @@ class ExpectedType:
 ANYTHING = ExpectedType()
 
 
-def value(context: FileContext, scope: Scope, written: s.Value, wanted: ExpectedType = ANYTHING) -> TypedExpression:
+def resolve_value(
+    context: FileContext, scope: Scope, written: s.Value, wanted: ExpectedType = ANYTHING
+) -> TypedExpression:
     """Return what a value means; what cannot be understood is reported and has an unknown type."""
     match written:
         case s.Quantity(value=number, unit=unit, span=span):
@@ -69,7 +71,7 @@ def _reference(context: FileContext, scope: Scope, written: s.Reference, wanted:
         return _individual(context, written, wanted)
     known = scope.variables.get(text)
     if known is not None:
-        if not known.sure:
+        if not known.is_assigned:
             context.report(
                 "out-unassigned",
                 span,
@@ -103,7 +105,7 @@ def _unknown_name(context: FileContext, scope: Scope, written: s.Reference, want
 
 
 def _individual(context: FileContext, written: s.Reference, wanted: ExpectedType) -> TypedExpression:
-    iri = context.names.individual(written.name)
+    iri = context.names.look_up_individual(written.name)
     if iri is None:
         return TypedExpression(Individual(written.name.text), UNKNOWN, written.span)
     kind = context.names.kind_of(iri)
@@ -127,20 +129,20 @@ def _class_of(context: FileContext, written: s.Reference, iri: str, wanted: Expe
         return Thing(known[iri])
     fitting = [other for other, cls in known.items() if fits(context.vocabulary, Thing(cls), wanted.type)]
     message = f"there is no `{written.name.text}` in the scene"
-    context.report_unknown("unknown-individual", written.name, message, [context.names.short(i) for i in fitting])
+    context.report_unknown("unknown-individual", written.name, message, [context.names.shorten(i) for i in fitting])
     return UNKNOWN
 
 
 def _member(context: FileContext, scope: Scope, written: s.Member) -> TypedExpression:
-    of = value(context, scope, written.of)
-    iri = property_of(context, of, written.property)
+    of = resolve_value(context, scope, written.of)
+    iri = resolve_property(context, of, written.property)
     if iri is None:
         return TypedExpression(PropertyOf(of.meaning, written.property.text), UNKNOWN, written.span, (of,))
-    kind = of_library(context.vocabulary.properties[iri].type)
+    kind = type_of(context.vocabulary.properties[iri].type)
     return TypedExpression(PropertyOf(of.meaning, iri), kind, written.span, (of,))
 
 
-def property_of(context: FileContext, of: TypedExpression, name: s.Name) -> str | None:
+def resolve_property(context: FileContext, of: TypedExpression, name: s.Name) -> str | None:
     """Return the IRI of a property; near misses are those that `of` can have."""
     names, vocabulary = context.names, context.vocabulary
     if names.is_term("relation", name.text) and not names.is_term("property", name.text):
@@ -151,7 +153,7 @@ def property_of(context: FileContext, of: TypedExpression, name: s.Name) -> str 
             f"write it between two individuals: `a {name.text} b`",
         )
         return None
-    return names.term(
+    return names.look_up_term(
         "property",
         name,
         lambda iri: any(fits(vocabulary, of.type, Thing(domain)) for domain in vocabulary.properties[iri].domains),
@@ -159,40 +161,40 @@ def property_of(context: FileContext, of: TypedExpression, name: s.Name) -> str 
 
 
 def _apply(context: FileContext, scope: Scope, written: s.Apply) -> TypedExpression:
-    function = context.names.function(written.function)
-    wanted = [of_library(kind) for _, kind in function.parameters] if function else []
+    function = context.names.look_up_function(written.function)
+    wanted = [type_of(kind) for _, kind in function.parameters] if function else []
     wanted += [UNKNOWN] * (len(written.arguments) - len(wanted))
     arguments = tuple(
-        value(context, scope, argument, ExpectedType(kind))
+        resolve_value(context, scope, argument, ExpectedType(kind))
         for argument, kind in zip(written.arguments, wanted, strict=False)
     )
-    result = of_library(function.result) if function else UNKNOWN
+    result = type_of(function.result) if function else UNKNOWN
     meaning = Invoke(written.function.text, tuple(a.meaning for a in arguments))
     return TypedExpression(meaning, result, written.span, arguments)
 
 
 def _arithmetic(context: FileContext, scope: Scope, written: s.Arithmetic) -> TypedExpression:
-    left, right = value(context, scope, written.left), value(context, scope, written.right)
+    left, right = resolve_value(context, scope, written.left), resolve_value(context, scope, written.right)
     meaning = Arithmetic(written.operator, left.meaning, right.meaning)
     turned = _is_turned(written.operator, left, right)
-    kind = Direction() if turned else result_type(written.operator, left.type, right.type)
+    kind = Direction() if turned else arithmetic_type(written.operator, left.type, right.type)
     return TypedExpression(meaning, kind or UNKNOWN, written.span, (left, right))
 
 
 def _is_turned(operator: str, left: TypedExpression, right: TypedExpression) -> bool:
     """Whether this is a direction times or by 1 or -1, which is a direction still."""
     one, other = (right, left) if operator == "*" and isinstance(right.type, Direction) else (left, right)
-    is_one = _number(other.type) == Measure(NUMBER) and other.meaning in (Literal(1), Literal(-1))
+    is_one = _as_number_type(other.type) == Measure(NUMBER) and other.meaning in (Literal(1), Literal(-1))
     return operator in ("*", "/") and isinstance(one.type, Direction) and is_one
 
 
-def result_type(operator: str, left: Type, right: Type) -> Type | None:
+def arithmetic_type(operator: str, left: Type, right: Type) -> Type | None:
     """Return the type of `left operator right`, None where the operator does not apply to such values."""
     if UNKNOWN in (left, right):
         return UNKNOWN
     if (left, right) == (INT, INT) and operator != "/":
         return INT
-    match operator, _number(left), _number(right):
+    match operator, _as_number_type(left), _as_number_type(right):
         case "+" | "-", Measure() | Vector() as one, other:
             return one if one == other else None
         case "*", Measure(one), Measure(other):
@@ -206,7 +208,7 @@ def result_type(operator: str, left: Type, right: Type) -> Type | None:
     return None
 
 
-def _number(kind: Type) -> Type:
+def _as_number_type(kind: Type) -> Type:
     """Return what a type is to arithmetic: a whole number is a number, a direction a vector of pure numbers."""
     match kind:
         case Direction():

@@ -67,8 +67,8 @@ def summarise(found: Sequence[Diagnostic]) -> str:
 def _sarif(diagnostics: Sequence[Diagnostic], texts: Mapping[str, Source]) -> str:
     from importlib.metadata import version
 
-    from skillc_compiler.manual import pages
+    from skillc_compiler.manual import load_pages
     from skillc_dsl.rendering.sarif import SarifRule, render
 
-    rules = {page.name: SarifRule(page.name, page.title, page.prose or page.title) for page in pages().values()}
+    rules = {page.name: SarifRule(page.name, page.title, page.prose or page.title) for page in load_pages().values()}
     return render(diagnostics, texts, rules, version("skillc"))

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 import click
 
 from skillc.cli.console import has_colours, page_width
-from skillc_compiler.manual import Page, by_family
+from skillc_compiler.manual import Page, group_by_family
 
 _WIDEST = 100
 """Cells of a line of prose that is read with ease."""
@@ -29,7 +29,7 @@ def format_contents(pages: Mapping[str, Page]) -> str:
     """Return the names and titles of all pages by family."""
     widest = max(len(name) for name in pages)
     lines: list[str] = []
-    for family, members in by_family(pages.values()).items():
+    for family, members in group_by_family(pages.values()).items():
         lines.append(_styled(family, fg="cyan"))
         for each in members:
             first, *rest = textwrap.wrap(each.title, max(_width() - widest - 4, 24))

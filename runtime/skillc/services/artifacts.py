@@ -12,8 +12,8 @@ from skillc.services.reporting import Reporter
 from skillc_compiler.emit.artifacts import artifacts
 from skillc_compiler.emit.headers import is_ours
 from skillc_compiler.emit.write import EmitError, write
-from skillc_compiler.program.typed import ReadFile
-from skillc_compiler.resolve.files import read
+from skillc_compiler.program.typed import ParsedFile
+from skillc_compiler.resolve.files import read_sources
 from skillc_model.skills import SkillLibrary
 
 
@@ -44,9 +44,9 @@ def compile_and_report(files: LibraryFiles, reporter: Reporter) -> SkillLibrary:
     return outcome.value
 
 
-def read_files(files: LibraryFiles) -> tuple[ReadFile, ...]:
+def read_files(files: LibraryFiles) -> tuple[ParsedFile, ...]:
     """Return the parsed files of a library and what they import."""
-    return read(files.sources, files.importable, files.name).value
+    return read_sources(files.sources, files.importable, files.name).value
 
 
 def _write(texts: Mapping[str, str], output: Path, is_own: Callable[[str], bool] = is_ours) -> tuple[Path, ...]:

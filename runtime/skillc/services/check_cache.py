@@ -116,10 +116,10 @@ def _python(sources: Iterable[Source]) -> Iterator[str]:
     foreign = sorted(target for target in named if target[0].partition(".")[0] not in PACKAGES)
     if not foreign:
         return
-    from skillc_compiler.python.reading import read
+    from skillc_compiler.python.targets import read_target
 
     for module, name in foreign:
-        yield from (module, name, repr(read(module, name)))
+        yield from (module, name, repr(read_target(module, name)))
 
 
 def _states(folder: str) -> Iterator[str]:

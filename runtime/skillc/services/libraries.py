@@ -19,9 +19,9 @@ from skillc.services.library_files import (
 )
 from skillc_compiler import pipeline
 from skillc_compiler.program.typed import Program
-from skillc_compiler.resolve.files import read
+from skillc_compiler.resolve.files import read_sources
 from skillc_compiler.resolve.individuals import Individuals
-from skillc_compiler.resolve.program import resolve
+from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
 from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.parsing.parser import parse
@@ -44,13 +44,13 @@ def compile_library(library: LibraryFiles, find_individuals: IndividualsByTask |
     """
     with gc_disabled():
         known = vocabulary_with(library.vocabularies)
-        files = read(library.sources, library.importable, library.name, _parse)
-        program = resolve(files.value, known.value, library.name, pipeline.NO_SCENES)
+        files = read_sources(library.sources, library.importable, library.name, _parse)
+        program = resolve_program(files.value, known.value, library.name, pipeline.NO_SCENES)
         individuals = find_individuals(program.value) if find_individuals else {}
         if individuals:
-            program = resolve(files.value, known.value, library.name, individuals)
-        checked = Outcome(program.value, pipeline.problems(files, program))
-        outcome = pipeline.finish(checked, library.sources)
+            program = resolve_program(files.value, known.value, library.name, individuals)
+        checked = Outcome(program.value, pipeline.find_problems(files, program))
+        outcome = pipeline.lower_and_report(checked, library.sources)
     return Outcome(outcome.value, tuple(_relocate(d, library) for d in (*known.diagnostics, *outcome.diagnostics)))
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from skillc_compiler.program import walk
-from skillc_compiler.program.typed import Implementation, Program, TypedExpression, position
+from skillc_compiler.program.typed import Implementation, Program, TypedExpression, start_position
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label, Outcome, Severity, did_you_mean
 from skillc_dsl.source import Span
 from skillc_model.conditions import Literal
@@ -39,10 +39,10 @@ def value_places(program: Program) -> dict[tuple[Position, str], Span]:
     its parameter or local value.
     """
     found: dict[tuple[Position, str], Span] = {}
-    for call in walk.calls(program):
-        found |= {(position(call.written.span), each.name.text): each.value.span for each in call.arguments}
+    for call in walk.all_calls(program):
+        found |= {(start_position(call.written.span), each.name.text): each.value.span for each in call.arguments}
     for one in program.implementations:
-        at = position(one.span)
+        at = start_position(one.span)
         found |= {(at, each.name): each.default.span for each in one.parameters if each.default}
         found |= {(at, each.name.text): each.value.span for each in one.lets}
     own = _own(program)
@@ -110,7 +110,7 @@ def _given(program: Program) -> Iterator[_GivenText]:
 
 
 def _arguments(program: Program) -> Iterator[tuple[TypedExpression, str, str, None]]:
-    for call in walk.calls(program):
+    for call in walk.all_calls(program):
         if call.skill:
             yield from ((each.value, each.name.text, call.skill.name, None) for each in call.arguments)
 

@@ -22,7 +22,7 @@ from skillc_compiler.emit.docs.terms_page import shown_terms, term_groups
 from skillc_compiler.emit.docs.written import Written, written
 from skillc_compiler.emit.picture import svg
 from skillc_compiler.emit.picture.drawing import task_box
-from skillc_compiler.program.typed import ReadFile
+from skillc_compiler.program.typed import ParsedFile
 from skillc_model.skills import Skill, SkillLibrary, Task
 
 ENTRIES = "[/* entries */]"
@@ -68,7 +68,7 @@ class ShownTask:
     picture: Markup
 
 
-def site(library: SkillLibrary, files_read: Sequence[ReadFile]) -> dict[str, str]:
+def site(library: SkillLibrary, files_read: Sequence[ParsedFile]) -> dict[str, str]:
     """Return the text of each file of the reference by its path, `/` between folders.
 
     `files_read` are the files that the library was compiled from.
@@ -84,7 +84,7 @@ def site(library: SkillLibrary, files_read: Sequence[ReadFile]) -> dict[str, str
     return dict(sorted((pages | _skills(contents) | _sources(contents)).items()))
 
 
-def _contents(library: SkillLibrary, files_read: Sequence[ReadFile]) -> Contents:
+def _contents(library: SkillLibrary, files_read: Sequence[ParsedFile]) -> Contents:
     own = {unit.file.path for unit in files_read if unit.library == library.name}
     skills = tuple(skill for _, skill in sorted(library.skills.items()))
     return Contents(

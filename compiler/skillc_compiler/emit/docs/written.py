@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from skillc_compiler.program.typed import ReadFile
+from skillc_compiler.program.typed import ParsedFile
 from skillc_dsl import syntax as s
 from skillc_dsl.parsing.building.places import TreeBuilder
 from skillc_dsl.source import Source, Span
@@ -29,7 +29,7 @@ class Written:
         return TreeBuilder(self.source(span)).written(span)
 
 
-def written(files: Sequence[ReadFile]) -> Written:
+def written(files: Sequence[ParsedFile]) -> Written:
     """Return what the files declare."""
     declared = [each for unit in files for each in unit.file.declarations]
     return Written(

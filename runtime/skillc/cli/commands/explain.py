@@ -19,14 +19,14 @@ from skillc.cli.command import Command
 def command(name: str | None, as_json: bool) -> None:
     """Explain the diagnostic NAME, such as `unknown-class`; list them all without a name."""
     from skillc.cli.manual_pages import format_contents, format_page
-    from skillc_compiler.manual import page, page_names, pages
+    from skillc_compiler.manual import load_page, load_pages, page_names
     from skillc_dsl.diagnostics import did_you_mean
 
     if name is not None and name not in page_names():
         hint = did_you_mean(name, page_names()) or "`skillc explain` lists them all"
         raise click.UsageError(f"there is no diagnostic `{name}`; {hint}")
     if as_json:
-        data = asdict(page(name)) if name else [asdict(each) for each in pages().values()]
+        data = asdict(load_page(name)) if name else [asdict(each) for each in load_pages().values()]
         click.echo(json.dumps(data, indent=2, ensure_ascii=False))
     else:
-        click.echo(format_page(page(name)) if name else format_contents(pages()), nl=False, color=True)
+        click.echo(format_page(load_page(name)) if name else format_contents(load_pages()), nl=False, color=True)

@@ -8,7 +8,7 @@ from skillc_dsl.diagnostics import Diagnostic, did_you_mean
 from skillc_dsl.units import DIMENSIONS
 from skillc_rdf.vocabulary.types import ClassType, DirectionType, ListType, NumberType, PlainType, ValueType, VectorType
 
-NOT_UNDERSTOOD = NumberType("?")
+UNRESOLVED_TYPE = NumberType("?")
 BUILT_IN: dict[str, ValueType] = {
     **{name: NumberType(name) for name in DIMENSIONS},
     "Bool": PlainType("Bool"),
@@ -20,11 +20,11 @@ BUILT_IN: dict[str, ValueType] = {
 }
 
 
-def value_type(names: Names, written: s.TypeName) -> ValueType:
+def resolve_type(names: Names, written: s.TypeName) -> ValueType:
     """Return the type; a name that means none is reported, and NOT_UNDERSTOOD is returned for it."""
     match written:
         case s.ListOf(element=element):
-            return ListType(value_type(names, element))
+            return ListType(resolve_type(names, element))
         case s.OfDimension():
             return _of_dimension(names, written)
         case s.Name(text=text) if text in BUILT_IN:
@@ -42,18 +42,18 @@ def _of_dimension(names: Names, written: s.OfDimension) -> ValueType:
         message = f"only a `Vector` is of a dimension, and this is `{of.text}`"
         help_ = f"write `{dimension.text}` alone" if of.text in DIMENSIONS else f"write `{of.text}` alone"
         names.problems.append(Diagnostic("unknown-type", written.span, message, help=help_))
-        return NOT_UNDERSTOOD
+        return UNRESOLVED_TYPE
     if dimension.text not in DIMENSIONS:
         message = f"there is no dimension `{dimension.text}`"
         help_ = did_you_mean(dimension.text, DIMENSIONS)
         names.problems.append(Diagnostic("unknown-type", dimension.span, message, help=help_))
-        return NOT_UNDERSTOOD
+        return UNRESOLVED_TYPE
     return VectorType(dimension.text)
 
 
 def _class(names: Names, written: s.Name) -> ValueType:
-    iri = names.term("class", written)
-    return ClassType(iri) if iri else NOT_UNDERSTOOD
+    iri = names.look_up_term("class", written)
+    return ClassType(iri) if iri else UNRESOLVED_TYPE
 
 
 def _unknown(names: Names, written: s.Name) -> ValueType:
@@ -63,5 +63,5 @@ def _unknown(names: Names, written: s.Name) -> ValueType:
         names.problems.append(
             Diagnostic("unknown-type", written.span, f"there is no type `{written.text}`", help=close)
         )
-        return NOT_UNDERSTOOD
+        return UNRESOLVED_TYPE
     return _class(names, written)

@@ -9,7 +9,7 @@ from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Fix
 
 
-def correction(wrong: s.Name, candidates: Iterable[str]) -> Fix | None:
+def suggest_fix(wrong: s.Name, candidates: Iterable[str]) -> Fix | None:
     """Return the edit that puts the one candidate close to a name in its place, None if none or several are close."""
     near = difflib.get_close_matches(wrong.text, sorted(set(candidates)), n=2, cutoff=0.75)
     if len(near) != 1:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from skillc_compiler.analysis.alias_types import AliasTypes
+from skillc_compiler.analysis.assume import assume
 from skillc_compiler.analysis.binding import class_of
-from skillc_compiler.analysis.learning import learned
-from skillc_compiler.analysis.sorts import Sorts
-from skillc_compiler.analysis.state import State, Thing
+from skillc_compiler.analysis.state import IndividualTerm, State
 from skillc_compiler.program.typed import Implementation, Parameter, Requirement, Task
 from skillc_compiler.program.types import Thing as ThingType
 from skillc_model.conditions import Compare, Condition, Given, Individual, Literal, Variable
@@ -21,42 +21,42 @@ def requirements_of(implementation: Implementation, kind: str) -> tuple[Requirem
     return tuple(each for each in both if each.kind == kind)
 
 
-def name_sorts(sorts: Sorts, of: Implementation | Task) -> None:
-    """Note the class of each parameter and of each named individual."""
+def declare_names(types: AliasTypes, of: Implementation | Task) -> None:
+    """Record the class of each parameter and of each `let` that names an individual."""
     if isinstance(of, Implementation):
-        sorts.classes.update({p.name: class_of(p) for p in of.parameters})
+        types.classes.update({p.name: class_of(p) for p in of.parameters})
         for let in of.lets:
             if isinstance(let.value.type, ThingType):
-                sorts.classes[let.name.text] = let.value.type.cls or THING
+                types.classes[let.name.text] = let.value.type.cls or THING
 
 
-def opening(sorts: Sorts, implementation: Implementation) -> State:
-    """Return the state at the start: preconditions and holds hold, numbers are in range, lets are named."""
-    state = unconditional(implementation)
-    for requirement in _required(implementation):
-        state = learned(sorts, state, requirement.clause.meaning) or state
+def initial_state(types: AliasTypes, implementation: Implementation) -> State:
+    """Return the state at the start: preconditions and holds hold, numbers are in range, `let` names are aliases."""
+    state = parameter_state(implementation)
+    for requirement in _assumed_requirements(implementation):
+        state = assume(types, state, requirement.condition.meaning) or state
     return state
 
 
-def can_start(sorts: Sorts, implementation: Implementation) -> bool:
+def can_start(types: AliasTypes, implementation: Implementation) -> bool:
     """Whether the preconditions and holds do not contradict each other."""
-    state: State | None = unconditional(implementation)
-    for requirement in _required(implementation):
-        state = learned(sorts, state, requirement.clause.meaning) if state is not None else None
+    state: State | None = parameter_state(implementation)
+    for requirement in _assumed_requirements(implementation):
+        state = assume(types, state, requirement.condition.meaning) if state is not None else None
     return state is not None
 
 
-def _required(implementation: Implementation) -> tuple[Requirement, ...]:
+def _assumed_requirements(implementation: Implementation) -> tuple[Requirement, ...]:
     return (*requirements_of(implementation, "pre"), *requirements_of(implementation, "hold"))
 
 
-def unconditional(implementation: Implementation) -> State:
-    """Return what is known without the conditions: numbers are in range, lets are named."""
-    return State(facts=dict(_ranges(implementation.parameters)), same=_lets(implementation))
+def parameter_state(implementation: Implementation) -> State:
+    """Return what is known without the conditions: numbers are in range, `let` names are aliases."""
+    return State(facts=dict(_ranges(implementation.parameters)), aliases=_let_aliases(implementation))
 
 
-def _lets(implementation: Implementation) -> dict[str, Thing]:
-    found: dict[str, Thing] = {}
+def _let_aliases(implementation: Implementation) -> dict[str, IndividualTerm]:
+    found: dict[str, IndividualTerm] = {}
     for let in implementation.lets:
         meaning = let.value.meaning
         if isinstance(meaning, Variable | Individual):

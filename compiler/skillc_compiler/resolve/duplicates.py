@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from skillc_compiler.program.typed import ReadFile
-from skillc_compiler.resolve.declared import Declared
+from skillc_compiler.program.typed import ParsedFile
+from skillc_compiler.resolve.declarations import Declarations
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label, Outcome
 from skillc_dsl.source import Span
 
 
-def without_repeats(files: Sequence[ReadFile], declared: Mapping[str, Declared]) -> Outcome[tuple[ReadFile, ...]]:
+def remove_duplicates(
+    files: Sequence[ParsedFile], declared: Mapping[str, Declarations]
+) -> Outcome[tuple[ParsedFile, ...]]:
     """Return the files with the first skill, implementation and task of each name; report every second declaration.
 
     Implementations that follow a second skill of a name in its file were written for that one: they go with it.
@@ -22,13 +24,13 @@ def without_repeats(files: Sequence[ReadFile], declared: Mapping[str, Declared])
     problems: list[Diagnostic] = []
     kept = []
     for unit in files:
-        declarations = tuple(_first(unit.file, declared[unit.file.path], first, problems))
+        declarations = tuple(_first_declarations(unit.file, declared[unit.file.path], first, problems))
         kept.append(replace(unit, file=replace(unit.file, declarations=declarations)))
     return Outcome(tuple(kept), tuple(problems))
 
 
-def _first(
-    file: s.File, declared: Declared, first: dict[tuple[str, ...], Span], problems: list[Diagnostic]
+def _first_declarations(
+    file: s.File, declared: Declarations, first: dict[tuple[str, ...], Span], problems: list[Diagnostic]
 ) -> Iterator[s.Declaration]:
     """Yield the declarations that stay; `first` holds the places of those known so far and is added to."""
     second_skills: set[str] = set()
@@ -59,7 +61,7 @@ def _problem(kind: str, name: s.Name, first: Span) -> Diagnostic:
     )
 
 
-def _identity(declaration: s.Declaration, declared: Declared) -> tuple[str, ...]:
+def _identity(declaration: s.Declaration, declared: Declarations) -> tuple[str, ...]:
     name = declaration.name.text
     match declaration:
         case s.ClassDeclaration():

@@ -1,44 +1,44 @@
-"""The classes of the individuals that names stand for, and which two can never be the same."""
+"""The classes of the individuals that names denote, and which names can never denote the same individual."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from skillc_compiler.analysis.axioms import Axioms
-from skillc_compiler.analysis.state import State, Thing
+from skillc_compiler.analysis.axioms import RelationAxioms
+from skillc_compiler.analysis.state import IndividualTerm, State
 from skillc_model.conditions import Individual, IsA, Same, Variable
 from skillc_rdf.vocabulary.types import THING, Vocabulary
 
-SOME = "?"
+ANY_PREFIX = "?"
 
 
 @dataclass(frozen=True)
-class Sorts:
-    """The class of each name, as far as known. A name that begins with `?` is some individual of the class after it."""
+class AliasTypes:
+    """The class of each name, as far as known. A name with ANY_PREFIX is any individual of the class after it."""
 
     vocabulary: Vocabulary
-    axioms: Axioms
+    axioms: RelationAxioms
     classes: dict[str, str] = field(default_factory=dict)
 
-    def class_of(self, thing: Thing) -> str:
-        """Return the class by declaration; that of an individual is not known."""
+    def class_of(self, thing: IndividualTerm) -> str:
+        """Return the declared class of a name; `owl:Thing` for a named individual."""
         if isinstance(thing, Individual):
             return THING
-        return thing.name[1:] if thing.name.startswith(SOME) else self.classes.get(thing.name, THING)
+        return thing.name[1:] if thing.name.startswith(ANY_PREFIX) else self.classes.get(thing.name, THING)
 
     def is_computed(self, relation: str) -> bool:
-        """Whether a relation follows from other facts by a computation."""
+        """Whether a relation is computed from other facts."""
         return relation in self.vocabulary.relations and self.vocabulary.is_computed(relation)
 
-    def is_decided_by(self, relation: str, written: frozenset[str]) -> bool:
-        """Whether a computed relation may change with one of these relations, by their one name, and properties."""
+    def depends_on(self, relation: str, written: frozenset[str]) -> bool:
+        """Whether a computed relation may change with one of these relations (canonical IRIs) and properties."""
         if not self.is_computed(relation):
             return False
         known = self.vocabulary.relations[relation].computed_from
-        return not known or not written.isdisjoint(self.axioms.name.get(each, (each, False))[0] for each in known)
+        return not known or not written.isdisjoint(self.axioms.canonical.get(each, (each, False))[0] for each in known)
 
-    def is_a(self, state: State, thing: Thing, cls: str) -> bool | None:
-        """Whether the individual is of the class."""
+    def is_a(self, state: State, thing: IndividualTerm, cls: str) -> bool | None:
+        """Whether the individual is of the class; None if unknown."""
         if self.vocabulary.is_a(self.class_of(thing), cls):
             return True
         known = state.facts.get(IsA(thing, cls))
@@ -50,13 +50,13 @@ class Sorts:
             return False
         return None
 
-    def differ(self, state: State, one: Thing, other: Thing) -> bool:
-        """Whether the two are certainly not the same individual."""
+    def are_distinct(self, state: State, one: IndividualTerm, other: IndividualTerm) -> bool:
+        """Whether the two are certainly different individuals."""
         if one == other:
             return False
         if isinstance(one, Individual) and isinstance(other, Individual):
             return True
-        if state.facts.get(same(one, other)) is False:
+        if state.facts.get(same_individual(one, other)) is False:
             return True
         return any(
             self.vocabulary.disjoint(mine, yours)
@@ -64,23 +64,23 @@ class Sorts:
             for yours in self._classes(state, other)
         )
 
-    def _classes(self, state: State, thing: Thing) -> list[str]:
+    def _classes(self, state: State, thing: IndividualTerm) -> list[str]:
         known = [
             fact.cls for fact, true in state.facts.items() if true and isinstance(fact, IsA) and fact.subject == thing
         ]
         return [self.class_of(thing), *known]
 
 
-def same(one: Thing, other: Thing) -> Same:
-    """Return the condition that both are the same, in the one form in which it is kept."""
+def same_individual(one: IndividualTerm, other: IndividualTerm) -> Same:
+    """Return the condition that both are the same individual, in canonical order."""
     first, second = sorted((one, other), key=_order)
     return Same(first, second)
 
 
-def some(cls: str) -> Variable:
-    """Return a name for some individual of a class, whichever."""
-    return Variable(SOME + cls)
+def any_individual(cls: str) -> Variable:
+    """Return a name for any individual of a class."""
+    return Variable(ANY_PREFIX + cls)
 
 
-def _order(thing: Thing) -> tuple[bool, str]:
+def _order(thing: IndividualTerm) -> tuple[bool, str]:
     return (False, thing.iri) if isinstance(thing, Individual) else (True, thing.name)

@@ -40,7 +40,7 @@ class Other:
 
 
 @dataclass(frozen=True, slots=True)
-class Signature:
+class PythonSignature:
     """What can be passed: `by_position` in order, the first `unnamed` of them not by name, and `by_name` only by name.
 
     `needed` are those without a default. With `args` and `named` any other is taken too, by position and by name.
@@ -53,18 +53,18 @@ class Signature:
     args: bool = False
     named: bool = False
 
-    def without_first(self, count: int) -> Signature:
+    def without_first(self, count: int) -> PythonSignature:
         """Return what is left to pass when the first `count` are passed by position."""
         gone, rest = self.by_position[:count], self.by_position[count:]
         needed = tuple(name for name in self.needed if name not in gone)
-        return Signature(rest, max(0, self.unnamed - count), self.by_name, needed, self.args, self.named)
+        return PythonSignature(rest, max(0, self.unnamed - count), self.by_name, needed, self.args, self.named)
 
 
 @dataclass(frozen=True, slots=True)
-class FunctionFound:
+class FunctionInfo:
     """A function; None for a signature that the text does not tell."""
 
-    signature: Signature | None
+    signature: PythonSignature | None
     asynchronous: bool = False
 
 
@@ -73,22 +73,22 @@ class Method:
     """A method, without `self`, and the class "module:Class" that defines it."""
 
     owner: str
-    function: FunctionFound
+    function: FunctionInfo
 
 
 @dataclass(frozen=True, slots=True)
-class ClassFound:
+class ClassInfo:
     """A class. `ancestors` are its own "module:Class" and those it inherits from; if `complete`, there are no others.
 
     None for a constructor that the text does not tell. `methods` are all that its text and theirs define, None for one
     that the text does not tell.
     """
 
-    constructor: Signature | None
+    constructor: PythonSignature | None
     ancestors: tuple[str, ...]
     complete: bool
     methods: Mapping[str, Method | None]
 
 
-Found: TypeAlias = NoModule | BrokenModule | NoName | Unclear | Other | FunctionFound | ClassFound
+TargetInfo: TypeAlias = NoModule | BrokenModule | NoName | Unclear | Other | FunctionInfo | ClassInfo
 UNCLEAR = Unclear()

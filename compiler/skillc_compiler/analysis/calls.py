@@ -1,0 +1,170 @@
+"""Calls of skills: their preconditions are checked, then the states after success and failure are computed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from skillc_compiler.analysis.apply_effects import apply_effects
+from skillc_compiler.analysis.assume import assume, unify
+from skillc_compiler.analysis.binding import (
+    Binding,
+    bind_call,
+    call_requirements,
+    candidates,
+    class_of,
+    definite_effects,
+    fresh_variable,
+)
+from skillc_compiler.analysis.evaluate import evaluate, known_individuals
+from skillc_compiler.analysis.exploration import CallEffect, EvalContext, Exploration, havoc_concurrent
+from skillc_compiler.analysis.havoc import havoc
+from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, add_state, extend_path
+from skillc_compiler.analysis.state import State
+from skillc_compiler.analysis.summaries import hide_names, in_caller_terms
+from skillc_compiler.analysis.writes import Write
+from skillc_compiler.program.typed import Call, Requirement
+from skillc_model.conditions import Variable
+from skillc_model.reading import free_variables
+
+
+def explore_call(run: Exploration, call: Call, states: StatePaths, context: EvalContext) -> EndStates:
+    """Return how a call can end from each of these states."""
+    ends = EndStates()
+    run.check_reads((argument.value for argument in call.arguments), (), states)
+    pre, hold = call_requirements(run.program, call, "pre"), call_requirements(run.program, call, "hold")
+    for state, path in states.items():
+        run.check_holds(state, path)
+        if call.skill is None:
+            _end_unknown_call(call, state, path, ends)
+            continue
+        state = _rename_fresh_variables(run, call, state)
+        binding = bind_call(run.types, state, call, pre)
+        for name in binding.open_:
+            state = state.without_name(name)
+        _check_conditions(run, call, binding, (*pre, *hold), state, path, context)
+        _end_call(run, call, binding, (pre, hold), state, path, context, ends)
+    return ends
+
+
+def _rename_fresh_variables(run: Exploration, call: Call, state: State) -> State:
+    """Return the state with new names for what an earlier round of the same call found at run time."""
+    assert call.skill is not None, "only calls of known skills find anything"
+    known = known_individuals(state)
+    for parameter in call.skill.parameters:
+        name = fresh_variable(call, parameter)
+        if name in known:
+            former = Variable(f"{name.name}'")
+            run.types.classes[former.name] = class_of(parameter)
+            state = unify(state.without_name(former.name), name, former)
+            state = state.replace(aliases={key: thing for key, thing in state.aliases.items() if key != name.name})
+            known = known_individuals(state)
+    return state
+
+
+def _end_unknown_call(call: Call, state: State, path: Path, ends: EndStates) -> None:
+    done = state.replace(assigned=state.assigned | {call.out.text}) if call.out else state
+    add_state(ends.success, done, path)
+    add_state(ends.failure, state, path)
+
+
+def _check_conditions(
+    run: Exploration,
+    call: Call,
+    binding: Binding,
+    conditions: Sequence[Requirement],
+    state: State,
+    path: Path,
+    context: EvalContext,
+) -> None:
+    """Record what is known of the conditions at the start; one on an inferred individual is open until run time."""
+    for requirement in conditions:
+        condition = binding.at_start(requirement.condition.meaning)
+        known = evaluate(run.types, state, condition)
+        at_run_time = requirement.kind == "hold" or not free_variables(condition).isdisjoint(binding.open_)
+        run.count_precondition(call, requirement, known, context.caught or (at_run_time and known is None), path)
+
+
+def _end_call(
+    run: Exploration,
+    call: Call,
+    binding: Binding,
+    conditions: tuple[Sequence[Requirement], Sequence[Requirement]],
+    state: State,
+    path: Path,
+    context: EvalContext,
+    ends: EndStates,
+) -> None:
+    name, span = binding.skill.name, call.written.span
+    succeeded, failed = extend_path(path, span, f"`{name}` succeeds"), extend_path(path, span, f"`{name}` fails")
+    started = _assume_started(run, binding, (*conditions[0], *conditions[1]), state)
+    after = havoc_concurrent(run, _assume_succeeded(run, call, binding, started), context)
+    less = havoc_concurrent(
+        run, havoc(run.types, state, _hide_unstable(run, run.summaries.writes_of_call(call, failing=True))), context
+    )
+    breaks = run.summaries.may_break_hold(binding.skill)
+    for outcome, ended, trail in _monitored_ends(run, call, state, (after, less), (succeeded, failed), breaks):
+        if outcome == "success" and "endless" in binding.skill.flags:
+            continue
+        add_state({"success": ends.success, "failure": ends.failure, "broken": ends.broken}[outcome], ended, trail)
+
+
+def _monitored_ends(
+    run: Exploration,
+    call: Call,
+    before: State,
+    after: tuple[State, State],
+    trails: tuple[PathStep, PathStep],
+    breaks: bool,
+) -> Iterator[tuple[str, State, PathStep]]:
+    """Yield the ends of a call as (outcome, state, path), with the state of the monitor if a property is monitored."""
+    assert call.skill is not None, "only calls of known skills are watched"
+    if run.monitor is None:
+        yield "success", after[0], trails[0]
+        yield "failure", after[1], trails[1]
+        if breaks:
+            yield "broken", after[1], trails[1]
+        return
+    name, started = call.skill.name, replace(trails[0], event=f"`{call.skill.name}` starts")
+    begun = run.monitor.on_start(run, before, started, name)
+    for outcome, monitors in run.monitor.after_body(call, before, begun, started).items():
+        good = outcome == "success"
+        ended, trail = (after[0], trails[0]) if good else (after[1], trails[1])
+        for monitor in sorted(monitors):
+            told = ended.replace(monitor=monitor)
+            yield outcome, run.monitor.on_success(run, told, name) if good else told, trail
+
+
+def _assume_started(run: Exploration, binding: Binding, conditions: Sequence[Requirement], state: State) -> State:
+    """Return the state, knowing that the skill runs, so that its pre- and hold conditions hold."""
+    for requirement in conditions:
+        state = assume(run.types, state, binding.at_start(requirement.condition.meaning)) or state
+    return state
+
+
+def _assume_succeeded(run: Exploration, call: Call, binding: Binding, state: State) -> State:
+    """Return the state after the skill succeeded: its writes are applied and its postconditions hold."""
+    hidden_writes = {write for one in candidates(run.program, call) for write in run.leaks(one)}
+    if "fallback" in binding.skill.flags:
+        hidden_writes |= {w for one in candidates(run.program, call) for w in run.summaries.writes_on_failure(one)}
+    state = havoc(run.types, state, _hide_unstable(run, in_caller_terms(call, frozenset(hidden_writes))))
+    if call.out is not None:
+        state = state.without_name(call.out.text)
+        _declare_output(run, call)
+    posts = call_requirements(run.program, call, "post")
+    had = [CallEffect(call, post, binding.effect(effect)) for post, effect in definite_effects(posts)]
+    run.effects.update({(id(call), id(one.post), one.effect): one for one in had})
+    state = apply_effects(run.types, state, [one.effect for one in had])
+    for post in posts:
+        state = assume(run.types, state, binding.at_end(post.condition.meaning)) or state
+    return state.replace(assigned=state.assigned | {call.out.text}) if call.out is not None else state
+
+
+def _declare_output(run: Exploration, call: Call) -> None:
+    outputs = [p for p in call.skill.parameters if p.direction == "out"] if call.skill else []
+    if outputs and call.out is not None:
+        run.types.classes[call.out.text] = class_of(outputs[0])
+
+
+def _hide_unstable(run: Exploration, writes: frozenset[Write]) -> frozenset[Write]:
+    return hide_names(writes, run.stable)

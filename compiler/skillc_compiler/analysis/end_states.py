@@ -1,0 +1,252 @@
+"""Checks of the states in which a body ends: unproved posts, undeclared effects, changes left behind by a failure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.analysis.alias_types import AliasTypes
+from skillc_compiler.analysis.apply_effects import apply_effects
+from skillc_compiler.analysis.assume import assume
+from skillc_compiler.analysis.binding import definite_effects
+from skillc_compiler.analysis.evaluate import evaluate
+from skillc_compiler.analysis.exploration import CallEffect, Exploration
+from skillc_compiler.analysis.findings import Finding, LeakedChange, UnassignedOutput, UndeclaredEffect, UnprovedPost
+from skillc_compiler.analysis.initial_state import requirements_of
+from skillc_compiler.analysis.paths import EndStates, Path, StatePaths, path_length
+from skillc_compiler.analysis.state import State
+from skillc_compiler.analysis.writes import PropertyWrite, RelationWrite, Write, write_of, written_condition
+from skillc_compiler.program.typed import Body, Call, Implementation, Requirement, TypedNode
+from skillc_compiler.program.walk import calls_in, nodes_in
+from skillc_dsl import syntax as s
+from skillc_model.conditions import (
+    Arithmetic,
+    Condition,
+    Effect,
+    Exists,
+    Forall,
+    Holds,
+    Invoke,
+    IsA,
+    Not,
+    PropertyOf,
+    Same,
+    Variable,
+)
+from skillc_model.reading import free_variables, walk
+
+
+def end_findings(run: Exploration, implementation: Implementation, start: State, ends: EndStates) -> Iterator[Finding]:
+    """Yield the findings about the states in which an implementation ends.
+
+    If a postcondition is not established, an undeclared effect usually has the same cause and is not reported.
+    """
+    unassigned: set[str] = set()
+    unproved: list[Finding] = []
+    for parameter in implementation.parameters:
+        states = [path for state, path in ends.success.items() if parameter.name not in state.assigned]
+        if parameter.direction == "out" and states:
+            unassigned.add(parameter.name)
+            yield UnassignedOutput(implementation, parameter, min(states, key=path_length))
+    for post in requirements_of(implementation, "post"):
+        if unassigned.isdisjoint(free_variables(post.condition.meaning)):
+            unproved += _check_post(run, implementation, post, ends.success)
+    yield from unproved
+    declared = _declared_state(run, implementation, start)
+    effects = {one.effect: one for one in reversed(run.effects.values())}
+    for one in effects.values():
+        condition = effect_condition(one.effect)
+        if condition is not None:
+            if not unproved:
+                yield from _check_declared(run, implementation, one, condition, (start, declared), ends.success)
+            yield from _check_released(run, one, condition, start, ends)
+
+
+def undeclared_writes(
+    run: Exploration, implementation: Implementation, start: State, ends: EndStates
+) -> frozenset[Write]:
+    """Return the writes that a successful execution may leave behind and that the description does not declare."""
+    declared = _declared_state(run, implementation, start)
+    found = set()
+    for write in run.summaries.all_writes(implementation):
+        condition = written_condition(write) if isinstance(write, RelationWrite | PropertyWrite) else None
+        if condition is None or any(_is_made_up(part) for part in walk(condition)):
+            if not _is_declared(run, implementation, write):
+                found.add(write)
+            continue
+        if not all(_is_accounted_for(run.types, condition, (start, declared), state) for state in ends.success):
+            found.add(write)
+    return frozenset(found)
+
+
+def effect_condition(effect: Effect) -> Condition | None:
+    """Return the condition that an effect makes true, or None if it is not known."""
+    write = write_of(effect)
+    if not isinstance(write, RelationWrite | PropertyWrite):
+        return None
+    condition = written_condition(write)
+    return (
+        Not(condition) if condition is not None and isinstance(write, RelationWrite) and not write.value else condition
+    )
+
+
+def _is_accounted_for(types: AliasTypes, condition: Condition, before: tuple[State, State], state: State) -> bool:
+    now = evaluate(types, state, condition)
+    return now is not None and any(evaluate(types, _with_identities(each, state), condition) is now for each in before)
+
+
+def _with_identities(state: State, other: State) -> State:
+    """Return the state with what the other knows of identity and classes, which nothing changes."""
+    return state.with_facts({fact: true for fact, true in other.facts.items() if isinstance(fact, Same | IsA)})
+
+
+def _is_declared(run: Exploration, implementation: Implementation, write: Write) -> bool:
+    """Whether a postcondition declares the write, for whatever individual."""
+    for _, effect in definite_effects(requirements_of(implementation, "post")):
+        own = write_of(effect)
+        if isinstance(own, RelationWrite) and own == write and own.value is True:
+            return True
+        if isinstance(own, PropertyWrite) and isinstance(write, PropertyWrite) and own.property == write.property:
+            return own.subject == write.subject and own.value is not None
+    return False
+
+
+def _is_made_up(part: object) -> bool:
+    return isinstance(part, Variable) and part.name.startswith("?")
+
+
+def _check_post(
+    run: Exploration, implementation: Implementation, post: Requirement, states: StatePaths
+) -> Iterator[Finding]:
+    condition = post.condition.meaning
+    known = {state: evaluate(run.types, state, condition) for state in states}
+    for value in (False, None):
+        found = [path for state, path in states.items() if known[state] is value]
+        if found:
+            beyond = value is None and _is_beyond(run.types, condition)
+            yield UnprovedPost(implementation, post, value is False, beyond, min(found, key=path_length))
+            return
+
+
+def _is_beyond(types: AliasTypes, condition: Condition) -> bool:
+    """Whether a condition cannot be decided here: it is about all individuals, chains or computed values."""
+    for part in walk(condition):
+        match part:
+            case Exists() | Forall() | Invoke() | Arithmetic():
+                return True
+            case Holds(relation=relation):
+                if types.is_computed(relation):
+                    return True
+                if types.axioms.canonical.get(relation, (relation, False))[0] in types.axioms.chained:
+                    return True
+            case PropertyOf(property=iri):
+                term = types.vocabulary.properties.get(iri)
+                if term is None or term.computed_by is not None:
+                    return True
+    return False
+
+
+def _declared_state(run: Exploration, implementation: Implementation, start: State) -> State:
+    """Return what a caller assumes after a success."""
+    posts = requirements_of(implementation, "post")
+    state = apply_effects(run.types, start, [effect for _, effect in definite_effects(posts)])
+    for post in posts:
+        state = assume(run.types, state, post.condition.meaning) or state
+    return state
+
+
+def _check_declared(
+    run: Exploration,
+    implementation: Implementation,
+    one: CallEffect,
+    condition: Condition,
+    before: tuple[State, State],
+    states: StatePaths,
+) -> Iterator[Finding]:
+    if one.post.sensed or (
+        _affects_unnamed(one.effect) and any(one.call is each for each in _calls_in_loops(implementation.body))
+    ):
+        return
+    if any(
+        _same_but_for_names(run, one.effect, own)
+        for _, own in definite_effects(requirements_of(implementation, "post"))
+    ):
+        return
+    found = [
+        path
+        for state, path in states.items()
+        if _contains_call(path, one.call)
+        and evaluate(run.types, state, condition)
+        and not any(evaluate(run.types, _with_identities(each, state), condition) for each in before)
+    ]
+    if found:
+        yield UndeclaredEffect(implementation, one.call, one.post, min(found, key=path_length))
+
+
+def _affects_unnamed(effect: Effect) -> bool:
+    """Whether an effect is on an individual that the called skill finds at run time."""
+    return any(isinstance(part, Variable) and "@" in part.name for part in walk(effect))
+
+
+def _calls_in_loops(body: Body) -> Iterator[Call]:
+    """Yield the calls in loops; no postcondition can express their effects on other individuals in each round."""
+    for node in nodes_in(body) if isinstance(body, TypedNode) else ():
+        if isinstance(node.written, s.While | s.Counted):
+            yield from calls_in(node)
+
+
+def _same_but_for_names(run: Exploration, effect: Effect, own: Effect) -> bool:
+    """Whether both are the same effect if an inferred individual is the one that the caller names."""
+    one, other = write_of(effect), write_of(own)
+    match one, other:
+        case RelationWrite(), RelationWrite():
+            if (one.relation, one.value) != (other.relation, other.value):
+                return False
+            return _may_mean(run, one.subject, other.subject) and _may_mean(run, one.object, other.object)
+        case PropertyWrite(), PropertyWrite():
+            return one.property == other.property and _may_mean(run, one.subject, other.subject)
+    return False
+
+
+def _may_mean(run: Exploration, one: object, other: object) -> bool:
+    if one == other:
+        return True
+    return isinstance(one, Variable) and "@" in one.name
+
+
+def _contains_call(path: Path, call: Call) -> bool:
+    return path is not None and any(each.span == call.written.span for each in path)
+
+
+def _check_released(
+    run: Exploration, one: CallEffect, condition: Condition, start: State, ends: EndStates
+) -> Iterator[Finding]:
+    """Yield a value that no success keeps and that a failure after the effect leaves changed.
+
+    Relations are not device states: a failure leaves objects where they are. If the undoing call itself fails, nothing
+    could have undone the effect.
+    """
+    if (
+        one.post.sensed
+        or not isinstance(write_of(one.effect), PropertyWrite)
+        or not ends.success
+        or evaluate(run.types, start, condition) is not False
+    ):
+        return
+    if all(evaluate(run.types, state, condition) is False for state in ends.success):
+        failed = ends.failed
+        undoing = {
+            each.call.written.span for each in run.effects.values() if _undoes(run.types, each.effect, condition)
+        }
+        left = [
+            path
+            for state, path in failed.items()
+            if path is not None and path.span not in undoing and _contains_call(path, one.call)
+            if evaluate(run.types, state, condition)
+        ]
+        if left:
+            yield LeakedChange(one.call, one.post, min(left, key=path_length))
+
+
+def _undoes(types: AliasTypes, effect: Effect, condition: Condition) -> bool:
+    """Whether an effect makes a condition false."""
+    return evaluate(types, apply_effects(types, State(), [effect]), condition) is False

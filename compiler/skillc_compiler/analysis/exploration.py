@@ -1,0 +1,224 @@
+"""One exploration of one body: its inputs, and what it has found so far."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Protocol, TypeAlias
+
+from skillc_compiler.analysis.alias_types import AliasTypes
+from skillc_compiler.analysis.evaluate import evaluate
+from skillc_compiler.analysis.findings import BrokenHold, Finding, UnassignedRead, UnprovedPrecondition
+from skillc_compiler.analysis.havoc import havoc
+from skillc_compiler.analysis.initial_state import requirements_of
+from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, path_length
+from skillc_compiler.analysis.state import State
+from skillc_compiler.analysis.summaries import WriteSummaries, hide_names
+from skillc_compiler.analysis.writes import NO_WRITES, Write
+from skillc_compiler.program.typed import (
+    Call,
+    Implementation,
+    Program,
+    Requirement,
+    TypedCondition,
+    TypedExpression,
+    TypedNode,
+)
+from skillc_compiler.program.walk import conditions_in, values_in
+from skillc_dsl.source import Span
+from skillc_model.conditions import Effect
+from skillc_model.reading import free_variables
+
+Explore: TypeAlias = Callable[["Exploration", TypedNode, StatePaths, "EvalContext"], EndStates]
+FindUndeclared: TypeAlias = Callable[[Implementation], frozenset[Write]]
+
+
+@dataclass(frozen=True)
+class EvalContext:
+    """The context of a node: whether its failure is caught, and what others may write while it runs."""
+
+    caught: bool = False
+    concurrent_writes: frozenset[Write] = NO_WRITES
+
+    def with_failure_caught(self) -> EvalContext:
+        """Return the same context with failures caught."""
+        return replace(self, caught=True)
+
+    def with_concurrent_writes(self, writes: frozenset[Write]) -> EvalContext:
+        """Return the same context with more writes by others."""
+        return replace(self, concurrent_writes=self.concurrent_writes | writes)
+
+
+class PropertyMonitor(Protocol):
+    """Follows an execution for a `verify` property; the `monitor` field of a state is its memory."""
+
+    def on_start(self, run: Exploration, state: State, path: PathStep, skill: str) -> State:
+        """Return the state after a skill started."""
+        ...
+
+    def on_success(self, run: Exploration, state: State, skill: str) -> State:
+        """Return the state after a skill succeeded."""
+        ...
+
+    def after_body(
+        self, call: Call, before: State, state: State, path: PathStep
+    ) -> Mapping[str, frozenset[tuple[int, bool]]]:
+        """Return the possible memories after the body of a call, by outcome."""
+        ...
+
+    def observe(self, run: Exploration, states: StatePaths) -> dict[State, Path]:
+        """Return the states between two nodes, with their memories updated."""
+        ...
+
+    def interleave(self, states: StatePaths, others: tuple[TypedNode, ...]) -> dict[State, Path]:
+        """Return the states, each also as it is after what others may have done in parallel."""
+        ...
+
+
+@dataclass
+class PreconditionStats:
+    """How often a precondition was checked, was false and was open, with the paths.
+
+    `excused` counts the times when it was open and need not be known: its failure is caught, or it is decided at run
+    time.
+    """
+
+    call: Call
+    requirement: Requirement
+    seen: int = 0
+    false: int = 0
+    open_: int = 0
+    excused: int = 0
+    caught: bool = False
+    false_way: Path = None
+    open_way: Path = None
+
+
+@dataclass(frozen=True, slots=True)
+class CallEffect:
+    """An effect that a call had, in the caller's terms."""
+
+    call: Call
+    post: Requirement
+    effect: Effect
+
+
+@dataclass
+class Exploration:
+    """The inputs and results of exploring one body.
+
+    `leaks` finds the undeclared changes of an implementation; `outputs` are the names that calls assign. While `quiet`
+    is not 0, ends are computed and nothing is recorded. `steps` counts how often a node was followed from a state.
+    `known` stores the ends of explored nodes by node, states and context, and whether they were recorded.
+    """
+
+    program: Program
+    types: AliasTypes
+    summaries: WriteSummaries
+    implementation: Implementation | None
+    leaks: FindUndeclared
+    explore: Explore
+    outputs: frozenset[str]
+    stable: frozenset[str]
+    monitor: PropertyMonitor | None = None
+    found: dict[object, Finding] = field(default_factory=dict)
+    reached: set[int] = field(default_factory=set)
+    precondition_stats: dict[tuple[int, int], PreconditionStats] = field(default_factory=dict)
+    effects: dict[object, CallEffect] = field(default_factory=dict)
+    widened_at: Span | None = None
+    quiet: int = 0
+    steps: int = 0
+    known: dict[object, tuple[bool, EndStates]] = field(default_factory=dict)
+
+    def writes(self, node: TypedNode) -> frozenset[Write]:
+        """Return what a node may write; names whose meaning changes within the body stand for any individual."""
+        return hide_names(self.summaries.writes_of_node(node, self.implementation), self.stable)
+
+    def add_finding(self, key: object, finding: Finding, path: Path) -> None:
+        """Record a finding; of several with the same key, the one with the shortest path."""
+        known = self.found.get(key)
+        if self.quiet:
+            return
+        if known is None or path_length(path) < path_length(getattr(known, "path", None)):
+            self.found[key] = finding
+
+    def check_reads(
+        self, values: Iterable[TypedExpression], conditions: Iterable[TypedCondition], states: StatePaths
+    ) -> None:
+        """Record outputs that are read where they may have no value."""
+        every = [part for value in values for part in values_in(value)]
+        every += [
+            part
+            for whole in conditions
+            for condition in conditions_in(whole)
+            for v in condition.values
+            for part in values_in(v)
+        ]
+        for value in every:
+            names = free_variables(value.meaning) & self.outputs if not value.parts else frozenset[str]()
+            for name in sorted(names):
+                for path in [path for state, path in states.items() if name not in state.assigned]:
+                    self.add_finding((value.span, name), UnassignedRead(name, value.span, path), path)
+
+    def check_holds(self, state: State, path: Path) -> None:
+        """Record holds of the implementation that may not hold when a node that takes time begins."""
+        if self.implementation is None or path is None:
+            return
+        for hold in requirements_of(self.implementation, "hold"):
+            known = evaluate(self.types, state, hold.condition.meaning)
+            if known is not True:
+                finding = BrokenHold(hold, path.span, known is False, path)
+                self.add_finding((id(hold), path.span, known), finding, path)
+
+    def count_precondition(
+        self, call: Call, requirement: Requirement, known: bool | None, excused: bool, path: Path
+    ) -> None:
+        """Count what is known of a precondition at the start of its skill."""
+        if self.quiet:
+            return
+        key = (id(call), id(requirement))
+        count = self.precondition_stats.setdefault(key, PreconditionStats(call, requirement))
+        count.seen += 1
+        if known is False:
+            count.caught |= excused
+            count.false_way = (
+                path if not count.false or path_length(path) < path_length(count.false_way) else count.false_way
+            )
+            count.false += 1
+        elif known is None and excused:
+            count.excused += 1
+        elif known is None:
+            count.open_way = (
+                path if not count.open_ or path_length(path) < path_length(count.open_way) else count.open_way
+            )
+            count.open_ += 1
+
+    def unproved_preconditions(self) -> Iterable[Finding]:
+        """Yield the preconditions that are false or open on some path; if failure is caught, false on all."""
+        for count in self.precondition_stats.values():
+            if count.false == count.seen or (count.false and not count.caught):
+                yield UnprovedPrecondition(count.call, count.requirement, True, count.false_way)
+            elif count.open_ and self.implementation is not None:
+                yield UnprovedPrecondition(count.call, count.requirement, False, count.open_way)
+
+
+def havoc_concurrent(run: Exploration, state: State, context: EvalContext) -> State:
+    """Return what is still known while others write."""
+    return havoc(run.types, state, context.concurrent_writes) if context.concurrent_writes else state
+
+
+def explore_sequence(
+    run: Exploration, children: Sequence[TypedNode], states: StatePaths, context: EvalContext
+) -> EndStates:
+    """Return how children that run one after the other end."""
+    ends = EndStates(success=dict(states))
+    for child in children:
+        one = run.explore(run, child, ends.success, context)
+        ends.success = one.success
+        ends.add_failures(one)
+    return ends
+
+
+def interleave(run: Exploration, states: StatePaths, *others: TypedNode) -> StatePaths:
+    """Return the states with other nodes running in parallel, as far as a monitored property distinguishes them."""
+    return run.monitor.interleave(states, others) if run.monitor is not None else states

@@ -1,0 +1,90 @@
+"""Calls that run in parallel and conflict: they write the same fact differently, or use the same device."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+from skillc_compiler.analysis.axioms import RelationAxioms
+from skillc_compiler.analysis.binding import candidates
+from skillc_compiler.analysis.findings import ParallelConflict
+from skillc_compiler.analysis.summaries import WriteSummaries
+from skillc_compiler.analysis.writes import PropertyWrite, RelationWrite, Write
+from skillc_compiler.program.typed import Call, Program, TypedNode
+from skillc_compiler.program.walk import calls_in, nodes_in
+from skillc_dsl import syntax as s
+from skillc_model.conditions import Individual, Literal, Variable
+from skillc_rdf.vocabulary.types import local_name
+
+
+def find_parallel_conflicts(
+    program: Program, summaries: WriteSummaries, axioms: RelationAxioms, body: TypedNode
+) -> Iterator[ParallelConflict]:
+    """Yield the first two conflicting calls of each pair of children of a `par`."""
+    for node in nodes_in(body):
+        if isinstance(node.written, s.Block) and node.written.kind.startswith("par"):
+            for one, other in combinations(node.children, 2):
+                yield from _first_conflict(program, summaries, axioms, one, other)
+
+
+def _first_conflict(
+    program: Program, summaries: WriteSummaries, axioms: RelationAxioms, one: TypedNode, other: TypedNode
+) -> Iterator[ParallelConflict]:
+    for first in calls_in(one):
+        for second in calls_in(other):
+            devices = _devices(program, first) & _devices(program, second)
+            written = _conflicts(axioms, summaries.writes_of_call(first), summaries.writes_of_call(second))
+            if devices:
+                yield ParallelConflict(
+                    first, second, f"both have `{_short_name(min(devices, key=_short_name))}` for themselves"
+                )
+                return
+            for fact in written:
+                yield ParallelConflict(first, second, f"both write `{fact}`, each in its own way")
+                return
+
+
+def _devices(program: Program, call: Call, context: tuple[str, ...] = ()) -> frozenset[Variable | Individual]:
+    """Return the devices that a call uses exclusively, as far as the caller has names for them."""
+    if call.skill is None or call.skill.name in context:
+        return frozenset()
+    passed = {argument.name.text: argument.value.meaning for argument in call.arguments}
+    names = {device.parameter.text for device in call.skill.devices if device.kind == "uses"}
+    for implementation in candidates(program, call):
+        if isinstance(implementation.body, TypedNode):
+            for inner in calls_in(implementation.body):
+                found = _devices(program, inner, (*context, call.skill.name))
+                names |= {device.name for device in found if isinstance(device, Variable)}
+    values = (passed.get(name) for name in names)
+    return frozenset(value for value in values if isinstance(value, Variable | Individual))
+
+
+def _conflicts(axioms: RelationAxioms, ours: frozenset[Write], theirs: frozenset[Write]) -> list[str]:
+    return sorted({fact for one in ours for other in theirs for fact in _conflict(axioms, one, other)})
+
+
+def _conflict(axioms: RelationAxioms, one: Write, other: Write) -> Iterator[str]:
+    match one, other:
+        case RelationWrite(), RelationWrite() if one.relation == other.relation:
+            same = (_same(one.subject, other.subject), _same(one.object, other.object))
+            opposite = {one.value, other.value} == {True, False} and all(same)
+            single = one.value is True and other.value is True and same[0] and _are_distinct(one.object, other.object)
+            if opposite or (
+                single and axioms.canonical.get(one.relation) in {(r, False) for r in axioms.single_object}
+            ):
+                yield local_name(one.relation)
+        case PropertyWrite(value=Literal() as ours), PropertyWrite(value=Literal() as theirs):
+            if one.property == other.property and _same(one.subject, other.subject) and ours != theirs:
+                yield local_name(one.property)
+
+
+def _same(one: object, other: object) -> bool:
+    return one == other and not (isinstance(one, Variable) and one.name.startswith("?"))
+
+
+def _are_distinct(one: object, other: object) -> bool:
+    return isinstance(one, Individual) and isinstance(other, Individual) and one != other
+
+
+def _short_name(thing: Variable | Individual) -> str:
+    return thing.name if isinstance(thing, Variable) else local_name(thing.iri)

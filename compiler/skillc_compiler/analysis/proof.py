@@ -1,0 +1,169 @@
+"""The proof of a whole program: each body is explored once, called skills before their callers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import TypeVar
+
+from skillc_compiler.analysis import end_states as ending
+from skillc_compiler.analysis.alias_types import AliasTypes
+from skillc_compiler.analysis.axioms import RelationAxioms, build_axioms
+from skillc_compiler.analysis.evaluate import evaluate
+from skillc_compiler.analysis.exploration import EvalContext, Exploration
+from skillc_compiler.analysis.findings import (
+    Finding,
+    TooManyStates,
+    UndecidedProperty,
+    UnreachableNode,
+    ViolatedProperty,
+)
+from skillc_compiler.analysis.initial_state import can_start, declare_names, initial_state, parameter_state
+from skillc_compiler.analysis.nodes import explore
+from skillc_compiler.analysis.parallel_conflicts import find_parallel_conflicts
+from skillc_compiler.analysis.scopes import leaked_scopes
+from skillc_compiler.analysis.state import State
+from skillc_compiler.analysis.summaries import WriteSummaries
+from skillc_compiler.analysis.understood import Understood
+from skillc_compiler.analysis.verify_monitor import VerifyMonitor
+from skillc_compiler.analysis.writes import NO_WRITES, Write
+from skillc_compiler.program.typed import Implementation, Let, Program, Task, TypedNode
+from skillc_compiler.program.walk import nodes_in
+from skillc_dsl import syntax as s
+
+F = TypeVar("F", bound=Finding)
+
+
+@dataclass(frozen=True)
+class Proof:
+    """The findings in one body. `leaks` are its changes that its description does not declare."""
+
+    of: Implementation | Task
+    findings: tuple[Finding, ...]
+    leaks: frozenset[Write] = NO_WRITES
+
+
+@lru_cache(maxsize=1)
+def prove(program: Program) -> Mapping[str, Proof]:
+    """Return the proof of each compound implementation by its key, and of each task with a body by `task NAME`."""
+    prover = Prover(program)
+    for implementation in program.implementations:
+        prover.leaks(implementation)
+    for task in program.tasks:
+        prover.task(task)
+    return prover.proofs
+
+
+def findings_of(program: Program, kind: type[F]) -> Iterator[F]:
+    """Yield the findings of a kind in all bodies."""
+    for proof in prove(program).values():
+        yield from (finding for finding in proof.findings if isinstance(finding, kind))
+
+
+@dataclass
+class Prover:
+    """Computes proofs on demand."""
+
+    program: Program
+    proofs: dict[str, Proof] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self._axioms: RelationAxioms = build_axioms(self.program.vocabulary)
+        self.summaries = WriteSummaries(self.program, self._axioms)
+        self.understood = Understood(self.program, self._axioms)
+        self._busy: set[str] = set()
+
+    def leaks(self, implementation: Implementation) -> frozenset[Write]:
+        """Return what an implementation changes beyond its postconditions when it succeeds."""
+        if not isinstance(implementation.body, TypedNode) or implementation.key in self._busy:
+            return NO_WRITES
+        if implementation.key not in self.proofs:
+            self._busy.add(implementation.key)
+            self.proofs[implementation.key] = self._implementation(implementation, implementation.body)
+            self._busy.discard(implementation.key)
+        return self.proofs[implementation.key].leaks
+
+    def task(self, task: Task) -> None:
+        """Prove the body of a task."""
+        if task.body is not None:
+            run = self.run(None, task.body)
+            run.explore(run, task.body, {State(): None}, EvalContext())
+            findings = self._kept(task, task.body, run, ())
+            self.proofs[f"task {task.name}"] = Proof(task, findings)
+
+    def run(self, implementation: Implementation | None, body: TypedNode) -> Exploration:
+        """Return a new exploration of a body."""
+        types = AliasTypes(self.program.vocabulary, self._axioms)
+        lets: tuple[Let, ...] = implementation.lets if implementation else ()
+        stable = {let.name.text for let in lets}
+        outputs = {node.call.out.text for node in nodes_in(body) if node.call and node.call.out}
+        if implementation is not None:
+            declare_names(types, implementation)
+            stable |= {p.name for p in implementation.parameters if p.direction != "out"}
+            outputs |= {p.name for p in implementation.parameters if p.direction == "out"}
+        return Exploration(
+            program=self.program,
+            types=types,
+            summaries=self.summaries,
+            implementation=implementation,
+            leaks=self.leaks,
+            explore=explore,
+            outputs=frozenset(outputs) - stable,
+            stable=frozenset(stable),
+        )
+
+    def _implementation(self, implementation: Implementation, body: TypedNode) -> Proof:
+        run = self.run(implementation, body)
+        start = initial_state(run.types, implementation)
+        ends = explore(run, body, {start: None}, EvalContext())
+        told = tuple(ending.end_findings(run, implementation, start, ends))
+        told = (*told, *self._verified(implementation, body, start))
+        leaks = ending.undeclared_writes(run, implementation, start, ends)
+        return Proof(implementation, self._kept(implementation, body, run, told), leaks)
+
+    def _verified(self, implementation: Implementation, body: TypedNode, start: State) -> Iterator[Finding]:
+        for line in implementation.verify:
+            run = self.run(implementation, body)
+            run.monitor = watch = VerifyMonitor(line, self.program, self.summaries, self.run)
+            ends = explore(run, body, {start: None}, EvalContext())
+            watch.on_end(run, ends.success)
+            watch.observe(run, ends.failed)
+            if watch.broken is not None:
+                yield ViolatedProperty(line, watch.broken)
+            elif watch.open_ or run.widened_at is not None:
+                yield UndecidedProperty(line)
+
+    def _kept(
+        self, of: Implementation | Task, body: TypedNode, run: Exploration, told: tuple[Finding, ...]
+    ) -> tuple[Finding, ...]:
+        found = [
+            *run.found.values(),
+            *run.unproved_preconditions(),
+            *unreachable_nodes(run, body, parameter_state(of) if isinstance(of, Implementation) else State()),
+            *find_parallel_conflicts(self.program, self.summaries, self._axioms, body),
+            *leaked_scopes(of, body),
+            *told,
+        ]
+        if run.widened_at is not None:
+            found.append(TooManyStates(run.widened_at))
+        clear = not isinstance(of, Implementation) or can_start(run.types, of)
+        return tuple(self.understood.sound(of, found, clear))
+
+
+def unreachable_nodes(run: Exploration, node: TypedNode, start: State) -> Iterator[UnreachableNode]:
+    """Yield the nodes that never start: the outer one of nested nodes, the first one of consecutive nodes.
+
+    A branch whose condition is always true or false is reported as such a condition.
+    """
+    if id(node) not in run.reached:
+        yield UnreachableNode(node)
+        return
+    if isinstance(node.written, s.If | s.While) and evaluate(run.types, start, node.conditions[0].meaning) is not None:
+        return
+    for children in (node.children, node.orelse):
+        never = [child for child in children if id(child) not in run.reached]
+        yield from (UnreachableNode(child) for child in never[:1])
+        for child in children:
+            if child not in never:
+                yield from unreachable_nodes(run, child, start)

@@ -1,0 +1,162 @@
+"""Follows one `verify` property along all executions of an implementation, also inside the skills that it calls.
+
+The `monitor` of a state is a number and a flag: the number is 1 once the first event of `before` has happened, or while
+the second of `eventually` is still due; the flag is whether the second event of `outside` is going on. Forbidden events
+count from their start, required ones once they have succeeded. A failed execution owes nothing. A condition is
+evaluated between the nodes of the implementation's own body.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from skillc_compiler.analysis.binding import candidates
+from skillc_compiler.analysis.evaluate import evaluate
+from skillc_compiler.analysis.exploration import EvalContext, Exploration
+from skillc_compiler.analysis.initial_state import initial_state
+from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, add_state, path_length
+from skillc_compiler.analysis.state import State
+from skillc_compiler.analysis.summaries import WriteSummaries
+from skillc_compiler.program.typed import Call, Event, Implementation, Program, Property, TypedNode
+from skillc_compiler.program.walk import calls_in
+
+Monitor = tuple[int, bool]
+
+
+@dataclass
+class VerifyMonitor:
+    """One property of one implementation; `broken` is the shortest path that violates it, `open_` if undecided."""
+
+    property: Property
+    program: Program
+    summaries: WriteSummaries
+    new_run: Callable[[Implementation, TypedNode], Exploration]
+    broken: PathStep | None = None
+    open_: bool = False
+    _inside: dict[tuple[str, Monitor], dict[str, frozenset[Monitor]]] = field(default_factory=dict)
+    _depth: int = 0
+
+    def on_start(self, run: Exploration, state: State, path: PathStep, skill: str) -> State:
+        """Return the state after a skill started; a violation is recorded."""
+        pattern, (number, inside) = self.property.pattern, state.monitor
+        first, second = self.property.first, self.property.second
+        if pattern == "never" and first.skill == skill:
+            self._violate(path)
+        if pattern == "outside" and first.skill == skill and not inside:
+            self._outside(run, state, path, second)
+        if pattern == "before" and second is not None and second.skill == skill and number == 0:
+            self._violate(path)
+        if pattern == "outside" and second is not None and second.skill == skill:
+            return state.replace(monitor=(number, True))
+        return state
+
+    def on_success(self, run: Exploration, state: State, skill: str) -> State:
+        """Return the state after a skill succeeded."""
+        number, inside = state.monitor
+        second = self.property.second
+        if self.property.pattern in ("before", "eventually") and self.property.first.skill == skill:
+            number = 1
+        if self.property.pattern == "eventually" and second is not None and second.skill == skill:
+            number = 0
+        return state.replace(monitor=(number, inside))
+
+    def observe(self, run: Exploration, states: StatePaths) -> dict[State, Path]:
+        """Return the states with conditions evaluated and remembered; a violation is recorded."""
+        found: dict[State, Path] = {}
+        for state, path in states.items():
+            add_state(found, self._seen(run, state, path) if self._depth == 0 else state, path)
+        return found
+
+    def after_body(self, call: Call, before: State, state: State, path: PathStep) -> Mapping[str, frozenset[Monitor]]:
+        """Return the possible memories after the body of a call, by outcome; `before` is the state before it."""
+        ended: dict[str, set[Monitor]] = {"success": set(), "failure": {before.monitor}, "broken": set()}
+        for one in candidates(self.program, call):
+            for outcome, monitors in self._of(one, state.monitor, path).items():
+                ended[outcome] |= monitors
+        stays = call.skill is not None and "scoped" in call.skill.flags
+        lasting = {(number, inside if stays else before.monitor[1]) for number, inside in ended["success"]}
+        failed = {kind: {(number, before.monitor[1]) for number, _ in ended[kind]} for kind in ("failure", "broken")}
+        return {"success": frozenset(lasting), **{kind: frozenset(found) for kind, found in failed.items()}}
+
+    def interleave(self, states: StatePaths, others: tuple[TypedNode, ...]) -> dict[State, Path]:
+        """Return the states, each also as it is after what others may have done in parallel."""
+        skills = {name for other in others for call in calls_in(other) for name in self.summaries.skills_run_by(call)}
+        found = dict(states)
+        second = self.property.second.skill if self.property.second is not None else None
+        for state, path in states.items():
+            if self.property.pattern in ("before", "eventually") and self.property.first.skill in skills:
+                add_state(found, state.replace(monitor=(1, state.monitor[1])), path)
+            if self.property.pattern == "eventually" and second in skills:
+                add_state(found, state.replace(monitor=(0, state.monitor[1])), path)
+        return found
+
+    def on_end(self, run: Exploration, states: StatePaths) -> None:
+        """Record the violations in these states, in which the implementation succeeded."""
+        for state, path in self.observe(run, states).items():
+            if self.property.pattern == "eventually" and state.monitor[0] == 1 and path is not None:
+                self._violate(path)
+
+    def _outside(self, run: Exploration, state: State, path: PathStep, second: Event | None) -> None:
+        if second is not None and second.condition is not None:
+            known = evaluate(run.types, state, second.condition.meaning) if self._depth == 0 else None
+            if known is not False:
+                self.open_ |= known is None
+                return
+        self._violate(path)
+
+    def _seen(self, run: Exploration, state: State, path: Path) -> State:
+        number, inside = state.monitor
+        first = self._known(run, state, self.property.first)
+        match self.property.pattern:
+            case "never" if first and path is not None:
+                self._violate(path)
+            case "outside" if first and path is not None and not inside:
+                self._violate(path)
+            case "before" if first:
+                number = 1
+            case "before" if number == 0 and path is not None and self._known(run, state, self.property.second):
+                self._violate(path)
+            case "eventually" if self._known(run, state, self.property.second):
+                number = 0
+            case "eventually" if first:
+                number = 1
+            case _:
+                pass
+        return state.replace(monitor=(number, inside)) if number != state.monitor[0] else state
+
+    def _known(self, run: Exploration, state: State, event: Event | None) -> bool:
+        return (
+            event is not None
+            and event.condition is not None
+            and bool(evaluate(run.types, state, event.condition.meaning))
+        )
+
+    def _violate(self, path: PathStep) -> None:
+        if self.broken is None or path_length(path) < path_length(self.broken):
+            self.broken = path
+
+    def _of(self, implementation: Implementation, monitor: Monitor, path: PathStep) -> Mapping[str, frozenset[Monitor]]:
+        """Return the possible memories after a body that began with `monitor`, by outcome."""
+        key = (implementation.key, monitor)
+        if key not in self._inside:
+            alone = frozenset({monitor})
+            self._inside[key] = {"success": alone, "failure": alone, "broken": alone}
+            if isinstance(implementation.body, TypedNode):
+                self._inside[key] = self._explored(implementation, implementation.body, monitor, path)
+        return self._inside[key]
+
+    def _explored(
+        self, implementation: Implementation, body: TypedNode, monitor: Monitor, path: PathStep
+    ) -> dict[str, frozenset[Monitor]]:
+        run = self.new_run(implementation, body)
+        run.monitor = self
+        self._depth += 1
+        start = initial_state(run.types, implementation).replace(monitor=monitor)
+        ends: EndStates = run.explore(run, body, {start: path}, EvalContext())
+        self._depth -= 1
+        self.open_ |= run.widened_at is not None
+        return {
+            name: frozenset(state.monitor for state in found)
+            for name, found in (("success", ends.success), ("failure", ends.failure), ("broken", ends.broken))
+        }

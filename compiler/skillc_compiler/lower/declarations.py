@@ -1,0 +1,162 @@
+"""From typed skills, implementations and tasks to those of the library: constants folded, refinements merged."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from skillc_compiler.logic.effects import NoEffect, effects_of
+from skillc_compiler.lower.bodies import lower_node
+from skillc_compiler.program.typed import (
+    Event,
+    Implementation,
+    Parameter,
+    Property,
+    Requirement,
+    Skill,
+    Task,
+    TypedExpression,
+    TypedNode,
+    start_position,
+)
+from skillc_dsl import syntax as s
+from skillc_model import properties
+from skillc_model import skills as library
+from skillc_model.conditions import Expression
+from skillc_model.rewriting import constant_number, fold
+
+
+def lower_skill(typed: Skill, implementations: Sequence[str]) -> library.Skill:
+    """Return a description; `implementations` are the names of its implementations in rank order."""
+    labelled = label_requirements(typed.requirements)
+    return library.Skill(
+        name=typed.name,
+        doc=typed.doc,
+        parameters=tuple(_parameter(p) for p in typed.parameters),
+        pre=_requirements(labelled, "pre"),
+        hold=_requirements(labelled, "hold"),
+        post=_posts(labelled),
+        duration=_expression(typed.duration),
+        uses=_devices(typed, "uses"),
+        shares=_devices(typed, "shares"),
+        scoped="scoped" in typed.flags,
+        planned="noplan" not in typed.flags,
+        fallback="fallback" in typed.flags,
+        implementations=tuple(implementations),
+        source=start_position(typed.span),
+    )
+
+
+def lower_implementation(typed: Implementation, body: TypedNode | s.RunPython) -> library.Implementation:
+    """Return an implementation with the description's conditions before its own."""
+    labelled = label_requirements((*typed.skill.requirements, *typed.requirements))
+    return library.Implementation(
+        name=typed.name,
+        skill=typed.skill.name,
+        doc=typed.doc,
+        parameters=tuple(_parameter(p) for p in typed.parameters),
+        pre=_requirements(labelled, "pre"),
+        hold=_requirements(labelled, "hold"),
+        post=_posts(labelled),
+        duration=_expression(typed.duration or typed.skill.duration),
+        prefer=typed.prefer,
+        lets=tuple(library.Let(let.name.text, fold(let.value.meaning)) for let in typed.lets),
+        body=library.Compound(lower_node(body))
+        if isinstance(body, TypedNode)
+        else library.Primitive(body.target.value),
+        verify=tuple(_property(each) for each in typed.verify),
+        source=start_position(typed.span),
+    )
+
+
+def lower_task(typed: Task) -> library.Task:
+    """Return a task."""
+    return library.Task(
+        name=typed.name,
+        doc=typed.doc,
+        scene=typed.scene,
+        goal=fold(typed.goal.meaning) if typed.goal else None,
+        goal_text=typed.goal_text,
+        body=lower_node(typed.body) if typed.body else None,
+        source=start_position(typed.span),
+    )
+
+
+def label_requirements(requirements: Sequence[Requirement]) -> list[tuple[str, Requirement]]:
+    """Return the conditions with their labels; one without a label is named by kind and number, such as `pre1`."""
+    taken = {r.label.text for r in requirements if r.label}
+    counts = {"pre": 0, "hold": 0, "post": 0}
+    labelled = []
+    for requirement in requirements:
+        counts[requirement.kind] += 1
+        name = requirement.label.text if requirement.label else f"{requirement.kind}{counts[requirement.kind]}"
+        while requirement.label is None and name in taken:
+            name += "_"
+        taken.add(name)
+        labelled.append((name, requirement))
+    return labelled
+
+
+def _requirements(labelled: Sequence[tuple[str, Requirement]], kind: str) -> tuple[library.Requirement, ...]:
+    return tuple(
+        library.Requirement(label=name, condition=fold(r.condition.meaning), text=r.text, source=start_position(r.span))
+        for name, r in labelled
+        if r.kind == kind
+    )
+
+
+def _posts(labelled: Sequence[tuple[str, Requirement]]) -> tuple[library.Post, ...]:
+    return tuple(
+        library.Post(
+            label=name,
+            condition=fold(r.condition.meaning),
+            effects=tuple(effect for effect in effects_of(r.condition) if not isinstance(effect, NoEffect)),
+            sensed=r.sensed,
+            text=r.text,
+            source=start_position(r.span),
+        )
+        for name, r in labelled
+        if r.kind == "post"
+    )
+
+
+def _parameter(typed: Parameter) -> library.Parameter:
+    return library.Parameter(
+        name=typed.name,
+        direction=typed.direction,
+        type=typed.declared,
+        any_=typed.any_,
+        default=_expression(typed.default),
+        low=constant_number(typed.low.meaning) if typed.low else None,
+        high=constant_number(typed.high.meaning) if typed.high else None,
+        doc=typed.doc,
+        source=start_position(typed.span),
+    )
+
+
+def _expression(valued: TypedExpression | None) -> Expression | None:
+    return fold(valued.meaning) if valued else None
+
+
+def _devices(typed: Skill, kind: str) -> tuple[str, ...]:
+    return tuple(device.parameter.text for device in typed.devices if device.kind == kind)
+
+
+def _property(typed: Property) -> properties.Property:
+    """Return the property of a `verify` line."""
+    return properties.Property(
+        pattern=typed.pattern,
+        first=_event(typed.first),
+        second=_event(typed.second) if typed.second else None,
+        text=typed.text,
+        source=start_position(typed.span),
+    )
+
+
+def _event(typed: Event) -> properties.Event:
+    if typed.condition is not None:
+        return properties.Is(fold(typed.condition.meaning))
+    if typed.measured is not None:
+        limit = fold(typed.measured.limit.meaning)
+        return properties.Measures("force", typed.measured.operator, limit)
+    assert typed.skill is not None, "an event is a skill, a condition or a force"
+    return properties.Runs(typed.skill)

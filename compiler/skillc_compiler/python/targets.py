@@ -1,0 +1,48 @@
+"""Reads what a module says of a name."""
+
+from __future__ import annotations
+
+import ast
+
+from skillc_compiler.python.classes import inspect_class
+from skillc_compiler.python.info import TargetInfo
+from skillc_compiler.python.modules import Defined, Definition, Function, find_definition, resolve_expression
+from skillc_compiler.python.signatures import inspect_function
+
+
+def read_target(module: str, name: str) -> TargetInfo:
+    """Return what the name "module:name" is, as far as the texts of the modules tell."""
+    found = find_definition(module, name)
+    match found:
+        case Defined(node=ast.ClassDef()):
+            return inspect_class(found)
+        case Defined(module=where, node=ast.FunctionDef() | ast.AsyncFunctionDef() as function):
+            return inspect_function(where, function)
+        case Defined():
+            raise AssertionError(f"{module}:{name} is neither a class nor a function")
+        case _:
+            return found
+
+
+def method_returns(module: str, name: str, method: str) -> frozenset[str]:
+    """Return the last name of everything that a method of a class may return; none where the text does not tell."""
+    return _returns(find_definition(module, name), method, frozenset())
+
+
+def _returns(found: Definition, method: str, seen: frozenset[str]) -> frozenset[str]:
+    match found:
+        case Defined(module=module, node=ast.ClassDef() as cls) if f"{module}:{cls.name}" not in seen:
+            own = [part for part in cls.body if isinstance(part, Function) and part.name == method]
+            if own:
+                return frozenset(_last_name(node.value) for node in ast.walk(own[-1]) if isinstance(node, ast.Return))
+            if len(cls.bases) == 1:
+                return _returns(resolve_expression(module, cls.bases[0]), method, seen | {f"{module}:{cls.name}"})
+    return frozenset()
+
+
+def _last_name(value: ast.expr | None) -> str:
+    match value:
+        case ast.Attribute(attr=name) | ast.Name(id=name):
+            return name
+        case _:
+            return "?"
