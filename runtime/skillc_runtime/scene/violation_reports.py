@@ -20,11 +20,11 @@ from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.state.axiom_violations import (
     AxiomViolation,
-    IriTriple,
     axiom_violations,
     standalone_violation,
 )
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.state.facts import IriTriple
 from skillc_runtime.world.state.world_state import WorldState
 
 MUTUAL_AXIOMS = frozenset({"functional-relation", "asymmetric-relation", "disjoint-classes"})

@@ -88,13 +88,8 @@ def _related(subject: str | None, relation: str, object_: str | None, state: Wor
     if subject is not None and object_ is not None:
         yield label_relation(subject, relation, object_, state.holds(subject, relation, object_), words)
         return
-    if subject is not None:
-        pairs = [(subject, each) for each in sorted(state.objects(subject, relation))]
-    elif object_ is not None:
-        pairs = [(each, object_) for each in sorted(state.subjects(relation, object_))]
-    else:
-        pairs = nsmallest(LISTED, state.pairs(relation))
-    yield from (label_relation(start, relation, end, True, words) for start, end in pairs[:LISTED])
+    pairs = nsmallest(LISTED, state.pairs(relation, subject, object_))
+    yield from (label_relation(start, relation, end, True, words) for start, end in pairs)
     if not pairs:
         yield label_relation(subject, relation, object_, False, words)
 

@@ -130,14 +130,7 @@ class _Explainer:
         return _list([format_relation(self._short(start), relation, self._short(end)) for start, end in pairs])
 
     def _pairs(self, subject: Term, object_: Term, relation: str, bindings: Bindings) -> Iterable[tuple[str, str]]:
-        start, end = _iri(subject, bindings), _iri(object_, bindings)
-        if start is None and end is None:
-            return self._state.pairs(relation)
-        if start is None and end is not None:
-            return [(each, end) for each in self._state.subjects(relation, end)]
-        if start is not None and end is None:
-            return [(start, each) for each in self._state.objects(start, relation)]
-        return [(str(start), str(end))] if self._state.holds(str(start), relation, str(end)) else []
+        return self._state.pairs(relation, _iri(subject, bindings), _iri(object_, bindings))
 
     def _comparison(self, left: Expression, sign: str, right: Expression, bindings: Bindings) -> str:
         for side in (left, right):

@@ -28,7 +28,7 @@ from skillc_model.conditions import (
 from skillc_model.reading import walk
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import Bindings, iri_of
-from skillc_runtime.world.state.evidence import DecidingWrite, pairs
+from skillc_runtime.world.state.evidence import DecidingWrite
 from skillc_runtime.world.state.facts import ClassFact, Fact, PropertyFact, RelationFact
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.python_calls import EvaluationError
@@ -105,7 +105,7 @@ class _Finder:
             return self._known(
                 [RelationFact(subject, relation, object_, self._state.holds(subject, relation, object_))]
             )
-        there = sorted(pairs(self._state, relation, subject, object_))
+        there = sorted(self._state.pairs(relation, subject, object_))
         if there:
             return _least_assumed([self._known([RelationFact(start, relation, end)]) for start, end in there])
         gone = sorted(self._world.ledger.formerly_true(relation, subject, object_))

@@ -1,1 +1,1 @@
-"""What is known of the world: immutable versions, how they change, which axioms they obey. Start at `world_state`."""
+"""The world model: immutable versions, transactions, axioms and evidence. Start at `world_state`, then `model`."""

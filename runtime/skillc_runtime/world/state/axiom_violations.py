@@ -1,11 +1,11 @@
-"""The axioms that a version of the world must satisfy: what violates one, in a change or anywhere, with the facts."""
+"""The axioms that a version of the world must satisfy, and the violations that a change causes."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import chain, combinations
-from typing import TypeAlias, assert_never
+from typing import assert_never
 
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import THING, RelationTerm
@@ -18,20 +18,18 @@ from skillc_runtime.world.state.changes import (
     RemoveRelation,
     SetProperty,
 )
+from skillc_runtime.world.state.facts import IriTriple
 from skillc_runtime.world.state.value_types import value_error
 from skillc_runtime.world.state.values import Value, show
 from skillc_runtime.world.state.world_state import WorldState
 
-IriTriple: TypeAlias = tuple[str, str, str]
-"""A relation or a class as it was written: subject, predicate and object, all IRIs."""
-
 
 @dataclass(frozen=True, slots=True)
 class AxiomViolation:
-    """An axiom that a change violates, by name, and the axiom with the facts in words.
+    """A violated axiom, by name, with a message that states the axiom and the facts.
 
-    `rivals` are facts that cannot be true beside the change, `causes` those that explain it. `misfit` is the
-    individual that is of the wrong class, if that is what is wrong.
+    `conflicting` are facts that cannot be true together with the change; `causes` are facts that explain the violation.
+    `mistyped` is the individual of the wrong class, if a class is wrong.
     """
 
     axiom: str
@@ -42,7 +40,7 @@ class AxiomViolation:
 
 
 def axiom_violations(state: WorldState, change: Change) -> Iterator[AxiomViolation]:
-    """Yield what is wrong with a change in the version it led to."""
+    """Yield the axioms that a change violates; `state` is the version after the change."""
     match change:
         case AddIndividual(individual, types):
             yield from _class_violations(state, individual, types)
@@ -57,7 +55,7 @@ def axiom_violations(state: WorldState, change: Change) -> Iterator[AxiomViolati
 
 
 def unknown_term(state: WorldState, change: Change) -> str | None:
-    """Return the IRI of a relation or property that the vocabulary lacks, None when all is known."""
+    """Return the IRI of a relation or property that the vocabulary lacks; None when it has all of them."""
     match change:
         case AddRelation(_, relation, _) | RemoveRelation(_, relation, _):
             return None if relation in state.vocabulary.relations else relation
@@ -70,13 +68,13 @@ def unknown_term(state: WorldState, change: Change) -> str | None:
 
 
 def _disjoint_classes(state: WorldState, types: Iterable[str]) -> tuple[str, str] | None:
-    """Return two of the classes that no individual can both be of, None when there are none."""
+    """Return two of the classes that are disjoint; None when no two are."""
     pairs = combinations(sorted(types), 2)
     return next(((one, other) for one, other in pairs if state.vocabulary.disjoint(one, other)), None)
 
 
 def _signature_violation(state: WorldState, term: RelationTerm, subject: str, object_: str) -> AxiomViolation | None:
-    """Say what a relation takes, when it takes neither signature's subject and object; None when one fits."""
+    """Return the violation of a relation's signatures; None when one of them fits."""
     fits = (state.is_a(subject, each.domain) and state.is_a(object_, each.range) for each in term.signatures)
     if not term.signatures or any(fits):
         return None
@@ -85,12 +83,12 @@ def _signature_violation(state: WorldState, term: RelationTerm, subject: str, ob
         f"({_class_name(state, each.domain)}, {_class_name(state, each.range)})" for each in term.signatures
     )
     wrong_subject = not any(state.is_a(subject, each.domain) for each in term.signatures)
-    misfit = subject if wrong_subject else object_
+    mistyped = subject if wrong_subject else object_
     return AxiomViolation(
         "relation-domain" if wrong_subject else "relation-range",
         f"{short(term.iri)} takes {accepted}; {_describe_types(state, subject)}, {_describe_types(state, object_)}",
-        causes=_types(state, misfit),
-        mistyped=misfit,
+        causes=_types(state, mistyped),
+        mistyped=mistyped,
     )
 
 
@@ -120,9 +118,9 @@ def _relation_violations(state: WorldState, subject: str, relation: str, object_
         reason = "the relation is computed from other facts and cannot be stated"
         yield AxiomViolation("computed-property", f"{_format_fact(state, fact)}: {reason}")
         return
-    rivalry = _functional_conflict(state, fact)
-    if rivalry is not None:
-        reason, rivals = rivalry
+    conflict = _functional_conflict(state, fact)
+    if conflict is not None:
+        reason, rivals = conflict
         yield AxiomViolation("functional-relation", f"{_format_fact(state, fact)}: {reason}", conflicting=rivals)
         return
     violation = standalone_violation(state, fact) or _with_fact(
@@ -133,7 +131,7 @@ def _relation_violations(state: WorldState, subject: str, relation: str, object_
 
 
 def standalone_violation(state: WorldState, fact: IriTriple) -> AxiomViolation | None:
-    """Return what is wrong with a relation between individuals by itself, whatever else is said."""
+    """Return the axiom that a relation between two individuals violates, whatever other facts there are."""
     return _with_fact(
         state, fact, next(chain(_irreflexivity_violations(state, *fact), _signature_violations(state, *fact)), None)
     )
@@ -159,20 +157,20 @@ def _asymmetry_violations(state: WorldState, subject: str, relation: str, object
 
 def _signature_violations(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
     for term, start, end in _implied(state, subject, relation, object_):
-        misfit = _signature_violation(state, term, start, end)
-        if misfit is not None:
-            yield misfit
+        violation = _signature_violation(state, term, start, end)
+        if violation is not None:
+            yield violation
 
 
 def _implied(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[tuple[RelationTerm, str, str]]:
-    """Yield what a fact implies, itself first: relations with their subjects and objects."""
+    """Yield the relations that a fact implies, with their subjects and objects; the fact itself first."""
     for implied, flipped in sorted(state.axioms.implied[relation], key=lambda each: each != (relation, False)):
         start, end = (object_, subject) if flipped else (subject, object_)
         yield state.vocabulary.relations[implied], start, end
 
 
 def asserted_facts(state: WorldState, subject: str, relation: str, object_: str) -> tuple[IriTriple, ...]:
-    """Return the facts, as they were written, from which one follows without transitivity."""
+    """Return the asserted facts from which a fact follows without transitivity."""
     found = (
         (source, object_, subject) if flipped else (source, subject, object_)
         for source, flipped in state.axioms.sources[relation]
@@ -181,27 +179,27 @@ def asserted_facts(state: WorldState, subject: str, relation: str, object_: str)
 
 
 def _functional_conflict(state: WorldState, fact: IriTriple) -> tuple[str, tuple[IriTriple, ...]] | None:
-    """Say which other fact a functional relation cannot hold beside this one; None where this one stands alone.
+    """Return the reason and the asserted facts that a functional relation does not allow beside this one, or None.
 
-    A fact that was written and does not hold has lost its place to another of the same write.
+    A fact that was written and does not hold was replaced by another one of the same write.
     """
-    short, stands = state.vocabulary.short, state.holds(*fact)
+    short, holds = state.vocabulary.short, state.holds(*fact)
     for term, start, end in _implied(state, *fact):
         others = state.objects(start, term.iri) - {end} if term.functional else frozenset[str]()
         holders = state.subjects(term.iri, end) - {start} if term.inverse_functional else frozenset[str]()
         rivals = [(start, term.iri, other) for other in sorted(others)] or [
             (holder, term.iri, end) for holder in sorted(holders)
         ]
-        for rival in rivals[: None if stands else 1]:
+        for rival in rivals[: None if holds else 1]:
             written = asserted_facts(state, *rival)
-            if written or not stands:
-                kind, said = "functional" if term.functional else "inverse functional", " ".join(map(short, rival))
-                return f"{short(term.iri)} is {kind}, and `{said}` is said too", written
-    return None if stands else ("the same write takes it back", ())
+            if written or not holds:
+                kind, stated = "functional" if term.functional else "inverse functional", " ".join(map(short, rival))
+                return f"{short(term.iri)} is {kind}, and `{stated}` is said too", written
+    return None if holds else ("the same write takes it back", ())
 
 
 def _with_fact(state: WorldState, fact: IriTriple, violation: AxiomViolation | None) -> AxiomViolation | None:
-    """Return a violation with the fact that was written before its message."""
+    """Return a violation whose message begins with the written fact."""
     return violation and replace(violation, message=f"{_format_fact(state, fact)}: {violation.message}")
 
 

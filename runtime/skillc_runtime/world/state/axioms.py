@@ -1,4 +1,4 @@
-"""What follows from a fact by the axioms of its relation, worked out once per vocabulary."""
+"""The axioms of relations in the form in which the world state needs them, computed once per vocabulary."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from skillc_runtime.world.state.computed import ComputedRelation
 
 
 class RelationAxioms:
-    """What the closure of the vocabulary's relations means for the facts that are kept of them.
+    """The consequences of the vocabulary's relation axioms for stored facts.
 
-    `implied`, `sources` and `transitive` are those of the closure. `carriers[x]` are the transitive relations
-    whose every consequence also holds in x, which is not transitive itself. `plain` relations have only the facts
-    asserted of them. `computed` relations have none: they hold where their reasoners say so.
+    `implied`, `sources` and `transitive` are those of the vocabulary's closure. `carriers[x]`, for a relation x that is
+    not transitive, are the transitive relations of which every fact also holds in x. `plain` relations have only
+    asserted facts. `computed` relations have no stored facts: their reasoners decide whether they hold.
     """
 
     def __init__(self, vocabulary: Vocabulary) -> None:

@@ -1,4 +1,4 @@
-"""A version of the world made of all its facts at once: the same as by one change each, in a fraction of the time."""
+"""Builds a version of the world from all facts at once: the same result as with single changes, but much faster."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ _Sets: TypeAlias = dict[str, frozenset[str]]
 
 @dataclass(frozen=True, slots=True)
 class FactTables:
-    """All that is said: the classes of each individual, the pairs of each relation, the values of each property."""
+    """All asserted facts: classes by individual, pairs by relation, values by property and individual."""
 
     types: Mapping[str, Iterable[str]]
     related: Mapping[str, Pairs]
     valued: Mapping[str, dict[str, Value | None]]
 
 
-def build_world_state(vocabulary: Vocabulary, said: FactTables) -> WorldState:
-    """Return the world of these facts, unchecked; none may take the place of another, as a functional relation's do."""
+def build_world_state(vocabulary: Vocabulary, facts: FactTables) -> WorldState:
+    """Return the world with these facts, unchecked; facts of functional relations must not replace each other."""
     empty = WorldState.empty(vocabulary)
     sets = _SetInterner()
-    direct = {individual: sets.intern(frozenset(types)) for individual, types in said.types.items()}
+    direct = {individual: sets.intern(frozenset(types)) for individual, types in facts.types.items()}
     classes = {individual: empty.axioms.superclasses(types) for individual, types in direct.items()}
-    asserted = {**empty.asserted, **{iri: _links(pairs, sets) for iri, pairs in said.related.items()}}
+    asserted = {**empty.asserted, **{iri: _links(pairs, sets) for iri, pairs in facts.related.items()}}
     return WorldState(
         vocabulary,
         empty.axioms,
@@ -42,23 +42,23 @@ def build_world_state(vocabulary: Vocabulary, said: FactTables) -> WorldState:
         _members(classes),
         asserted,
         _RelationClosure(empty.axioms, asserted, sets).all(),
-        {**empty.stored, **{iri: VersionedMap(None, values) for iri, values in said.valued.items()}},
+        {**empty.stored, **{iri: VersionedMap(None, values) for iri, values in facts.valued.items()}},
     )
 
 
 class _SetInterner:
-    """Makes sets, equal ones once: most are of one element, and many of the same."""
+    """Makes equal sets the same object: most sets have one element, and many are equal."""
 
     def __init__(self) -> None:
         self._one: dict[str, frozenset[str]] = {}
         self._all: dict[frozenset[str], frozenset[str]] = {}
 
     def intern(self, members: frozenset[str]) -> frozenset[str]:
-        """Return the set that is equal to this one."""
+        """Return the one set object that equals the given set."""
         return self._all.setdefault(members, members)
 
     def group_pairs(self, pairs: Pairs) -> _Sets:
-        """Return the second members of the pairs by the first."""
+        """Return the set of second elements for each first element."""
         one, found = self._one, dict[str, frozenset[str]]()
         several: dict[str, set[str]] = {}
         for first, second in pairs:
@@ -73,7 +73,7 @@ class _SetInterner:
 
 
 class _RelationClosure:
-    """Works out the facts of every relation from the assertions; Closure says what they are."""
+    """Computes the facts of every relation from the assertions, as ClosureBuilder defines them."""
 
     def __init__(self, axioms: RelationAxioms, asserted: dict[str, PairIndex], sets: _SetInterner) -> None:
         self._axioms, self._asserted, self._sets = axioms, asserted, sets
@@ -81,7 +81,7 @@ class _RelationClosure:
         self._closed: dict[frozenset[tuple[str, bool]], PairIndex] = {}
 
     def all(self) -> dict[str, PairIndex]:
-        """Return the facts by relation; those that are transitive first, because others follow from theirs."""
+        """Return the facts by relation; transitive relations are computed first, because others follow from them."""
         for relation in sorted(self._asserted, key=lambda iri: iri not in self._axioms.transitive):
             self._facts[relation] = self._of(relation)
         return {relation: self._facts[relation] for relation in self._asserted}
@@ -126,7 +126,7 @@ def _inverse(links: PairIndex) -> PairIndex:
 
 
 def _members(classes: _Sets) -> dict[str, VersionedSet]:
-    """Return the individuals of each class; those of the same classes are taken together."""
+    """Return the individuals of each class; individuals with the same classes are handled as one group."""
     alike: dict[frozenset[str], list[str]] = defaultdict(list)
     for individual, of in classes.items():
         alike[of].append(individual)

@@ -1,4 +1,4 @@
-"""What can change in the world: the closed set of writes."""
+"""The changes that a write to the world can consist of, a closed union."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from skillc_runtime.world.state.values import Value
 
 @dataclass(frozen=True, slots=True)
 class AddIndividual:
-    """The individual exists and is of the classes, beside those it has already."""
+    """The individual exists and is of these classes, in addition to those it has already."""
 
     individual: str
     types: tuple[str, ...]
@@ -18,7 +18,7 @@ class AddIndividual:
 
 @dataclass(frozen=True, slots=True)
 class RemoveIndividual:
-    """The individual and all facts about it are gone."""
+    """The individual does not exist, and no facts about it."""
 
     individual: str
 
@@ -34,7 +34,7 @@ class AddRelation:
 
 @dataclass(frozen=True, slots=True)
 class RemoveRelation:
-    """The relation does not hold: every assertion that says so is retracted, of sub-relations and inverses too."""
+    """The relation does not hold: all assertions that imply it are retracted, also of sub-relations and inverses."""
 
     subject: str
     relation: str
@@ -43,7 +43,7 @@ class RemoveRelation:
 
 @dataclass(frozen=True, slots=True)
 class SetProperty:
-    """The property has this value and no other; a tuple gives several values to one that is not functional."""
+    """The property has this value only; a tuple states several values of a property that is not functional."""
 
     individual: str
     property: str
@@ -62,7 +62,7 @@ Change: TypeAlias = AddIndividual | RemoveIndividual | AddRelation | RemoveRelat
 
 
 def named_individuals(change: Change) -> tuple[str, ...]:
-    """Return the individuals that a change names: whatever else it retracts is a fact about one of them."""
+    """Return the individuals that a change names; other facts that it retracts are about one of them, too."""
     match change:
         case AddRelation(subject, _, object_) | RemoveRelation(subject, _, object_):
             return subject, object_

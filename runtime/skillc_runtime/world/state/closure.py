@@ -1,4 +1,4 @@
-"""Keeps what follows from the asserted relations in step with them, one assertion at a time."""
+"""Incremental closure of asserted relations: updates their consequences with each assertion."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from skillc_runtime.world.state.versioned import PairIndex, PairIndexBuilder
 
 
 class ClosureBuilder:
-    """Asserted relations and their consequences on the way to the next version.
+    """Asserted relations and their consequences while the next version is built.
 
     An *edge* of a relation is a pair that follows from one assertion alone (sub-relation, inverse, symmetry). The facts
-    of a transitive relation are the transitive closure of its edges; those of any other are its edges and the facts
-    of the transitive relations below it.
+    of a transitive relation are the transitive closure of its edges; the facts of any other relation are its edges
+    and the facts of its transitive sub-relations.
     """
 
     def __init__(self, axioms: RelationAxioms, asserted: dict[str, PairIndex], facts: dict[str, PairIndex]) -> None:
@@ -60,8 +60,8 @@ class ClosureBuilder:
         """Return the asserted relations and the facts of the finished version."""
         if not self._asserting:
             return self._asserted, self._facts
-        asserted = {**self._asserted, **{iri: draft.build() for iri, draft in self._asserting.items()}}
-        facts = {**self._facts, **{iri: draft.build() for iri, draft in self._following.items()}}
+        asserted = {**self._asserted, **{iri: builder.build() for iri, builder in self._asserting.items()}}
+        facts = {**self._facts, **{iri: builder.build() for iri, builder in self._following.items()}}
         facts.update((iri, asserted[iri]) for iri in self._asserting if iri in self._axioms.plain)
         return asserted, facts
 
@@ -85,7 +85,7 @@ class ClosureBuilder:
                 self._recheck(implied, start, end)
 
     def _connect(self, relation: str, start: str, end: str) -> None:
-        """Add an edge to a transitive relation: all that reach its start now reach all that its end reaches."""
+        """Add an edge to a transitive relation: what reaches its start now reaches what its end reaches."""
         facts = self._consequences(relation)
         if end in facts.objects(start):
             return
@@ -96,7 +96,7 @@ class ClosureBuilder:
                 self._carry(relation, first, last)
 
     def _disconnect(self, relation: str, start: str, end: str) -> None:
-        """Take an edge from a transitive relation: look again at the pairs that may have been joined through it."""
+        """Remove an edge from a transitive relation, and the pairs that no other path connects."""
         facts = self._consequences(relation)
         if end in self.edges_from(start, relation):
             return
@@ -120,7 +120,7 @@ class ClosureBuilder:
                 self._consequences(implied).add(*((last, first) if flipped else (first, last)))
 
     def _recheck(self, relation: str, start: str, end: str) -> None:
-        """Keep a pair of a relation that is not transitive only while something still implies it."""
+        """Remove a pair of a relation that is not transitive unless something still implies it."""
         if end in self.edges_from(start, relation):
             return
         for carrier, flipped in self._axioms.carriers[relation]:
@@ -131,5 +131,5 @@ class ClosureBuilder:
 
 
 def _reachable_from(start: str, step: Callable[[str], Set[str]]) -> set[str]:
-    """Return what is reached by one step or more, the start itself only in a circle."""
+    """Return what is reachable in one or more steps; the start itself only if it is on a cycle."""
     return reachable(step(start), step)

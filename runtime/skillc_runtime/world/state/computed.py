@@ -1,4 +1,4 @@
-"""Relations that nobody states: they follow from other facts by a computation, such as a thing being inside another."""
+"""Relations that are computed from other facts instead of stated, such as one object being inside another."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ State = TypeVar("State", contravariant=True)
 
 
 class ClassIndex(Protocol):
-    """What a version of the world says of classes."""
+    """The classes of individuals in a version of the world."""
 
     @property
     def vocabulary(self) -> Vocabulary:
-        """The terms that there are."""
+        """The terms of the world."""
         ...
 
     def is_a(self, individual: str, cls: str) -> bool:
@@ -30,22 +30,22 @@ class ClassIndex(Protocol):
 
 
 class Reasoner(Protocol[State]):
-    """Tells whether a relation holds in a `State`, a version of the world; vocabularies name its class.
+    """Decides whether a relation holds in a `State`, a version of the world.
 
-    The class is called without arguments.
+    Vocabularies name the class, which is instantiated without arguments.
     """
 
     def obstacle(self, state: State, subject: str, object_: str) -> str | None:
-        """Say what keeps the relation from holding, with the numbers; None when it holds.
+        """Return why the relation does not hold, with the numbers; None when it holds.
 
-        It is asked about individuals of the relation's domain and range only. Unknown says that too little is known,
-        and then the relation does not hold; what else it raises fails the condition.
+        It is called with individuals of the relation's domain and range only. InsufficientFacts means that too little
+        is known, and the relation does not hold; any other exception fails the condition.
         """
         ...
 
 
 class ComputedRelation:
-    """A relation with the reasoner that tells whether it holds."""
+    """A relation with the reasoner that decides whether it holds."""
 
     def __init__(self, term: RelationTerm, target: str) -> None:
         self._term, self._target, self._name = term, target, local_name(term.iri)
@@ -55,33 +55,33 @@ class ComputedRelation:
         return self.obstacle(state, subject, object_) is None
 
     def obstacle(self, state: ClassIndex, subject: str, object_: str) -> str | None:
-        """Say what keeps the relation from holding, None when it holds; EvaluationError as for `holds`."""
+        """Return why the relation does not hold; None when it holds. EvaluationError as for `holds`."""
         for each in self._term.signatures:
             if state.is_a(subject, each.domain) and state.is_a(object_, each.range):
-                return call_python(self._asked, self._name, state, subject, object_)
+                return call_python(self._ask, self._name, state, subject, object_)
         short = state.vocabulary.short
         taken = " or ".join(f"({short(each.domain)}, {short(each.range)})" for each in self._term.signatures)
         return f"{short(self._term.iri)} takes {taken}"
 
     def objects(self, state: ClassIndex, subject: str) -> frozenset[str]:
-        """Return all that the subject has the relation to, by asking about each."""
+        """Return all individuals that the subject has the relation to; asks the reasoner about each candidate."""
         ranges = {each.range for each in self._term.signatures if state.is_a(subject, each.domain)}
         found = frozenset[str]().union(*map(state.instances, ranges))
         return frozenset(each for each in found if self.holds(state, subject, each))
 
     def subjects(self, state: ClassIndex, object_: str) -> frozenset[str]:
-        """Return all that have the relation to the object, by asking about each."""
+        """Return all individuals that have the relation to the object; asks the reasoner about each candidate."""
         domains = {each.domain for each in self._term.signatures if state.is_a(object_, each.range)}
         found = frozenset[str]().union(*map(state.instances, domains))
         return frozenset(each for each in found if self.holds(state, each, object_))
 
     def pairs(self, state: ClassIndex) -> Iterator[tuple[str, str]]:
-        """Yield every pair of which the relation holds."""
+        """Yield every pair for which the relation holds."""
         subjects = frozenset[str]().union(*(state.instances(each.domain) for each in self._term.signatures))
         for subject in sorted(subjects):
             yield from ((subject, object_) for object_ in sorted(self.objects(state, subject)))
 
-    def _asked(self, state: ClassIndex, subject: str, object_: str) -> str | None:
+    def _ask(self, state: ClassIndex, subject: str, object_: str) -> str | None:
         try:
             return self._reasoner.obstacle(state, subject, object_)
         except InsufficientFacts as missing:

@@ -1,4 +1,4 @@
-"""The data sheet of a device, read from the facts about it."""
+"""Reads data sheets of devices and single numbers and texts from the facts of a world."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from skillc_runtime.world.state.world_state import WorldState
 
 
 class SheetError(ValueError):
-    """A fact about a device is missing or unreadable; the message says which, of what."""
+    """A fact about a device is missing or cannot be read; the message names both."""
 
 
 @dataclass(frozen=True, slots=True)
 class DataSheet:
-    """A data sheet in one version of the world; names are those of the `skillc` vocabulary without prefix."""
+    """A data sheet in one version of the world; properties are called by their `skillc` names without prefix."""
 
     state: WorldState
     individual: str
@@ -34,18 +34,18 @@ class DataSheet:
 
     @property
     def model(self) -> Path:
-        """The file of the device's MJCF; SheetError when it is not stated or not there."""
+        """The device's MJCF file; SheetError when it is not stated or does not exist."""
         try:
             return model(self.text("model"))
         except FileNotFoundError as error:
             raise SheetError(f"{self._short(self.individual)}: {error}") from error
 
     def numbers(self, name: str) -> Array:
-        """Return numbers that are written in one text, separated by spaces; SheetError when missing or unreadable."""
+        """Return the numbers (n,) of a text in SI units, separated by spaces; SheetError when missing or invalid."""
         return _numbers(self.text(name), f"skillc:{name} of {self._short(self.individual)}")
 
     def limits(self, name: str, count: int) -> Array:
-        """Return so many numbers above 0, one for each joint; SheetError when missing, others or of another count."""
+        """Return numbers (count,) in SI units above 0, one for each joint; SheetError when missing or not like that."""
         found = self.numbers(name)
         if found.size != count or not (found > 0).all():
             what = f"skillc:{name} of {self._short(self.individual)}"
@@ -53,11 +53,11 @@ class DataSheet:
         return found
 
     def has(self, name: str) -> bool:
-        """Whether the sheet says something."""
+        """Whether the sheet states a property."""
         return self.state.value(self.individual, SKILLC + name) is not None
 
     def posture(self, name: str) -> Array:
-        """Return the joint values (nv,) rad of a named posture; SheetError lists the names there are."""
+        """Return the joint values (nv,) rad of a named posture; SheetError lists the existing names."""
         names = self._named_postures()
         if name not in names:
             known = ", ".join(self.posture_names) or "none"
@@ -72,7 +72,7 @@ class DataSheet:
 
     @property
     def posture_names(self) -> tuple[str, ...]:
-        """What the postures are called, sorted."""
+        """The names of the postures, sorted."""
         return tuple(sorted(self._named_postures()))
 
     def _named_postures(self) -> dict[str, str]:
@@ -102,7 +102,7 @@ def number_of(state: WorldState, individual: str, property_: str, default: float
 
 
 def range_below(state: WorldState, individual: str, property_: str, middle: float) -> float:
-    """Return how far a number in SI units may be from its middle, 0 where nothing is said; SheetError when beyond 0."""
+    """Return the range of a number around its middle in SI units, by default 0; SheetError if it includes 0 or less."""
     found = number_of(state, individual, property_, default=0.0)
     if found >= middle:
         short = state.vocabulary.short

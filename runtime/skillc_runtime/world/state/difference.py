@@ -1,9 +1,8 @@
-"""The changes that lead from one version of a world to another."""
+"""Computes the changes that lead from one version of a world to another."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TypeAlias
 
 from skillc_runtime.world.state.changes import (
     AddIndividual,
@@ -14,16 +13,15 @@ from skillc_runtime.world.state.changes import (
     RemoveRelation,
     SetProperty,
 )
+from skillc_runtime.world.state.facts import IriTriple
 from skillc_runtime.world.state.values import Value, are_equal
 from skillc_runtime.world.state.world_state import WorldState
 
-_Fact: TypeAlias = tuple[str, str, str]
-
 
 def changes_between(before: WorldState, after: WorldState, about: Iterable[str] | None = None) -> tuple[Change, ...]:
-    """Return the changes that make `after` of `before`, two sound versions with one vocabulary, in a fixed order.
+    """Return the changes from `before` to `after`, two valid versions with one vocabulary, in a fixed order.
 
-    Only facts about the individuals `about` are looked at, all where they are not given.
+    Only facts about the individuals `about` are compared; by default, all facts.
     """
     individuals = sorted(before.individuals | after.individuals if about is None else set(about))
     existing = list(_individual_changes(before, after, individuals))
@@ -35,7 +33,7 @@ def changes_between(before: WorldState, after: WorldState, about: Iterable[str] 
 
 
 def _individual_changes(before: WorldState, after: WorldState, individuals: Iterable[str]) -> Iterator[Change]:
-    """Yield what makes each individual one of its classes; what loses a class begins anew."""
+    """Yield the changes of classes; an individual that loses a class is removed and added again."""
     for individual in individuals:
         former, present = before.types(individual), after.types(individual)
         if not former <= present:
@@ -44,8 +42,8 @@ def _individual_changes(before: WorldState, after: WorldState, individuals: Iter
             yield AddIndividual(individual, tuple(sorted(present)))
 
 
-def _asserted_relations(state: WorldState, individuals: Iterable[str]) -> set[_Fact]:
-    """Return the relations as they were written, from and to the individuals."""
+def _asserted_relations(state: WorldState, individuals: Iterable[str]) -> set[IriTriple]:
+    """Return the asserted relations from and to the individuals."""
     return {
         fact
         for relation, links in state.asserted.items()

@@ -1,4 +1,4 @@
-"""Individuals as somebody looks at them: classes, relations and values with units; and how to find them."""
+"""Individuals with their classes, relations and values, and how to find them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from skillc_runtime.world.state.world_state import WorldState
 
 @dataclass(frozen=True, slots=True)
 class PropertyValue:
-    """The value of a property, and the SI unit that it counts, nothing where it counts none."""
+    """The value of a property with its SI unit, which is empty for values without one."""
 
     property: str
     value: Value
@@ -27,7 +27,7 @@ class PropertyValue:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Element:
-    """An individual in one version of the world. Terms are called by IRI or `prefix:name`; NoSuchName for others."""
+    """An individual in one version of the world. Terms are given by IRI or `prefix:name`; NoSuchName for others."""
 
     state: WorldState
     iri: str
@@ -37,38 +37,38 @@ class Element:
 
     @property
     def types(self) -> tuple[str, ...]:
-        """The classes that it was declared to be of, sorted."""
+        """Its declared classes, sorted."""
         return tuple(sorted(self.state.types(self.iri)))
 
     @property
     def relations(self) -> tuple[tuple[str, str], ...]:
-        """Relations and objects that were written of it, sorted; what follows from them is left out."""
+        """Its asserted relations with their objects, sorted; relations that follow from axioms are left out."""
         links = sorted(self.state.asserted.items())
         return tuple((name, each) for name, pairs in links for each in sorted(pairs.forward.get(self.iri)))
 
     @property
     def properties(self) -> tuple[PropertyValue, ...]:
-        """The properties that are stored of it, sorted."""
+        """Its stored properties, sorted."""
         found = ((name, table.get(self.iri)) for name, table in sorted(self.state.stored.items()))
         known = self.state.vocabulary
         return tuple(PropertyValue(name, value, unit_of(name, known)) for name, value in found if value is not None)
 
     def is_a(self, cls: str) -> bool:
-        """Whether it is of a class or of a subclass."""
+        """Whether it is of a class or of a subclass of it."""
         return self.state.is_a(self.iri, resolve_term(cls, self.state.vocabulary))
 
     def objects(self, relation: str) -> tuple[Element, ...]:
-        """Return all that it has the relation to, what follows from axioms too, sorted by IRI."""
+        """Return the individuals that it has the relation to, also by axioms, sorted by IRI."""
         found = self.state.objects(self.iri, _relation(relation, self.state.vocabulary))
         return elements_of(self.state, found)
 
     def subjects(self, relation: str) -> tuple[Element, ...]:
-        """Return all that have the relation to it, what follows from axioms too, sorted by IRI."""
+        """Return the individuals that have the relation to it, also by axioms, sorted by IRI."""
         found = self.state.subjects(_relation(relation, self.state.vocabulary), self.iri)
         return elements_of(self.state, found)
 
     def property_value(self, property_: str) -> PropertyValue | None:
-        """Return a property with its unit, computed if it is so declared; None when it has none."""
+        """Return a stored or computed property with its unit; None when it has no value."""
         iri = _property(property_, self.state.vocabulary)
         value = property_of(self.state, self.iri, iri)
         return None if value is None else PropertyValue(iri, value, unit_of(iri, self.state.vocabulary))
@@ -80,7 +80,7 @@ def elements_of(state: WorldState, individuals: Iterable[str]) -> tuple[Element,
 
 
 def find_element(state: WorldState, name: str) -> Element:
-    """Return the individual of that IRI or `prefix:name`; NoSuchName says which there are."""
+    """Return the individual with an IRI or `prefix:name`; NoSuchName suggests existing ones."""
     return Element(state, resolve_individual(name, state))
 
 
@@ -90,7 +90,7 @@ def find_elements(
     related: Mapping[str, str] | None = None,
     having: Mapping[str, Value] | None = None,
 ) -> tuple[Element, ...]:
-    """Return the individuals of a class that have all these relations, to individuals, and values; sorted by IRI."""
+    """Return the individuals of a class with all these relations to individuals and values, sorted by IRI."""
     known = state.vocabulary
     found = state.instances(resolve_term(cls, known))
     for relation, object_ in (related or {}).items():
@@ -102,14 +102,14 @@ def find_elements(
 
 
 def search_elements(state: WorldState, words: str) -> tuple[Element, ...]:
-    """Return the individuals in whose names, classes or texts all the words occur, whatever their case; by IRI."""
+    """Return the individuals whose names, classes and texts contain all the words, in any case; sorted by IRI."""
     wanted = words.casefold().split()
     found = (Element(state, each) for each in sorted(state.individuals))
     return tuple(each for each in found if all(word in _text(each) for word in wanted))
 
 
 def unit_of(property_: str, vocabulary: Vocabulary) -> str:
-    """Return the SI unit that a property counts, nothing where it counts none."""
+    """Return the SI unit of a property, empty for a property without one."""
     match vocabulary.properties[property_].type:
         case NumberType(dimension) | VectorType(dimension):
             return SI_UNITS.get(dimension, "")

@@ -1,7 +1,7 @@
-"""How the facts of a world model are known: what was sensed, what a device reported, what was only assumed.
+"""Evidence for the facts of a world model: sensed, reported by a device, or only assumed.
 
-A ledger keeps the writes of a run. The write that decides how a fact is known is the last one that stated it or that
-made it true or false, whatever axiom led there: who puts a thing into a gripper takes it out of the box.
+A ledger keeps the writes of a run. The write that decides the evidence for a fact is the last one that stated it, or
+that made it true or false by an axiom: to put an object into a gripper also takes it out of the box.
 """
 
 from __future__ import annotations
@@ -26,19 +26,19 @@ from skillc_runtime.world.state.values import are_equal
 from skillc_runtime.world.state.world_state import WorldState
 
 Evidence: TypeAlias = Literal["sensed", "reported", "assumed"]
-"""`sensed`: measured; `reported`: a device says so of itself; `assumed`: nothing looked."""
+"""`sensed`: measured; `reported`: a device reports it about itself; `assumed`: neither."""
 
 _STRENGTH: dict[Evidence | None, int] = {"assumed": 0, "reported": 1, "sensed": 2, None: 3}
 
 MAX_WRITES = 500
-"""So many writes are kept apart; of older ones, taken together, the weakest evidence counts."""
+"""The number of writes that are kept separately; older ones are merged, and the weakest evidence counts."""
 
 
 @dataclass(frozen=True, slots=True)
 class DecidingWrite:
-    """The write that decides how a fact is known: its number, from 1 on, and who made it.
+    """The write that decides the evidence for a fact: its number, from 1, its evidence and its origin.
 
-    `evidence` is None for a write that is no claim of this run: a person's, or another program's.
+    `evidence` is None for a write that this run did not make: a person's, or another program's.
     """
 
     number: int
@@ -55,7 +55,7 @@ class _Entry:
 
 
 class EvidenceLedger:
-    """The writes since a world model was made; facts that none of them concerns were given with the scene."""
+    """The writes since a world model was created; facts that none of them concerns were given with the scene."""
 
     def __init__(self) -> None:
         self._entries: list[_Entry] = []
@@ -69,18 +69,18 @@ class EvidenceLedger:
         evidence: Evidence | None,
         origin: str,
     ) -> None:
-        """Take in a write."""
+        """Add a write."""
         self.count += 1
         self._entries.append(_Entry(DecidingWrite(self.count, evidence, origin), changes, before, after))
         if len(self._entries) > MAX_WRITES:
             self._entries[:2] = [_merge(*self._entries[:2])]
 
     def drop_last(self) -> None:
-        """Forget the last write, which was taken back: what it concerned is known again as it was before."""
+        """Remove the last write, which was undone: its facts have their former evidence again."""
         self._entries.pop()
 
     def deciding_write(self, fact: Fact, state: WorldState) -> DecidingWrite | None:
-        """Return the write that decides how a fact, true in the present `state`, is known; None where it was given."""
+        """Return the write that decides the evidence for a fact of the current `state`; None for a given fact."""
         match fact:
             case RelationFact(relation=relation) if relation in state.axioms.computed:
                 term = state.vocabulary.relations[relation]
@@ -98,10 +98,10 @@ class EvidenceLedger:
                 assert_never(fact)
 
     def formerly_true(self, relation: str, subject: str | None, object_: str | None) -> set[tuple[str, str]]:
-        """Return the pairs of a relation, with a subject or an object, that held before some write."""
+        """Return the pairs of a relation, with a subject or an object, that held before any of the writes."""
         found = set[tuple[str, str]]()
         for entry in self._entries:
-            found.update(pairs(entry.before, relation, subject, object_))
+            found.update(entry.before.pairs(relation, subject, object_))
         return found
 
     def _last(self, fact: Fact) -> DecidingWrite | None:
@@ -112,30 +112,23 @@ class EvidenceLedger:
 
 
 def weakest(found: Iterable[DecidingWrite | None]) -> DecidingWrite | None:
-    """Return the weakest of what several facts, which are all needed, rest on; None where all were given."""
-    there = [each for each in found if each is not None]
-    return min(there, key=lambda each: (_STRENGTH[each.evidence], -each.number), default=None)
+    """Return the write with the weakest evidence, for facts that are all needed; None if all were given."""
+    writes = [each for each in found if each is not None]
+    return min(writes, key=lambda each: (_STRENGTH[each.evidence], -each.number), default=None)
 
 
 def strongest(found: Iterable[DecidingWrite | None]) -> DecidingWrite | None:
-    """Return the strongest of what alternatives, of which one is enough, rest on."""
-    there = tuple(found)
-    if None in there:
+    """Return the write with the strongest evidence, for facts of which one is enough; None if one is given."""
+    writes = tuple(found)
+    if None in writes:
         return None
-    return max((each for each in there if each), key=lambda each: (_STRENGTH[each.evidence], each.number), default=None)
-
-
-def pairs(state: WorldState, relation: str, subject: str | None, object_: str | None) -> Iterable[tuple[str, str]]:
-    """Return the pairs of which a relation holds, with a subject or an object where they are given."""
-    if subject is not None:
-        return [(subject, each) for each in state.objects(subject, relation) if object_ in (None, each)]
-    if object_ is not None:
-        return [(each, object_) for each in state.subjects(relation, object_)]
-    return state.pairs(relation)
+    return max(
+        (each for each in writes if each), key=lambda each: (_STRENGTH[each.evidence], each.number), default=None
+    )
 
 
 def stated_fact(change: Change) -> Fact | None:
-    """Return the fact that a change states; None for one about an individual as a whole."""
+    """Return the fact that a change states; None for a change of an individual as a whole."""
     match change:
         case AddRelation(subject, relation, object_):
             return RelationFact(subject, relation, object_)
@@ -150,7 +143,7 @@ def stated_fact(change: Change) -> Fact | None:
 
 
 def _is_stated_by(change: Change, fact: Fact, state: WorldState) -> bool:
-    """Whether a change states a fact, by itself or by what its relation implies."""
+    """Whether a change states a fact, directly or by what its relation implies."""
     match change, fact:
         case AddRelation(subject, relation, object_), RelationFact(holds=True):
             return _implies(state, (subject, relation, object_), (fact.subject, fact.relation, fact.object))
@@ -171,7 +164,7 @@ def _implies(state: WorldState, one: tuple[str, str, str], other: tuple[str, str
 
 
 def _is_changed_by(fact: Fact, entry: _Entry) -> bool:
-    """Whether a write made a fact true that was not, or changed a value that is computed."""
+    """Whether a write changed the truth of a fact, or a value, even if it did not state it."""
     before, after = entry.before, entry.after
     try:
         match fact:
@@ -191,7 +184,7 @@ def _is_changed_by(fact: Fact, entry: _Entry) -> bool:
 
 
 def _premises(fact: RelationFact, state: WorldState) -> Iterator[RelationFact]:
-    """Yield the facts that a true one follows from: itself, and of a chain every link between its ends."""
+    """Yield the facts from which a true one follows: itself, and every link of a chain between its ends."""
     yield fact
     axioms, relation = state.axioms, fact.relation
     if relation not in axioms.transitive and not axioms.carriers[relation]:
@@ -206,7 +199,7 @@ def _premises(fact: RelationFact, state: WorldState) -> Iterator[RelationFact]:
 
 
 def _excluding_facts(fact: RelationFact, state: WorldState) -> Iterator[RelationFact]:
-    """Yield true facts that a false one follows from: the other value of a functional relation, the other holder."""
+    """Yield true facts that exclude a false one: the other object or subject of a functional relation."""
     for relation, flipped in state.axioms.implied.get(fact.relation, ()):
         term = state.vocabulary.relations[relation]
         start, end = (fact.object, fact.subject) if flipped else (fact.subject, fact.object)
@@ -218,9 +211,9 @@ def _excluding_facts(fact: RelationFact, state: WorldState) -> Iterator[Relation
 
 def _merge(one: _Entry, other: _Entry) -> _Entry:
     weaker = one.write if _is_weaker(one, other) else other.write
-    kept = replace(weaker, number=other.write.number)
+    merged = replace(weaker, number=other.write.number)
     changes = {stated_fact(each) or each: each for each in (*one.changes, *other.changes)}
-    return _Entry(kept, tuple(changes.values()), one.before, other.after)
+    return _Entry(merged, tuple(changes.values()), one.before, other.after)
 
 
 def _is_weaker(one: _Entry, other: _Entry) -> bool:

@@ -1,4 +1,4 @@
-"""Single facts of a world, true or false, as things to ask about."""
+"""References to single facts of a world, which may be true or false; labelled facts are in `labelled`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 @dataclass(frozen=True, slots=True)
 class RelationFact:
-    """The relation holds between two individuals, or does not."""
+    """A relation that holds between two individuals, or does not."""
 
     subject: str
     relation: str
@@ -18,7 +18,7 @@ class RelationFact:
 
 @dataclass(frozen=True, slots=True)
 class PropertyFact:
-    """The property of the individual has the value that it has, or none."""
+    """The value of a property of an individual, whatever it is."""
 
     individual: str
     property: str
@@ -26,7 +26,7 @@ class PropertyFact:
 
 @dataclass(frozen=True, slots=True)
 class ClassFact:
-    """The individual is of the class, or is not."""
+    """An individual that is of a class, or is not."""
 
     individual: str
     cls: str
@@ -34,3 +34,6 @@ class ClassFact:
 
 
 Fact: TypeAlias = RelationFact | PropertyFact | ClassFact
+
+IriTriple: TypeAlias = tuple[str, str, str]
+"""An asserted relation or class: subject, predicate and object, all IRIs."""

@@ -1,4 +1,4 @@
-"""Values, facts and changes that explain themselves: IRIs have their short names with them, numbers their units."""
+"""Values, facts and changes for recordings and messages: IRIs with their short names, numbers with their units."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
 MILLI = {"mm": 1e3}
-"""How many of a unit for messages make one SI unit."""
+"""How many of a display unit make one SI unit."""
 
 
 class LabelledIri(msgspec.Struct, frozen=True, tag="iri"):
-    """An individual, class, relation or property; `label` is what people read, `lab:Arm-1` or `contain`."""
+    """An individual, class, relation or property; `label` is its short name, such as `lab:Arm-1` or `contain`."""
 
     iri: str
     label: str
@@ -43,7 +43,7 @@ class LabelledIri(msgspec.Struct, frozen=True, tag="iri"):
 
 
 class Quantity(msgspec.Struct, frozen=True, tag="quantity"):
-    """A number in an SI unit as the language writes it; the unit is empty for a pure number.
+    """A number with its SI unit as the language writes it; the unit is empty for a pure number.
 
     In a message `{depth:.1f mm}` shows it with one digit in mm, `{depth}` with its unit.
     """
@@ -60,13 +60,13 @@ class Quantity(msgspec.Struct, frozen=True, tag="quantity"):
 
 
 class NotFinite(msgspec.Struct, frozen=True, tag="not-finite"):
-    """What JSON has no number for, as text: `inf N`."""
+    """A number that JSON cannot represent, as text: `inf N`."""
 
     text: str
 
 
 class LabelledVector(msgspec.Struct, frozen=True, tag="vector"):
-    """Three numbers of one unit in the world frame."""
+    """Three numbers with one unit, in the world frame."""
 
     components: tuple[float, float, float]
     unit: str = ""
@@ -96,7 +96,7 @@ LabelledValue: TypeAlias = (
 
 
 class LabelledRelation(msgspec.Struct, frozen=True, tag="relation", omit_defaults=True):
-    """A relation holds between two individuals, or does not; None stands for anybody."""
+    """A relation holds between two individuals, or does not; None stands for any individual."""
 
     subject: LabelledIri | None
     relation: LabelledIri
@@ -105,7 +105,7 @@ class LabelledRelation(msgspec.Struct, frozen=True, tag="relation", omit_default
 
 
 class LabelledProperty(msgspec.Struct, frozen=True, tag="property"):
-    """A property of an individual has a value, or none."""
+    """A property of an individual with its value; None for no value."""
 
     individual: LabelledIri
     property: LabelledIri
@@ -121,7 +121,7 @@ class LabelledClass(msgspec.Struct, frozen=True, tag="class", omit_defaults=True
 
 
 class LabelledIdentity(msgspec.Struct, frozen=True, tag="same", omit_defaults=True):
-    """Two names stand for one individual, or do not."""
+    """Two names denote the same individual, or do not."""
 
     one: LabelledIri
     other: LabelledIri
@@ -129,21 +129,21 @@ class LabelledIdentity(msgspec.Struct, frozen=True, tag="same", omit_defaults=Tr
 
 
 class IndividualAdded(msgspec.Struct, frozen=True, tag="added"):
-    """An individual exists from now on."""
+    """An individual was added."""
 
     individual: LabelledIri
     classes: tuple[LabelledIri, ...]
 
 
 class IndividualRemoved(msgspec.Struct, frozen=True, tag="removed"):
-    """An individual and all facts about it are gone."""
+    """An individual and all facts about it were removed."""
 
     individual: LabelledIri
 
 
 LabelledFact: TypeAlias = LabelledRelation | LabelledProperty | LabelledClass | LabelledIdentity
 LabelledChange: TypeAlias = LabelledRelation | LabelledProperty | IndividualAdded | IndividualRemoved
-"""A change of a relation or a property is the fact that holds from then on."""
+"""A change of a relation or a property is the fact that holds afterwards."""
 
 
 def label(iri: str, vocabulary: Vocabulary) -> LabelledIri:
@@ -152,12 +152,12 @@ def label(iri: str, vocabulary: Vocabulary) -> LabelledIri:
 
 
 def label_term(iri: str) -> LabelledIri:
-    """Return a relation or a property with its name, as conditions are written."""
+    """Return a relation or a property with its local name, as in conditions."""
     return LabelledIri(iri, local(iri))
 
 
 def label_value(value: Value, type_: ValueType | None, vocabulary: Vocabulary) -> LabelledValue:
-    """Return a value with units and short names; `type_` None where it is not known. Numbers in SI units."""
+    """Return a value with units and short names; numbers are in SI units. `type_` is None if it is not known."""
     match value:
         case bool():
             return value
@@ -187,7 +187,7 @@ def label_bindings(
 
 
 def make_recordable(value: object) -> LabelledValue:
-    """Return a value that somebody else made as one that can be written and read back."""
+    """Return a value from skill code as a value that can be recorded and read back."""
     match value:
         case Quantity(number) if not isfinite(number):
             return NotFinite(f"{value}")
@@ -198,7 +198,7 @@ def make_recordable(value: object) -> LabelledValue:
 
 
 def label_fact(fact: Fact, state: WorldState) -> LabelledFact:
-    """Return a fact as it is in a state."""
+    """Return a fact with the value that it has in a state."""
     vocabulary = state.vocabulary
     match fact:
         case RelationFact(subject, relation, object_, holds):
@@ -214,13 +214,13 @@ def label_fact(fact: Fact, state: WorldState) -> LabelledFact:
 def label_relation(
     subject: str | None, relation: str, object_: str | None, holds: bool, vocabulary: Vocabulary
 ) -> LabelledRelation:
-    """Return that a relation holds or not, by IRIs; None for anybody."""
+    """Return that a relation holds or not, given by IRIs; None stands for any individual."""
     ends = (None if end is None else label(end, vocabulary) for end in (subject, object_))
     return LabelledRelation(next(ends), label_term(relation), next(ends), holds)
 
 
 def label_property(individual: str, property_: str, value: Value | None, vocabulary: Vocabulary) -> LabelledProperty:
-    """Return the value of a property, by IRIs; None and several values of which there are none are no value."""
+    """Return the value of a property, given by IRIs; None and an empty tuple mean no value."""
     term = vocabulary.properties.get(property_)
     empty = value is None or (isinstance(value, tuple) and not value)
     labelled = None if value is None or empty else label_value(value, term.type if term else None, vocabulary)
@@ -253,7 +253,7 @@ def _number(value: float, type_: ValueType | None) -> LabelledValue:
 
 
 def _vector(value: np.ndarray, type_: ValueType | None) -> LabelledValue:
-    """Return a vector with its unit; an array of another size than (3,) as a list."""
+    """Return a vector (3,) with its unit; an array of another size as a list."""
     unit = SI_UNITS.get(type_.dimension, "") if isinstance(type_, VectorType) else ""
     match value.ravel().tolist():
         case [x, y, z]:

@@ -1,4 +1,4 @@
-"""Labelled values and facts as text, in the syntax of the language."""
+"""Formats labelled values and facts in the syntax of the language."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from skillc_runtime.world.state.labelled import (
 )
 
 LISTED = 3
-"""Longer lists are shown by their length."""
+"""Of longer lists only the length is shown."""
 
 ANY = "_"
 
 
 def format_value(value: LabelledValue) -> str:
-    """Return a value as an author would write it; of long lists how long they are."""
+    """Return a value as an author would write it; a long list as its length."""
     match value:
         case bool():
             return "true" if value else "false"
@@ -52,7 +52,7 @@ def format_value(value: LabelledValue) -> str:
 
 
 def format_fact(fact: LabelledFact) -> str:
-    """Return a fact in the words of the language, as `not lab:Gripper-1 contain lab:Eraser-1`."""
+    """Return a fact in the syntax of the language, such as `not lab:Gripper-1 contain lab:Eraser-1`."""
     match fact:
         case LabelledRelation(subject, relation, object_, holds):
             ends = [ANY if end is None else end.label for end in (subject, object_)]

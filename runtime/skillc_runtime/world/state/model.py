@@ -1,4 +1,4 @@
-"""The world model: the one place where what is known of the world changes, version by version."""
+"""The world model: the only place where facts about the world change, version by version."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ from skillc_runtime.world.state.transactions import ChangeEvent, Listener, NullS
 from skillc_runtime.world.state.world_state import WorldState
 
 MAX_UNDO = 100
-"""So many of the last writes can be taken back."""
+"""The number of last writes that can be undone."""
 
 
 class WorldError(ValueError):
-    """A write that was refused; the message names the axioms it breaks and the facts."""
+    """A write that was rejected; the message names the violated axioms and the facts."""
 
 
 class WorldModel:
-    """The current version of the world, how its facts are known, and whoever wants to hear of the next."""
+    """The current version of the world, the evidence for its facts, and the listeners for new versions."""
 
     def __init__(self, state: WorldState, store: TransactionLog | None = None, sequence: int = 0) -> None:
-        """Begin with a version: the one that `store`, if there is one, holds after the transaction `sequence`."""
+        """Start with a version; with a `store`, the one that it holds after the transaction number `sequence`."""
         self._state = state
         self._store: TransactionLog = store or NullStore()
         self._sequence = sequence
@@ -51,20 +51,20 @@ class WorldModel:
         return self._state
 
     def subscribe(self, listener: Listener) -> Callable[[], None]:
-        """Call the listener after every write; return what ends that."""
+        """Call the listener after every write; return a function that ends the subscription."""
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener)
 
     def deciding_write(self, fact: Fact) -> DecidingWrite | None:
-        """Return the write that decides how a fact of the current version is known; None for one given at the start."""
+        """Return the write that decides the evidence for a current fact; None for a fact given at the start."""
         return self.ledger.deciding_write(fact, self._state)
 
     def commit(self, changes: Iterable[Change], origin: str = "", evidence: Evidence = "assumed") -> ChangeEvent:
-        """Make all the changes or, when the world would break an axiom, none: WorldError says which.
+        """Apply all changes, or none if the world would violate an axiom: WorldError names it.
 
-        `known` is `sensed` or `reported` only where a device was read for them, now.
-        Where others wrote to the store in the meantime, the changes are made to what they left. StoreError when the
-        store cannot keep the changes, and then the world stays as it was.
+        `evidence` may be `sensed` or `reported` only if a device was read for these changes now.
+        If others wrote to the store in the meantime, the changes are applied to the version that they left. StoreError
+        when the store cannot save the changes; the world then stays as it was.
         """
         with self._lock:
             if self._in_transaction:
@@ -75,25 +75,25 @@ class WorldModel:
 
     @contextmanager
     def transaction(self, origin: str = "", evidence: Evidence = "assumed") -> Iterator[OpenTransaction]:
-        """Gather writes and commit them all when the block ends; none when it raises, nor when they are refused.
+        """Collect writes and commit them together when the block ends; none if it raises or an axiom is violated.
 
-        Other threads wait with their writes for its end, and go on reading. WorldError for one within another.
+        Writes of other threads wait for the end of the block; reads do not. WorldError for a nested transaction.
         """
         with self._lock:
             if self._in_transaction:
                 raise WorldError("a transaction is open already: write to it")
             self._in_transaction = True
             try:
-                gathered = OpenTransaction(self._state)
-                yield gathered
+                transaction = OpenTransaction(self._state)
+                yield transaction
             finally:
                 self._in_transaction = False
-            event = self._commit(tuple(gathered.changes), origin, evidence) if gathered.changes else None
+            event = self._commit(tuple(transaction.changes), origin, evidence) if transaction.changes else None
         if event is not None:
             self._notify(event)
 
     def undo(self, origin: str = "undo") -> ChangeEvent:
-        """Take back the last write that is not taken back yet, as a write of its own; facts are known as before it.
+        """Undo the last write that is not undone yet, with a new write; its facts have their former evidence again.
 
         WorldError when there is none: nothing was written here, others wrote since, or it is more than MAX_UNDO ago.
         """
@@ -115,7 +115,7 @@ class WorldModel:
         return event
 
     def follow(self) -> None:
-        """Take over what others wrote to the store, and tell whoever listens; StoreError when it cannot be read."""
+        """Apply what others wrote to the store and call the listeners; StoreError when it cannot be read."""
         events: list[ChangeEvent] = []
         with self._lock:
             for transaction in self._store.since(self._sequence):
@@ -148,17 +148,19 @@ class WorldModel:
     def _record(self, event: ChangeEvent) -> None:
         self.ledger.add(event.changes, event.before, event.after, event.evidence, event.origin)
 
-    def _check(self, made: tuple[Change, ...], origin: str, evidence: Evidence | None) -> ChangeEvent:
-        """Return what the changes would make of the current version; WorldError when that is refused."""
+    def _check(self, changes: tuple[Change, ...], origin: str, evidence: Evidence | None) -> ChangeEvent:
+        """Return the event that the changes would cause; WorldError if they are rejected."""
         before = self._state
-        strange = [iri for change in made if (iri := unknown_term(before, change)) is not None]
-        if strange:
-            raise WorldError(f"there is no relation or property {before.vocabulary.short(strange[0])}")
-        after = before.with_changes(made)
-        problems = [breach.message for change in _effective_changes(made) for breach in axiom_violations(after, change)]
+        unknown = [iri for change in changes if (iri := unknown_term(before, change)) is not None]
+        if unknown:
+            raise WorldError(f"there is no relation or property {before.vocabulary.short(unknown[0])}")
+        after = before.with_changes(changes)
+        problems = [
+            violation.message for change in _effective_changes(changes) for violation in axiom_violations(after, change)
+        ]
         if problems:
             raise WorldError("; ".join(dict.fromkeys(problems)))
-        return ChangeEvent(made, origin, before, after, evidence)
+        return ChangeEvent(changes, origin, before, after, evidence)
 
     def _notify(self, event: ChangeEvent) -> None:
         for listener in tuple(self._listeners):
@@ -166,7 +168,7 @@ class WorldModel:
 
 
 def _effective_changes(changes: tuple[Change, ...]) -> list[Change]:
-    """Return the changes that a later one of the same write does not take back."""
+    """Return the changes that no later change of the same write undoes."""
     lasting: list[Change] = []
     for change in changes:
         match change:

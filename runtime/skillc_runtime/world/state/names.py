@@ -1,4 +1,4 @@
-"""What people call things: IRIs, or `prefix:name` by the prefixes of the vocabulary and its scene."""
+"""Resolves names that people write: IRIs, or `prefix:name` with the prefixes of the vocabulary and the scene."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from skillc_rdf.vocabulary.types import Vocabulary, local_name
 from skillc_runtime.world.state.world_state import WorldState
 
 LISTED = 8
-"""How many names a message lists at most."""
+"""The maximum number of names in a message."""
 
 
 class NoSuchName(LookupError):
-    """A name of nothing in the world or its vocabulary; the message says what it may have been meant to be."""
+    """A name that the world and its vocabulary do not have; the message suggests similar ones."""
 
 
 def expand_name(name: str, vocabulary: Vocabulary) -> str:
-    """Return the IRI of a name, the term's own where it is another name of a term; NoSuchName for unknown prefixes."""
+    """Return the IRI of a name, with aliases of terms replaced; NoSuchName for an unknown prefix."""
     prefix, colon, local = name.partition(":")
     if not colon:
         raise NoSuchName(f"`{name}` is neither an IRI nor PREFIX:NAME")
@@ -28,7 +28,7 @@ def expand_name(name: str, vocabulary: Vocabulary) -> str:
 
 
 def resolve_individual(name: str, state: WorldState) -> str:
-    """Return the IRI of an individual that there is; NoSuchName says which are called alike."""
+    """Return the IRI of an existing individual; NoSuchName suggests similar names."""
     iri = expand_name(name, state.vocabulary)
     if state.exists(iri):
         return iri
@@ -40,7 +40,7 @@ def resolve_individual(name: str, state: WorldState) -> str:
 
 
 def resolve_term(name: str, vocabulary: Vocabulary) -> str:
-    """Return the IRI of a class, relation or property that there is; NoSuchName says which are called alike."""
+    """Return the IRI of an existing class, relation or property; NoSuchName suggests similar names."""
     iri = expand_name(name, vocabulary)
     known = vocabulary.ancestors.keys() | vocabulary.relations.keys() | vocabulary.properties.keys()
     if iri in known:

@@ -1,4 +1,4 @@
-"""Writes that are gathered to be made all together, in the words of those who write."""
+"""Collects the writes of a transaction, by the names that people write."""
 
 from __future__ import annotations
 
@@ -19,64 +19,64 @@ from skillc_runtime.world.state.world_state import WorldState
 
 
 class OpenTransaction:
-    """Changes of a world that nobody else sees yet; whether the axioms allow them is looked at in the end.
+    """Changes of a world that are not committed yet; axioms are checked at the commit.
 
-    Everything is called by IRI or `prefix:name`; NoSuchName for a prefix, ValueError for a term that there is not.
+    Names are IRIs or `prefix:name`; NoSuchName for an unknown prefix, ValueError for an unknown term.
     """
 
-    def __init__(self, begun: WorldState) -> None:
-        self._begun = begun
-        self._state = begun
+    def __init__(self, state: WorldState) -> None:
+        self._start = state
+        self._state = state
         self.changes: list[Change] = []
 
     @property
     def state(self) -> WorldState:
-        """The version that the changes so far lead to, unchecked."""
+        """The version after the changes so far, unchecked."""
         return self._state
 
     def create(self, individual: str, *classes: str) -> str:
-        """Let there be an individual of these classes, return its IRI; one that there is becomes of them too."""
+        """Add an individual of these classes, or add the classes to an existing one; return its IRI."""
         iri = self._iri(individual)
         self.add(AddIndividual(iri, tuple(map(self._iri, classes))))
         return iri
 
     def instantiate(self, templates: Templates, template: str, individual: str) -> str:
-        """Let there be an individual of which is true what a template says, return its IRI.
+        """Add an individual with all facts of a template; return its IRI.
 
-        NoSuchName when there is no such template; ValueError when there is such an individual already.
+        NoSuchName when there is no such template; ValueError when the individual exists already.
         """
         iri = self._iri(individual)
         self.add(*templates.instance(template, iri, self._state))
         return iri
 
     def relate(self, subject: str, relation: str, object_: str) -> None:
-        """Let a relation hold; a functional one leaves its former value, an inverse functional one its holder."""
+        """Add a relation; a functional one loses its former object, an inverse functional one its former subject."""
         self.add(AddRelation(self._iri(subject), self._iri(relation), self._iri(object_)))
 
     def unrelate(self, subject: str, relation: str, object_: str) -> None:
-        """Let a relation not hold, by no sub-relation or inverse either."""
+        """Remove a relation, also where a sub-relation or an inverse asserts it."""
         self.add(RemoveRelation(self._iri(subject), self._iri(relation), self._iri(object_)))
 
     def set(self, individual: str, property_: str, value: Value) -> None:
-        """Give a property this value and no other; numbers in SI units."""
+        """Set a property to this value only; numbers in SI units."""
         self.add(SetProperty(self._iri(individual), self._iri(property_), value))
 
     def clear(self, individual: str, property_: str) -> None:
-        """Leave a property without a value."""
+        """Remove all values of a property."""
         self.add(ClearProperty(self._iri(individual), self._iri(property_)))
 
     def remove(self, individual: str) -> None:
-        """Let an individual be gone, with all facts about it."""
+        """Remove an individual with all facts about it."""
         self.add(RemoveIndividual(self._iri(individual)))
 
     def add(self, *changes: Change) -> None:
-        """Make changes after those so far."""
-        short = self._begun.vocabulary.short
-        strange = [iri for change in changes if (iri := unknown_term(self._begun, change)) is not None]
-        if strange:
-            raise ValueError(f"there is no relation or property {short(strange[0])}")
+        """Append changes."""
+        short = self._start.vocabulary.short
+        unknown = [iri for change in changes if (iri := unknown_term(self._start, change)) is not None]
+        if unknown:
+            raise ValueError(f"there is no relation or property {short(unknown[0])}")
         self._state = self._state.with_changes(changes)
         self.changes += changes
 
     def _iri(self, name: str) -> str:
-        return expand_name(name, self._begun.vocabulary)
+        return expand_name(name, self._start.vocabulary)

@@ -1,4 +1,4 @@
-"""Values of properties in a version of the world: stored, or computed by the Python that the vocabulary names."""
+"""Values of properties in a version of the world: stored, or computed by the Python function of the vocabulary."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def property_of(state: WorldState, individual: str, property_: str) -> Value | N
 
 
 def value_at(state: WorldState, individual: str, property_: str) -> Value | None:
-    """Return the value of a property, stored or computed; None where it has none or cannot be computed."""
+    """Return the value of a property, stored or computed; None when missing or when it cannot be computed."""
     try:
         return property_of(state, individual, property_)
     except EvaluationError:
@@ -29,13 +29,13 @@ def value_at(state: WorldState, individual: str, property_: str) -> Value | None
 
 
 def value_from_python(target: str, name: str, state: WorldState, *arguments: Value) -> Value | None:
-    """Call the Python behind a property or function called `name`; what it raises becomes an EvaluationError."""
+    """Call the Python function of a property or function `name`; its exceptions become EvaluationErrors."""
     result: Value | None = call_python(load_python(target), name, state, *arguments)
     return None if result is None else _as_value(result)
 
 
 def _as_value(result: Value) -> Value:
-    """Return lists and NumPy's numbers, which Python functions like to give, as tuples and numbers, also in lists."""
+    """Return lists and NumPy scalars as tuples and Python numbers, recursively."""
     if isinstance(result, np.generic):
         return cast(Value, result.item())
     return tuple(map(_as_value, result)) if isinstance(result, list | tuple) else result

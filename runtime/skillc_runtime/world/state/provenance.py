@@ -1,4 +1,4 @@
-"""Where facts come from: the data sheets of devices, the scene file, what happened since, or what follows by axioms."""
+"""Where facts come from: data sheets of devices, the scene file, the run, or axioms."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from enum import Enum
 
 from skillc_rdf.turtle.terms import RDF_TYPE
-from skillc_runtime.world.state.axiom_violations import IriTriple
+from skillc_runtime.world.state.facts import IriTriple
 from skillc_runtime.world.state.values import Value, has_value
 from skillc_runtime.world.state.world_state import WorldState
 
 
 class FactSource(Enum):
-    """Who says that a fact is true."""
+    """Where a fact comes from."""
 
     ROBOT = "robot"
     SCENE = "scene"
@@ -23,33 +23,33 @@ class FactSource(Enum):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Provenance:
-    """The two versions that a world began with: that of the data sheets alone, and that of the scene beside them."""
+    """Finds the source of facts, from the world of the data sheets alone and the world of scene and data sheets."""
 
     sheets: WorldState
     scene: WorldState
 
     def of_relation(self, state: WorldState, subject: str, relation: str, object_: str) -> FactSource | None:
-        """Return where a relation between two individuals comes from, all by IRI; None when it does not hold."""
+        """Return the source of a relation between two individuals, by IRI; None when it does not hold."""
         if not state.holds(subject, relation, object_):
             return None
         if object_ not in state.asserted[relation].forward.get(subject):
             return FactSource.INFERRED
-        for version, context in self._versions():
+        for version, source in self._versions():
             if object_ in version.asserted[relation].forward.get(subject):
-                return context
+                return source
         return FactSource.RUN
 
     def of_class(self, state: WorldState, individual: str, cls: str) -> FactSource | None:
-        """Return where it comes from that an individual is of a class; None when it is not."""
+        """Return the source of an individual's class; None when it is not of the class."""
         if not state.is_a(individual, cls):
             return None
         if cls not in state.types(individual):
             return FactSource.INFERRED
-        found = (context for version, context in self._versions() if cls in version.types(individual))
+        found = (source for version, source in self._versions() if cls in version.types(individual))
         return next(found, FactSource.RUN)
 
     def of_value(self, state: WorldState, individual: str, property_: str, value: Value) -> FactSource | None:
-        """Return where the value of a property comes from, one of several if it has several; None when it is not."""
+        """Return the source of a value, or of one of several values; None when the property does not have it."""
         if not has_value(state.value(individual, property_), value):
             return None
         found = (
@@ -58,7 +58,7 @@ class Provenance:
         return next(found, FactSource.RUN)
 
     def relations(self, state: WorldState, wanted: FactSource) -> Iterator[IriTriple]:
-        """Yield the relations and classes that come from there, sorted: subject, predicate and object."""
+        """Yield the relations and classes that come from a source, sorted: subject, predicate and object."""
         links = (
             (subject, relation, object_)
             for relation in sorted(state.facts)

@@ -1,4 +1,4 @@
-"""Whether a whole world satisfies its axioms: of all facts that an axiom treats alike, one is looked at."""
+"""Checks a whole world against its axioms, with one representative of all facts that an axiom treats alike."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ from operator import itemgetter
 from typing import TypeAlias, cast
 
 from skillc_rdf.vocabulary.types import PropertyTerm
-from skillc_runtime.world.state.axiom_violations import IriTriple, asserted_facts, axiom_violations
+from skillc_runtime.world.state.axiom_violations import asserted_facts, axiom_violations
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.state.facts import IriTriple
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -17,12 +18,12 @@ _Entries: TypeAlias = list[tuple[str, Value]]
 
 
 def satisfies_axioms(state: WorldState) -> bool:
-    """Whether no fact violates an axiom; the facts of a functional relation may compete, and then it does not."""
+    """Whether no fact violates an axiom; functional relations may have several values here, which violates theirs."""
     return not any(True for change in representatives(state) for _ in axiom_violations(state, change))
 
 
 def representatives(state: WorldState) -> Iterator[Change]:
-    """Yield changes that write facts of a version; where none of them violates an axiom, no fact does."""
+    """Yield changes that write facts of a version; if none of them violates an axiom, no fact of it does."""
     alike = {types: individual for individual, types in state.direct.items()}
     yield from (AddIndividual(individual, tuple(types)) for types, individual in alike.items())
     related = [fact for relation in state.asserted for fact in _one_per_kind(state, relation)]
@@ -36,14 +37,14 @@ def representatives(state: WorldState) -> Iterator[Change]:
 
 
 def _one_per_kind(state: WorldState, relation: str) -> Iterator[IriTriple]:
-    """Yield a fact as it was written for each pair of classes that it is between."""
+    """Yield one asserted fact for each combination of the classes of its subject and object."""
     of = state.classes.get
     kinds = {(of(start), of(end), start == end): (start, end) for start, end in state.asserted[relation].pairs()}
     yield from ((start, relation, end) for start, end in kinds.values())
 
 
 def _conflicting_facts(state: WorldState, relation: str) -> Iterator[IriTriple]:
-    """Yield the facts, as they were written, beside which another one may not hold by the axioms of a relation."""
+    """Yield the asserted facts that may exclude each other by the axioms of a relation."""
     term, facts = state.vocabulary.relations[relation], state.facts[relation]
     suspects: list[tuple[str, str]] = []
     if term.functional:
@@ -57,7 +58,7 @@ def _conflicting_facts(state: WorldState, relation: str) -> Iterator[IriTriple]:
 
 
 def _extremes(entries: _Entries, term: PropertyTerm) -> _Entries:
-    """Return entries with all values that matter: bounds are intervals, and where no texts are listed any will do."""
+    """Return entries with the values that can violate a bound: the least and greatest number, each listed text."""
     kinds = set(map(type, map(itemgetter(1), entries)))
     if kinds == {float} and isfinite(sum(map(cast("Callable[[object], float]", itemgetter(1)), entries))):
         return [min(entries, key=itemgetter(1)), max(entries, key=itemgetter(1))]

@@ -1,4 +1,4 @@
-"""Templates: the facts that are true of each individual that is made of one."""
+"""Templates: the facts that each individual created from one has."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from skillc_runtime.world.state.world_state import WorldState
 
 @dataclass(frozen=True, slots=True)
 class Templates:
-    """The templates by IRI, each with what makes an individual of its own IRI out of it."""
+    """The templates by IRI, each with the changes that create an individual of its own IRI."""
 
     vocabulary: Vocabulary
     patterns: Mapping[str, tuple[Change, ...]]
 
     def instance(self, template: str, individual: str, state: WorldState) -> tuple[Change, ...]:
-        """Return the changes that make an individual, by IRI, of a template, by IRI or `prefix:name`.
+        """Return the changes that create an individual, by IRI, from a template, by IRI or `prefix:name`.
 
-        Of each template that it refers to an individual is made as well, called after both. NoSuchName when there is
-        no such template, ValueError when there is such an individual already.
+        Each template that it refers to also gets an individual, which is named after both. NoSuchName when there is no
+        such template, ValueError when the individual exists already.
         """
         wanted = expand_name(template, self.vocabulary)
         if wanted not in self.patterns:
@@ -36,7 +36,7 @@ class Templates:
         return tuple(sorted(made, key=lambda change: not isinstance(change, AddIndividual)))
 
     def _named(self, template: str, individual: str) -> dict[str, str]:
-        """Return what individuals are called, by template, that one leads to."""
+        """Return the IRIs of the individuals that a template creates, by template."""
         named, todo = {template: individual}, [template]
         while todo:
             for other in _objects(self.patterns[todo.pop()]):

@@ -1,4 +1,4 @@
-"""The terms of the vocabularies that the runtime's own code reads or writes; all others come from skills and scenes."""
+"""IRIs of the vocabulary terms that the runtime's code uses; all others come from skills and scenes."""
 
 SKILLC = "https://w3id.org/skillc/core#"
 SKIROS = "http://rvmi.aau.dk/ontologies/skiros.owl#"

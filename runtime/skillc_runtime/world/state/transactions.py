@@ -1,4 +1,4 @@
-"""Writes to a world model that were made: what listeners hear of them, and the log that keeps them."""
+"""Committed writes to a world model: the event for listeners, and the log that stores them."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from skillc_runtime.world.state.world_state import WorldState
 
 @dataclass(frozen=True, slots=True)
 class ChangeEvent:
-    """A write that was made: the changes, who made them, how they are known, and the versions before and after.
+    """A committed write: the changes, their origin and evidence, and the versions before and after.
 
-    `known` is None for what others wrote, and for what was taken back.
+    `evidence` is None for writes of others and for undone writes.
     """
 
     changes: tuple[Change, ...]
@@ -29,12 +29,12 @@ Listener: TypeAlias = Callable[[ChangeEvent], None]
 
 
 class StoreError(RuntimeError):
-    """A store that cannot be used; the message names the store, what is wrong with it and what to do."""
+    """A store that cannot be used; the message names the store, the problem and what to do."""
 
 
 @dataclass(frozen=True, slots=True)
 class Transaction:
-    """A write that the store has: `sequence` counts them from 1, without gaps."""
+    """A write in the store; `sequence` counts writes from 1, without gaps."""
 
     sequence: int
     origin: str
@@ -42,26 +42,26 @@ class Transaction:
 
 
 class TransactionLog(Protocol):
-    """Keeps transactions in one order that all who write to it agree on; every method may raise StoreError."""
+    """Stores transactions in one order for all writers; every method may raise StoreError."""
 
     def append(self, event: ChangeEvent, after: int) -> bool:
-        """Write an event as the transaction that follows `after`, whole, or return False when there is another already.
+        """Write an event as the transaction after number `after`; return False when another one has that place.
 
-        Once this returns True the transaction outlasts the process. The first one fills an empty store with the scene
-        that is its origin.
+        A transaction is written completely or not at all, and is durable once this returns True. The first one fills an
+        empty store with the scene that is its origin.
         """
 
     def since(self, sequence: int) -> tuple[Transaction, ...]:
-        """Return the transactions after the one of that number, in order."""
+        """Return the transactions after number `sequence`, in order."""
 
 
 class NullStore:
-    """The log of a world that ends with its process."""
+    """The log of a world without a store: it keeps nothing."""
 
     def append(self, event: ChangeEvent, after: int) -> bool:
-        """Forget the event."""
+        """Accept the event without storing it."""
         return True
 
     def since(self, sequence: int) -> tuple[Transaction, ...]:
-        """Return nothing: nobody else writes."""
+        """Return no transactions: nobody else writes."""
         return ()

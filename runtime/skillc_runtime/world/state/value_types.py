@@ -1,4 +1,4 @@
-"""Which values the types of the language and the properties of a vocabulary take."""
+"""Checks values against types of the language and properties of a vocabulary."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from skillc_runtime.world.state.world_state import WorldState
 
 
 def is_of_type(value: Value, type_: ValueType, state: WorldState) -> bool:
-    """Whether a value is of a type; an individual must be in the world, a number finite, a direction of length 1."""
+    """Whether a value is of a type; an individual must exist, a number must be finite, a direction have length 1."""
     match type_:
         case ClassType(iri=iri):
             return isinstance(value, str) and value in state.individuals and state.is_a(value, iri)
@@ -45,7 +45,7 @@ def _is_plain(value: Value, name: str) -> bool:
 
 
 def value_error(term: PropertyTerm, value: Value) -> str | None:
-    """Say what a property takes when the value is none of it, None when it fits; several values are checked alone."""
+    """Return what a property takes if the value is not valid, None if it is; of several values, call it for each."""
     if not is_finite(value):
         return "NaN and infinity are no values"
     expected = _expected(term.type, value)
@@ -59,7 +59,7 @@ def value_error(term: PropertyTerm, value: Value) -> str | None:
 
 
 def _expected(type_: ValueType, value: Value) -> str | None:
-    """Return what a type takes when the value is not of it."""
+    """Return what a type takes if the value is not of that type."""
     number = isinstance(value, int | float) and not isinstance(value, bool)
     match type_:
         case NumberType():

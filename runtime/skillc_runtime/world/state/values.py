@@ -17,7 +17,7 @@ Value: TypeAlias = "bool | int | float | str | Pose | Array | tuple[Value, ...]"
 
 
 def are_equal(one: Value, other: Value) -> bool:
-    """Whether two values are the same: numbers by value (3 = 3.0), text exactly, poses and vectors by component."""
+    """Whether two values are equal: numbers by value (3 = 3.0), poses and vectors by component."""
     if isinstance(one, Pose) and isinstance(other, Pose):
         return np.array_equal(one.position, other.position) and np.array_equal(one.rotation, other.rotation)
     if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
@@ -30,7 +30,7 @@ def are_equal(one: Value, other: Value) -> bool:
 
 
 def has_value(stored: Value | None, value: Value) -> bool:
-    """Whether a stored value is the value, or has it among several."""
+    """Whether a stored value equals a value, or is a tuple that contains it."""
     return stored is not None and any(
         are_equal(one, value) for one in (stored if isinstance(stored, tuple) else (stored,))
     )
@@ -48,7 +48,7 @@ def is_finite(value: Value) -> bool:
 
 
 def to_json(value: Value) -> object:
-    """Return a value as JSON has it; what JSON has no form for as text."""
+    """Return a value for JSON; poses as text."""
     if isinstance(value, tuple):
         return [to_json(part) for part in value]
     if isinstance(value, np.ndarray):
@@ -57,12 +57,12 @@ def to_json(value: Value) -> object:
 
 
 def show_if_stated(value: Value | None) -> str | None:
-    """Return a value of a property as text, None where it has none."""
+    """Return a value of a property as text; None for no value or an empty tuple."""
     return None if value is None or (isinstance(value, tuple) and not value) else show(value)
 
 
 def show(value: Value) -> str:
-    """Return a value as a reader wants to see it, numbers in SI units."""
+    """Return a value as text for people, numbers in SI units."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, float):

@@ -1,4 +1,4 @@
-"""Vectors in the world: how files state them, and which of them are directions."""
+"""Vectors in properties: parsing, formatting, and the check for directions."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 UNIT_WITHIN = 1e-3
-"""The length of a direction may differ from 1 by so much: files state it with three or four decimals."""
+"""The tolerance for the length of a direction, unitless: files state it with three or four decimals."""
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 
 
 def parse_vector(text: str) -> Array | None:
-    """Return the vector (3,) that a text states as three numbers with spaces between them, None if it states none."""
+    """Return the vector (3,) of a text with three numbers separated by spaces, in SI units; None for other texts."""
     numbers = _three_numbers(text)
     if not numbers or not all(map(isfinite, numbers)):
         return None
@@ -27,7 +27,7 @@ def parse_vector(text: str) -> Array | None:
 
 
 def is_too_large(text: str) -> bool:
-    """Whether a text states three numbers of which one is too large for a vector."""
+    """Whether a text consists of three numbers of which one is too large for a float."""
     return not all(map(isfinite, _three_numbers(text)))
 
 
@@ -38,7 +38,7 @@ def _three_numbers(text: str) -> list[float]:
 
 
 def format_vector(vector: Array) -> str:
-    """Return the text from which `vector_of` reads the same vector."""
+    """Return the text from which `parse_vector` reads the same vector."""
     return " ".join(repr(float(part)) for part in vector)
 
 

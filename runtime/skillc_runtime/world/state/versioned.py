@@ -1,4 +1,4 @@
-"""An immutable map whose versions share their bulk."""
+"""Immutable maps, sets and pair indexes whose versions share unchanged parts."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ V = TypeVar("V")
 
 
 class VersionedMap(Generic[K, V]):
-    """A map in two layers: a large one shared with earlier versions and a small one with what changed since.
+    """A map in two layers: a large one shared with earlier versions and a small one with later changes.
 
-    The value `empty` stands for "no entry". The small layer is merged when it outgrows the root of the large one,
-    so a new version costs a few microseconds however large the map is, and a lookup two dictionary probes.
+    The value `empty` means "no entry". The small layer is merged when it outgrows the square root of the large one, so
+    a new version costs a few microseconds for a map of any size, and a lookup costs two dictionary probes.
     """
 
     __slots__ = ("_base", "_empty", "_recent")
@@ -26,7 +26,7 @@ class VersionedMap(Generic[K, V]):
         self._recent: dict[K, V] = {} if recent is None else recent
 
     def get(self, key: K) -> V:
-        """Return the entry, `empty` where there is none."""
+        """Return the entry, or `empty`."""
         recent = self._recent
         if key in recent:
             return recent[key]
@@ -46,7 +46,7 @@ class VersionedMap(Generic[K, V]):
         yield from (entry for entry in recent.items() if entry[1] is not empty)
 
     def with_changes(self, changes: Mapping[K, V]) -> VersionedMap[K, V]:
-        """Return the next version; this one stays as it is."""
+        """Return the next version; this one does not change."""
         recent = {**self._recent, **changes}
         if len(recent) <= 16 + 2 * isqrt(len(self._base)):
             return VersionedMap(self._empty, self._base, recent)
@@ -55,9 +55,9 @@ class VersionedMap(Generic[K, V]):
 
 
 class VersionedSet:
-    """An immutable set: a large one, and whether individuals are in it of which that was written since.
+    """A set of individuals in two layers: a large shared set and later additions and removals.
 
-    It is put together when somebody asks for all of it, and after about as many writes as the square root of its size.
+    The layers are merged when all members are asked for, and after about as many writes as the square root of the size.
     """
 
     __slots__ = ("_all", "_base", "_recent")
@@ -75,7 +75,7 @@ class VersionedSet:
         return self._all
 
     def with_changes(self, changes: Mapping[str, bool]) -> VersionedSet:
-        """Return the next version with individuals that are in it now, or are not; this one stays as it is."""
+        """Return the next version, where each individual is a member or not; this one does not change."""
         if self._all is not None:
             return VersionedSet(self._all, changes)
         recent = {**self._recent, **changes}
@@ -93,14 +93,14 @@ def _no_entries() -> VersionedMap[str, frozenset[str]]:
 
 @dataclass(frozen=True, slots=True)
 class PairIndex:
-    """An immutable set of pairs (subject, object)."""
+    """The pairs (subject, object) of one relation, indexed both ways; immutable."""
 
     forward: VersionedMap[str, frozenset[str]]
     backward: VersionedMap[str, frozenset[str]]
 
     @staticmethod
     def empty() -> PairIndex:
-        """Return no pairs."""
+        """Return an index without pairs."""
         return PairIndex(_no_entries(), _no_entries())
 
     def pairs(self) -> Iterator[tuple[str, str]]:
@@ -111,7 +111,7 @@ class PairIndex:
 
 
 class PairIndexBuilder:
-    """Pairs on the way to the next version: only the entries that are written are copied."""
+    """Builds the next version of a pair index; copies only the entries that are written."""
 
     def __init__(self, links: PairIndex) -> None:
         self._links = links
@@ -119,27 +119,27 @@ class PairIndexBuilder:
         self._backward: dict[str, set[str]] = {}
 
     def objects(self, subject: str) -> Set[str]:
-        """Return the objects of a subject as they are now."""
+        """Return the current objects of a subject."""
         return self._forward[subject] if subject in self._forward else self._links.forward.get(subject)
 
     def subjects(self, object_: str) -> Set[str]:
-        """Return the subjects of an object as they are now."""
+        """Return the current subjects of an object."""
         return self._backward[object_] if object_ in self._backward else self._links.backward.get(object_)
 
     def add(self, subject: str, object_: str) -> None:
-        """Put a pair in."""
+        """Add a pair."""
         if object_ not in self.objects(subject):
             _writable(self._forward, self._links.forward, subject).add(object_)
             _writable(self._backward, self._links.backward, object_).add(subject)
 
     def discard(self, subject: str, object_: str) -> None:
-        """Take a pair out, if it is there."""
+        """Remove a pair if it is there."""
         if object_ in self.objects(subject):
             _writable(self._forward, self._links.forward, subject).discard(object_)
             _writable(self._backward, self._links.backward, object_).discard(subject)
 
     def build(self) -> PairIndex:
-        """Return the version written, the former one where nothing was."""
+        """Return the next version, the same object if nothing was written."""
         if not self._forward:
             return self._links
         return PairIndex(

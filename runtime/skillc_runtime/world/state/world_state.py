@@ -1,8 +1,8 @@
-"""Immutable versions of what is known of the world, indexed so that a check is a few dictionary probes."""
+"""Immutable versions of the facts about the world, indexed so that a lookup costs a few dictionary probes."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import assert_never
 
@@ -26,10 +26,10 @@ from skillc_runtime.world.state.versioned import EMPTY, PairIndex, VersionedMap,
 class WorldState:
     """Individuals with their classes, relations and properties; closed world, unique names.
 
-    `asserted` holds the relations as they were written, `facts` also what follows from them: sub-relations, inverses,
-    symmetry, transitivity. Computed relations have no entries: `holds` and its like ask what computes them.
-    `direct` holds the classes as they were written, `classes` their superclasses too. Versions share all that did not
-    change.
+    `asserted` holds the relations as they were written; `facts` also holds those that follow by sub-relations,
+    inverses, symmetry and transitivity. Computed relations have no entries: `holds`, `objects` and so on call their
+    reasoners. `direct` holds the classes as they were written, `classes` also their superclasses. Versions share
+    unchanged parts.
     """
 
     vocabulary: Vocabulary
@@ -67,7 +67,7 @@ class WorldState:
         return bool(self.direct.get(individual))
 
     def types(self, individual: str) -> frozenset[str]:
-        """Return the classes an individual was declared to be of, without their superclasses."""
+        """Return the declared classes of an individual, without their superclasses."""
         return self.direct.get(individual)
 
     def is_a(self, individual: str, cls: str) -> bool:
@@ -86,28 +86,34 @@ class WorldState:
         return object_ in self.facts[relation].forward.get(subject)
 
     def objects(self, subject: str, relation: str) -> frozenset[str]:
-        """Return all that the subject has the relation to."""
+        """Return the individuals that the subject has the relation to."""
         computed = self.axioms.computed
         if relation in computed:
             return computed[relation].objects(self, subject)
         return self.facts[relation].forward.get(subject)
 
     def subjects(self, relation: str, object_: str) -> frozenset[str]:
-        """Return all that have the relation to the object."""
+        """Return the individuals that have the relation to the object."""
         computed = self.axioms.computed
         if relation in computed:
             return computed[relation].subjects(self, object_)
         return self.facts[relation].backward.get(object_)
 
-    def pairs(self, relation: str) -> Iterator[tuple[str, str]]:
-        """Yield every pair of which the relation holds, in no particular order."""
+    def pairs(self, relation: str, subject: str | None = None, object_: str | None = None) -> Iterable[tuple[str, str]]:
+        """Return the pairs for which the relation holds, with a subject and object if given, in no particular order."""
+        if subject is not None and object_ is not None:
+            return [(subject, object_)] if self.holds(subject, relation, object_) else []
+        if subject is not None:
+            return [(subject, each) for each in self.objects(subject, relation)]
+        if object_ is not None:
+            return [(each, object_) for each in self.subjects(relation, object_)]
         computed = self.axioms.computed
         if relation in computed:
             return computed[relation].pairs(self)
         return self.facts[relation].pairs()
 
     def value(self, individual: str, property_: str) -> Value | None:
-        """Return the stored value, None when missing; a tuple of all values for a property that is not functional."""
+        """Return the stored value, None when missing; a tuple of all values if the property is not functional."""
         return self.stored[property_].get(individual)
 
     def individuals_with(self, property_: str, value: Value) -> tuple[str, ...]:
@@ -117,9 +123,9 @@ class WorldState:
         )
 
     def with_changes(self, changes: Iterable[Change]) -> WorldState:
-        """Return the next version with the changes made in order, unchecked (WorldModel.commit checks them).
+        """Return the next version after the changes, in order and unchecked; WorldModel.commit checks them.
 
-        A functional relation loses the former value, an inverse functional one the former holder.
+        A functional relation loses its former object, an inverse functional one its former subject.
         """
         builder = WorldStateBuilder(self)
         for change in changes:
@@ -128,7 +134,7 @@ class WorldState:
 
 
 class WorldStateBuilder:
-    """The next version while changes are made to it: copies only what is written."""
+    """Builds the next version of a world; copies only what is written."""
 
     def __init__(self, state: WorldState) -> None:
         self._state = state
@@ -139,7 +145,7 @@ class WorldStateBuilder:
         self._values: dict[str, dict[str, Value | None]] = {}
 
     def apply(self, change: Change) -> None:
-        """Make one change, unchecked."""
+        """Apply one change, unchecked."""
         match change:
             case AddRelation(subject, relation, object_):
                 self._add_relation(subject, relation, object_)
@@ -157,7 +163,7 @@ class WorldStateBuilder:
                 assert_never(change)
 
     def build(self) -> WorldState:
-        """Return the finished version."""
+        """Return the next version."""
         state = self._state
         asserted, facts = self._closure.build()
         stored = state.stored
