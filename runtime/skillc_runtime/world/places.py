@@ -1,6 +1,6 @@
-"""Poses and paths that skills compute: the functions of the standard library. Poses are of the tool, in the world.
+"""The functions of the standard library that skill texts call. Poses and paths are of the tool, in the world.
 
-The tool frame has its z axis along the direction in which the tool points and x along the direction of work.
+The z axis of the tool frame is the direction in which the tool points, the x axis is the direction of work.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 
 
 def offset(_state: WorldState, start: Pose, by: Array) -> Pose:
-    """Return the pose moved by a vector (3,) m of the world."""
+    """Return a pose in the world moved by a vector (3,) m in the world."""
     return Pose(start.position + by, start.rotation)
 
 
 def raised(_state: WorldState, start: Pose, height: float) -> Pose:
-    """Return the pose moved up by a height in m."""
+    """Return a pose in the world moved up by a height in m."""
     return Pose(start.position + np.array([0.0, 0.0, height]), start.rotation)
 
 
@@ -42,41 +42,42 @@ def last(_state: WorldState, path: list[Pose]) -> Pose:
 
 
 def centre(state: WorldState, surface: str) -> Pose:
-    """Return the tool's pose in the middle of a surface, flush with it."""
+    """Return the pose of a tool in the middle of a surface, aligned with it, in the world."""
     return pose(state, surface) @ Pose(np.zeros(3), _tool_axes(size(state, surface), lane_direction(state, surface)))
 
 
 def facing(state: WorldState, target: str) -> Pose:
-    """Return the tool's pose at the frame of a thing, pointing against its z."""
+    """Return the pose of a tool at the frame of an object, pointing against its z axis, in the world."""
     return pose(state, target) @ Pose(np.zeros(3), np.diag([1.0, -1.0, -1.0]))
 
 
 def x_axis(_state: WorldState, of: Pose) -> Array:
-    """Return the direction (3,) of a pose's x axis in the world."""
+    """Return the direction (3,), unitless, of the x axis of a pose in the world."""
     return of.rotation[:, 0].copy()
 
 
 def y_axis(_state: WorldState, of: Pose) -> Array:
-    """Return the direction (3,) of a pose's y axis in the world."""
+    """Return the direction (3,), unitless, of the y axis of a pose in the world."""
     return of.rotation[:, 1].copy()
 
 
 def z_axis(_state: WorldState, of: Pose) -> Array:
-    """Return the direction (3,) of a pose's z axis in the world."""
+    """Return the direction (3,), unitless, of the z axis of a pose in the world."""
     return of.rotation[:, 2].copy()
 
 
 def lanes(state: WorldState, surface: str, tool: str, overlap: float) -> list[Pose]:
-    """Return the tool's poses along lanes that cover a surface; `overlap`: the share neighbours have in common."""
+    """Return tool poses on lanes that cover a surface, in the world; `overlap` is a share of the lane width, 0 to 1."""
     frame, along = pose(state, surface), lane_direction(state, surface)
     found = lane_pattern(size(state, surface)[:2], size(state, tool)[:2], overlap, direction=along)
     return [frame @ lane for lane in found]
 
 
 def strokes(state: WorldState, surface: str, tool: str, overlap: float) -> list[list[Pose]]:
-    """Return the tool's poses along lanes that cover a surface's patches, without its holes, in pieces.
+    """Return tool poses along lanes that cover a surface's patches without its holes, in strokes, in the world.
 
-    Between two pieces the tool must be lifted. ValueError where the tool fits nowhere.
+    The tool must be lifted between two strokes. `overlap` is the share of the lane width, 0 to 1. ValueError when the
+    tool fits nowhere.
     """
     frame, along = pose(state, surface), lane_direction(state, surface)
     found = strokes_over(
@@ -89,28 +90,28 @@ def strokes(state: WorldState, surface: str, tool: str, overlap: float) -> list[
 
 
 def lifted(state: WorldState, surface: str, start: Pose, height: float) -> Pose:
-    """Return the pose moved out of a surface by a height in m above all that is known to stand out of it."""
+    """Return a pose in the world moved out of a surface by a height in m above everything that stands out of it."""
     return Pose(
         start.position + (height + surface_layout(state, surface).height) * normal(state, surface), start.rotation
     )
 
 
 def landing(state: WorldState, surface: str, paths: list[list[Pose]]) -> Pose:
-    """Return where a tool on paths lies well inside a surface: half way on the lane nearest to its middle."""
+    """Return a tool pose well inside a surface, in the world: the middle of the path segment nearest to its centre."""
     middle = pose(state, surface).position
-    ways = [way for path in paths for way in pairwise(path)] or [(path[0], path[0]) for path in paths]
-    places = [Pose((start.position + end.position) / 2, start.rotation) for start, end in ways]
+    segments = [segment for path in paths for segment in pairwise(path)] or [(path[0], path[0]) for path in paths]
+    places = [Pose((start.position + end.position) / 2, start.rotation) for start, end in segments]
     return min(places, key=lambda place: float(np.linalg.norm(place.position - middle)))
 
 
 def across(state: WorldState, surface: str) -> Array:
-    """Return the direction (3,) of the world across the lanes of a surface."""
+    """Return the direction (3,), unitless, across the lanes of a surface, in the world."""
     along = side(size(state, surface), lane_direction(state, surface))
     return pose(state, surface).rotation[:, 1 - along].copy()
 
 
 def _tool_axes(extent: Array, along: Direction) -> Array:
-    """Return the tool's axes (3, 3) in the surface frame: z into the surface, x along the lanes."""
+    """Return the axes (3, 3) of the tool, unitless, in the surface frame: z into the surface, x along the lanes."""
     if side(extent, along) == 0:
         return np.diag([1.0, -1.0, -1.0])
     return np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])

@@ -1,1 +1,5 @@
-"""What conditions, expressions and effects of skills mean in a version of the world. Start at `conditions`."""
+"""Evaluates conditions, expressions and effects of skills in a version of the world, and explains the results.
+
+`conditions` and `expressions` evaluate; `explain` and `grounds` give reasons; `inference` binds parameters. Start at
+`conditions`.
+"""

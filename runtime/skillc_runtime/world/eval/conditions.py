@@ -1,4 +1,4 @@
-"""Truth of conditions in a world state: closed world, two-valued, over one immutable version."""
+"""Evaluates conditions in one immutable version of the world: closed world, two-valued."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def evaluate(condition: Condition, state: WorldState, bindings: Bindings) -> boo
 
 
 def compile_condition(condition: Condition) -> ConditionTest:
-    """Return the test for a condition, to be kept where it is evaluated often."""
+    """Return the test for a condition; keep it where the condition is evaluated often."""
     match condition:
         case Holds(subject, relation, object_):
             return _holds(subject, relation, object_)
@@ -123,7 +123,7 @@ _ORDER: dict[str, Callable[..., bool]] = {
 
 
 def _compare(left: Expression, sign: str, right: Expression) -> ConditionTest:
-    """A missing value makes it false. Of a property with several values, one that compares is enough."""
+    """Return the test for a comparison: false if a value is missing; of several values, one that compares is enough."""
     one, other, compare = compile_expression(left), compile_expression(right), _ORDER[sign]
     several = isinstance(left, PropertyOf), isinstance(right, PropertyOf)
 

@@ -1,4 +1,4 @@
-"""The facts that decide a condition, whether it holds or not."""
+"""The facts that decide conditions, whether they hold or not, for recordings."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
 LISTED = 4
-"""Of facts about anybody, no more than so many are named."""
+"""The maximum number of facts for an unbound term or a quantifier."""
 
 _Names: TypeAlias = Mapping[str, Value]
 
@@ -49,7 +49,7 @@ _Names: TypeAlias = Mapping[str, Value]
 def deciding_facts(conditions: Iterable[Condition], state: WorldState, bindings: _Names) -> tuple[LabelledFact, ...]:
     """Return the facts that the conditions read, true and false ones, each once.
 
-    Names that are not bound stand for anybody. What cannot be decided is left out.
+    Unbound names stand for any individual. Facts that cannot be evaluated are left out.
     """
     found = (fact for condition in conditions for fact in _facts(condition, state, bindings))
     return tuple(dict.fromkeys(found))
@@ -100,7 +100,7 @@ def _value(individual: str, property_: str, state: WorldState) -> Iterator[Label
 
 
 def _deciding(condition: Exists | Forall, state: WorldState, bindings: _Names) -> list[str]:
-    """Return the first individuals that decide a quantified condition, any of the class where none does alone."""
+    """Return the first individuals that decide a quantified condition; any of the class if none decides alone."""
     wanted = isinstance(condition, Exists)
     try:
         members = sorted(each for each in candidates(condition)(state, bindings) if state.is_a(each, condition.cls))
@@ -115,7 +115,7 @@ def _deciding(condition: Exists | Forall, state: WorldState, bindings: _Names) -
 
 
 def _true(parts: Sequence[Condition], state: WorldState, bindings: _Names) -> list[Condition]:
-    """Return the alternatives that hold; none where that cannot be decided."""
+    """Return the alternatives that hold; none if one cannot be evaluated."""
     try:
         return [part for part in parts if evaluate(part, state, bindings)]
     except EvaluationError:

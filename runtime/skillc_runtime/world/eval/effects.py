@@ -1,4 +1,4 @@
-"""Effects of skills as changes of the world."""
+"""Turns effects of skills into changes of the world."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from skillc_runtime.world.state.world_state import WorldState
 
 
 def changes_of(effects: Iterable[Effect], state: WorldState, bindings: Bindings) -> tuple[Change, ...]:
-    """Return the changes that effects stand for; removals come first, so that what they assert is true afterwards."""
+    """Return the changes of effects; removals come first, so that all assertions hold afterwards."""
     changes = [change for effect in effects for change in _changes(effect, state, bindings)]
     return tuple(sorted(changes, key=lambda change: not isinstance(change, RemoveRelation)))
 

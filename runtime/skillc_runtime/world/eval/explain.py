@@ -1,4 +1,4 @@
-"""Why a condition does not hold, in the words of the world: what holds instead."""
+"""Explains why a condition does not hold: the facts that hold instead, in short names."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ LISTED = 4
 
 
 def explain(condition: Condition, state: WorldState, bindings: Bindings, vocabulary: Vocabulary) -> str:
-    """Say what holds instead of a condition that is false: the facts found and what is needed."""
+    """Return what holds instead of a false condition: the facts found and what is needed."""
     return _Explainer(state, vocabulary).unmet(condition, bindings)
 
 
@@ -50,7 +50,7 @@ class _Explainer:
         self._short = vocabulary.short
 
     def unmet(self, condition: Condition, bindings: Bindings) -> str:
-        """Say why a false condition is false."""
+        """Return why a false condition is false."""
         match condition:
             case Holds(subject, relation, object_):
                 return self._no_relation(subject, relation, object_, bindings)
@@ -80,7 +80,7 @@ class _Explainer:
                 assert_never(condition)
 
     def met(self, condition: Condition, bindings: Bindings) -> str:
-        """Say what makes true a condition that should be false."""
+        """Return the facts that make a condition true that should be false."""
         match condition:
             case Holds(subject, relation, object_):
                 facts = sorted(self._pairs(subject, object_, relation, bindings))
@@ -146,7 +146,7 @@ class _Explainer:
         return show(literal.value) if sign == "==" else f"{sign} {show(literal.value)}"
 
     def _reading(self, expression: Expression, bindings: Bindings) -> str:
-        """Return an expression with the value it has, as `lab:Arm-1.deviceState is "Fault"`."""
+        """Return an expression with its value, such as `lab:Arm-1.deviceState is "Fault"`."""
         value = compile_expression(expression)(self._state, bindings)
         shown = "missing" if value is None else self._value(value)
         match expression:
@@ -182,7 +182,7 @@ class _Explainer:
         return [each for each in members if evaluate(body, self._state, {**bindings, variable: each})]
 
     def _false(self, parts: tuple[Condition, ...], bindings: Bindings) -> Iterator[Condition]:
-        """Yield the false parts, as far as they can be decided: one may guard what comes after it."""
+        """Yield the false parts up to the first that cannot be evaluated: earlier parts may guard later ones."""
         try:
             for part in parts:
                 if not evaluate(part, self._state, bindings):

@@ -1,4 +1,4 @@
-"""Values of expressions in a world state, and the Python functions that vocabularies name."""
+"""Evaluates expressions in a version of the world, including calls of Python functions of the vocabulary."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from skillc_runtime.world.state.values import Value, show
 from skillc_runtime.world.state.world_state import WorldState
 
 Bindings: TypeAlias = Mapping[str, "Value | None"]
-"""What the names in scope stand for; an unset optional parameter is missing or None."""
+"""Values by name in scope; an unset optional parameter is missing or None."""
 
 ExpressionFunction: TypeAlias = Callable[[WorldState, Bindings], "Value | None"]
 
@@ -43,7 +43,7 @@ def value_of(expression: Expression, state: WorldState, bindings: Bindings) -> V
 
 
 def describe_missing_value(expression: Expression, state: WorldState, bindings: Bindings) -> str:
-    """Say which property an expression without a value lacks."""
+    """Return which property is missing for the value of an expression."""
     match expression:
         case PropertyOf(of, property_):
             owner = compile_expression(of)(state, bindings)
@@ -65,7 +65,7 @@ def describe_missing_value(expression: Expression, state: WorldState, bindings: 
 
 
 def compile_expression(expression: Expression) -> ExpressionFunction:
-    """Return a function for the value of an expression, None where a property it reads is missing."""
+    """Return a function that computes an expression; it returns None when a property it reads is missing."""
     match expression:
         case Literal(value):
             return lambda state, bindings: value
@@ -87,7 +87,7 @@ _compiled = IdentityCache(compile_expression)
 
 
 def bound_value(name: str, bindings: Bindings) -> Value:
-    """Return what a name stands for; EvaluationError for an optional parameter that was not passed."""
+    """Return the value of a name; EvaluationError for an optional parameter that was not passed."""
     value = bindings.get(name)
     if value is None:
         raise EvaluationError(f"`{name}` has no value: it was not passed (guard its use with `given {name}`)")
@@ -95,7 +95,7 @@ def bound_value(name: str, bindings: Bindings) -> Value:
 
 
 def iri_of(term: Term, bindings: Bindings) -> str | None:
-    """Return the individual that a term stands for, None where it is not known."""
+    """Return the IRI of the individual that a term denotes; None when it is not bound."""
     match term:
         case Individual(iri):
             return iri

@@ -1,4 +1,4 @@
-"""What the truth of a condition rests on: facts, each with the write that decides how it is known."""
+"""The facts that decide a condition, each with the write that decides its evidence."""
 
 from __future__ import annotations
 
@@ -37,14 +37,14 @@ from skillc_runtime.world.state.world_state import WorldState
 
 @dataclass(frozen=True, slots=True)
 class Ground:
-    """A fact that something rests on; `established` is None where it was given with the scene."""
+    """A fact that decides a condition; `write` is None for a fact given with the scene."""
 
     fact: Fact
     write: DecidingWrite | None
 
     @property
     def is_assumed(self) -> bool:
-        """Whether this run says so and nothing looked."""
+        """Whether this run wrote the fact without sensing it."""
         return self.write is not None and self.write.evidence == "assumed"
 
 
@@ -52,7 +52,7 @@ Grounds: TypeAlias = tuple[Ground, ...]
 
 
 def find_grounds(condition: Condition, world: WorldModel, bindings: Bindings) -> Grounds:
-    """Return what decides a condition, true or false, each fact once; of alternatives those that assume the least."""
+    """Return the facts that decide a condition, each once; of alternatives, those with the fewest assumptions."""
     return _Finder(world).of(condition, bindings)
 
 
@@ -73,7 +73,7 @@ class _Finder:
             case Not(body):
                 return self.of(body, bindings)
             case And(parts) | Or(parts):
-                return self._several(parts, isinstance(condition, And), bindings)
+                return self._compound(parts, isinstance(condition, And), bindings)
             case Exists() | Forall():
                 return self._quantified(condition, bindings)
             case Same() | Given():
@@ -81,12 +81,12 @@ class _Finder:
             case _:
                 assert_never(condition)
 
-    def _several(self, parts: tuple[Condition, ...], together: bool, bindings: Bindings) -> Grounds:
-        """All parts where they decide together, else the one of those that decide alone that assumes the least."""
+    def _compound(self, parts: tuple[Condition, ...], together: bool, bindings: Bindings) -> Grounds:
+        """Return the facts of all parts if only all decide, else of the deciding part with the fewest assumptions."""
         alone = [part for part in parts if self._true(part, bindings) is not together]
         if alone:
             return _least_assumed([self.of(part, bindings) for part in alone])
-        return _each_once(ground for part in parts for ground in self.of(part, bindings))
+        return _unique(ground for part in parts for ground in self.of(part, bindings))
 
     def _quantified(self, condition: Exists | Forall, bindings: Bindings) -> Grounds:
         exists = isinstance(condition, Exists)
@@ -95,7 +95,7 @@ class _Finder:
         alone = [(each, scope) for each, scope in scopes if self._true(condition.body, scope) is exists]
         if alone:
             return _least_assumed([self._member(condition, *one) for one in alone])
-        return _each_once(ground for one in scopes for ground in self._member(condition, *one))
+        return _unique(ground for one in scopes for ground in self._member(condition, *one))
 
     def _member(self, condition: Exists | Forall, individual: str, scope: Bindings) -> Grounds:
         return (*self._known([ClassFact(individual, condition.cls)]), *self.of(condition.body, scope))
@@ -105,9 +105,9 @@ class _Finder:
             return self._known(
                 [RelationFact(subject, relation, object_, self._state.holds(subject, relation, object_))]
             )
-        there = sorted(self._state.pairs(relation, subject, object_))
-        if there:
-            return _least_assumed([self._known([RelationFact(start, relation, end)]) for start, end in there])
+        pairs = sorted(self._state.pairs(relation, subject, object_))
+        if pairs:
+            return _least_assumed([self._known([RelationFact(start, relation, end)]) for start, end in pairs])
         gone = sorted(self._world.ledger.formerly_true(relation, subject, object_))
         return self._known([RelationFact(start, relation, end, holds=False) for start, end in gone])
 
@@ -125,7 +125,7 @@ def _least_assumed(alternatives: list[Grounds]) -> Grounds:
     return min(alternatives, key=lambda found: sum(ground.is_assumed for ground in found))
 
 
-def _each_once(found: Iterable[Ground]) -> Grounds:
+def _unique(found: Iterable[Ground]) -> Grounds:
     return tuple({ground.fact: ground for ground in found}.values())
 
 

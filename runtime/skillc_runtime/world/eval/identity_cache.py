@@ -1,4 +1,4 @@
-"""Remembers what was made of a value by its identity: equality would take `true` for 1 and cost a hash each time."""
+"""Caches results by the identity of the argument: by equality, `true` would equal 1, and hashing costs time."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ LIMIT = 4096
 
 
 class IdentityCache(Generic[K, V]):
-    """A function that is called once per object; it forgets everything when it knows more than LIMIT objects."""
+    """A function that is called once per object; the cache is cleared at LIMIT objects."""
 
     def __init__(self, make: Callable[[K], V]) -> None:
         self._make = make
         self._made: dict[int, tuple[K, V]] = {}
 
     def __call__(self, item: K) -> V:
-        """Return what was made of the object, which is kept alive so that its identity stays its own."""
+        """Return the result for an object; the cache keeps the object alive, so that its identity is not reused."""
         known = self._made.get(id(item))
         if known is not None:
             return known[1]

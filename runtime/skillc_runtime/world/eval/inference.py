@@ -1,4 +1,4 @@
-"""Finds what a skill's inferred parameters stand for, from the world and the skill's preconditions."""
+"""Infers parameters of a skill from the world and the skill's preconditions."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Binding: TypeAlias = dict[str, str]
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """The answer; `others` are those that `infer any` passed over, in IRI order."""
+    """The inferred parameters; `others` are further solutions for `infer any`, in IRI order."""
 
     bindings: Binding
     others: tuple[Binding, ...] = ()
@@ -31,9 +31,9 @@ class Found:
 
 @dataclass(frozen=True, slots=True)
 class NoneFound:
-    """No answer: the requirement that left none (None where a class has no individual), and why in words.
+    """No solution: the requirement that excludes the last one (None if a class has no individual), and the reason.
 
-    `nearest` are individuals that would do but for one thing.
+    `nearest` are individuals that violate a single requirement.
     """
 
     requirement: Requirement | None
@@ -43,7 +43,7 @@ class NoneFound:
 
 @dataclass(frozen=True, slots=True)
 class Ambiguous:
-    """Several answers where one is needed, in IRI order."""
+    """Several solutions where one is needed, in IRI order."""
 
     candidates: tuple[Binding, ...]
 
@@ -56,8 +56,8 @@ def infer(
 ) -> Inference:
     """Find the individuals of the parameters that satisfy the requirements about them.
 
-    The answer is the only one; parameters declared `infer any` take the first in IRI order. Requirements that speak
-    of none of the parameters are not looked at. EvaluationError when a requirement cannot be decided.
+    The solution must be unique; parameters declared `infer any` take the first in IRI order. Requirements about none of
+    the parameters are ignored. EvaluationError when a requirement cannot be evaluated.
     """
     if not parameters:
         return Found({})
@@ -84,7 +84,7 @@ def _class_of(parameter: Parameter) -> str:
 def _why_none(
     variables: dict[str, str], requirements: Sequence[Requirement], bindings: Bindings, state: WorldState
 ) -> NoneFound:
-    """Add one requirement after the other until none is left, and explain the last one on what was left before it."""
+    """Add requirements one by one until no solution is left, and explain the last one for the solution before it."""
     for name, cls in variables.items():
         if not state.instances(cls):
             reason = f"`{name}`: there is no {state.vocabulary.short(cls)} in the world model"
@@ -97,13 +97,13 @@ def _why_none(
             return NoneFound(requirement, reason, find_near_misses(variables, requirements, bindings, state))
         before = left
         linked |= free_variables(requirement.condition)
-    raise AssertionError("there is an answer after all")
+    raise AssertionError("there is a solution")
 
 
 def _explained(
     condition: Condition, linked: frozenset[str], variables: dict[str, str], scope: Bindings, state: WorldState
 ) -> str:
-    """Explain a condition; a variable that no earlier requirement linked to anything may stand for anyone."""
+    """Explain a condition; variables that no earlier requirement restricts are quantified."""
     for name in sorted((free_variables(condition) & variables.keys()) - linked):
         condition = Exists(name, variables[name], condition)
     return explain(condition, state, scope, state.vocabulary)

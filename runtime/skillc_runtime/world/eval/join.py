@@ -1,4 +1,4 @@
-"""All ways to bind variables to individuals so that conditions hold: one join over the index."""
+"""Finds all bindings of variables to individuals under which conditions hold, by a join over the indexes."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ def solutions(
     state: WorldState,
     most_tried: int | None = None,
 ) -> Iterator[dict[str, str]]:
-    """Yield each way to bind the variables (name to class) under which all conditions about them hold.
+    """Yield each binding of the variables (name to class) under which all conditions about them hold.
 
-    The order is the same every time. Conditions that speak of none of the variables are not looked at. After looking
-    at `most_tried` individuals it ends. EvaluationError as in `evaluate`.
+    The order is deterministic. Conditions about none of the variables are ignored. The search ends after `most_tried`
+    individuals. EvaluationError as in `evaluate`.
     """
     relevant = (condition for condition in conditions if not free_variables(condition).isdisjoint(variables))
     filters = [_filter(part, variables) for condition in relevant for part in conjuncts(condition)]
@@ -37,7 +37,7 @@ def solutions(
 
 @dataclass(frozen=True, slots=True)
 class _Filter:
-    """A condition with those of its variables that are looked for."""
+    """A condition with the searched variables that it mentions."""
 
     condition: Condition
     about: frozenset[str]
@@ -78,7 +78,7 @@ def _bind_next(
 def _candidates(
     name: str, left: dict[str, str], filters: tuple[_Filter, ...], scope: dict[str, Value | None], state: WorldState
 ) -> frozenset[str]:
-    """Return the smallest set that the index offers for a variable."""
+    """Return the smallest set of candidates for a variable that the indexes offer."""
     best = state.instances(left[name])
     for each in filters:
         condition = each.condition

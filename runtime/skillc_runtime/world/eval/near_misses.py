@@ -1,4 +1,4 @@
-"""What comes nearest where nothing meets all requirements: individuals that meet all but one."""
+"""Finds near misses: individuals that satisfy all requirements but one."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from skillc_runtime.world.eval.join import solutions
 from skillc_runtime.world.state.world_state import WorldState
 
 MAX_TRIED = 2000
-"""So many individuals are looked at for each requirement that is left out; what is further away is not near."""
+"""The maximum number of individuals tried for each requirement that is left out."""
 
 MAX_NEAR_MISSES = 3
-"""A thing to leave out for which more than so many would do then is not all that is wrong with any of them."""
+"""If more individuals than this fit without a requirement, that requirement is no helpful explanation."""
 
 
 @dataclass(frozen=True, slots=True)
 class NearMiss:
-    """Individuals by parameter name that would do but for one thing, and in words what is so instead.
+    """Individuals by parameter name that violate one requirement, and what holds instead.
 
-    It is a requirement, or where there is none the class of the parameter in `about`. `about` are the parameters that
-    it speaks of.
+    `requirement` is None if the class of the parameter in `about` is violated. `about` are the parameters that the
+    requirement mentions.
     """
 
     bindings: dict[str, str]
@@ -38,7 +38,7 @@ class NearMiss:
 def find_near_misses(
     variables: Mapping[str, str], requirements: Sequence[Requirement], bindings: Bindings, state: WorldState
 ) -> tuple[NearMiss, ...]:
-    """Return for each requirement, then for each parameter's class, those that would do without it, if they are few.
+    """Return, for each requirement and then each parameter's class, the solutions without it if they are few.
 
     EvaluationError as in `evaluate`.
     """
@@ -63,7 +63,7 @@ def _without_one_requirement(
 def _of_another_class(
     variables: Mapping[str, str], requirements: Sequence[Requirement], bindings: Bindings, state: WorldState
 ) -> Iterator[NearMiss]:
-    """Yield those of another class, for parameters that something else says who they are."""
+    """Yield solutions of another class, for parameters that a requirement restricts."""
     conditions = [each.condition for each in requirements]
     linked = frozenset[str]().union(*map(free_variables, conditions))
     for name, cls in variables.items():
@@ -80,7 +80,7 @@ def _few_solutions(
     bindings: Bindings,
     state: WorldState,
 ) -> list[dict[str, str]]:
-    """Return answers that differ in what the parameters `about` are, in IRI order; none where there are many."""
+    """Return solutions that differ in the parameters `about`, in IRI order; none if there are many."""
     different: dict[tuple[str, ...], dict[str, str]] = {}
     for answer in solutions(variables, conditions, bindings, state, MAX_TRIED if about else 0):
         different.setdefault(tuple(answer[name] for name in about), answer)

@@ -1,4 +1,4 @@
-"""Which individuals a quantified condition needs to look at, so that it costs what it finds, not what there is."""
+"""Selects candidates for quantified conditions from the indexes, so that not all individuals are tested."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ Candidates: TypeAlias = Callable[[WorldState, Bindings], frozenset[str]]
 
 
 def candidates(condition: Exists | Forall) -> Candidates:
-    """Return a function for individuals among which all that decide the condition are.
+    """Return a function that returns candidates, among them all individuals that decide the condition.
 
-    For `exists x: C (.. x r a ..)` those that stand in the relation; for `forall` those that could break the body.
+    For `exists x: C (.. x r a ..)` those that have the relation; for `forall` those that could violate the body.
     """
     variable, body = condition.variable, condition.body
     needed = body if isinstance(condition, Exists) else _negation(body)

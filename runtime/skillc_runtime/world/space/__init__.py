@@ -1,1 +1,4 @@
-"""Space: who is placed in whose frame, where that makes everything, and what follows from it about two things."""
+"""Space: poses in the world, bounding boxes, reach and surfaces, computed from facts. Start at `frames`.
+
+`frame_tree` computes and caches poses; `reasoners` decide spatial relations.
+"""

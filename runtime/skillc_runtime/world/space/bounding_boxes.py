@@ -1,4 +1,4 @@
-"""How much room things take up: a box each, in the world; and which is over which."""
+"""Bounding boxes of objects in the world, and the vertical gap between two objects."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from skillc_runtime.world.state.terms import FURNITURE, MOBILE_ROBOT, SIZE, SURF
 from skillc_runtime.world.state.world_state import WorldState
 
 TOUCH_M = 0.005
-"""Things that are no farther apart than this touch, as far as anybody knows."""
+"""Objects with at most this distance in m count as touching."""
 
 FRAME_HEIGHT = {FURNITURE: 0.5, SURFACE: 0.5, MOBILE_ROBOT: -0.5}
-"""Where along z the frame lies, as a share of the height, seen from the middle; in the middle where nothing is said."""
+"""The position of the frame along z above the middle, as a share of the height; 0 for other classes."""
 
 
 def bounding_box(state: WorldState, individual: str) -> OrientedBox:
-    """Return the box of a thing; a thing of which no extent is known at all is a point.
+    """Return the bounding box of an object in the world; an object without any known extent is a point.
 
-    FrameError when it is nowhere, MissingFact when a part of its extent is not known.
+    FrameError when its pose is not known, MissingFact when a part of its extent is not known.
     """
     space = frame_tree_of(state)
     if individual not in space.boxes:
@@ -33,7 +33,7 @@ def bounding_box(state: WorldState, individual: str) -> OrientedBox:
 
 
 def solid_box(state: WorldState, individual: str) -> OrientedBox:
-    """Return the box of a thing that has an extent; errors as for `box`, MissingFact when it has none."""
+    """Return the bounding box of an object in the world; as `bounding_box`, but MissingFact without an extent."""
     _half(frame_tree_of(state), individual)
     return bounding_box(state, individual)
 
@@ -43,9 +43,9 @@ def _half(space: FrameTree, individual: str) -> Array:
 
 
 def gap_below(state: WorldState, upper: str, lower: str) -> float | None:
-    """Return how high in m the lowest point of a thing is over the top of another, straight below its middle.
+    """Return the height in m of the lowest point of an object over the top of another, vertically below its middle.
 
-    None when the other is not below its middle at all. FrameError when one is nowhere, MissingFact without a size.
+    None when the other is not below its middle. FrameError when a pose is not known, MissingFact without a size.
     """
     over = bounding_box(state, upper)
     top = solid_box(state, lower).height_at(float(over.middle.position[0]), float(over.middle.position[1]))

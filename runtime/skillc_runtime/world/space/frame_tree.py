@@ -1,6 +1,6 @@
-"""The tree of frames of a version of the world: who carries whom, and the poses that this makes, each worked out once.
+"""The tree of frames of a version of the world: what moves with what, and the poses in the world, computed once.
 
-Versions that agree in all facts about space share one tree, so a write about anything else costs nothing here.
+Versions that agree in all facts about space share one tree, so other writes cause no new computation.
 """
 
 from __future__ import annotations
@@ -40,15 +40,15 @@ _LINKS = (AT, CONTAIN, HAS_A)
 
 
 class FrameError(ValueError):
-    """A pose that the world model does not hold; the message says of what and why."""
+    """A pose that the world model does not have; the message names the object and the reason."""
 
 
 class Unplaced(FrameError, InsufficientFacts):
-    """Nothing is wrong, but not enough is said to tell where a thing is, or how large."""
+    """The facts are consistent but not enough to compute the pose or size of an object."""
 
 
 class MissingFact(Unplaced):
-    """A number that `individual` lacks: its `property`, an IRI."""
+    """A number that `individual` lacks; `property` is the IRI of the property."""
 
     def __init__(self, message: str, individual: str, property_: str) -> None:
         super().__init__(message)
@@ -56,14 +56,15 @@ class MissingFact(Unplaced):
 
 
 class FrameTree:
-    """Where everything is. A thing moves with what carries it.
+    """The poses of all objects in the world. An object moves with its carrier.
 
-    That is the thing whose frame its BaseFrameId names; without one, the place it is `at`, else what contains it, else
-    what it is a part of, and then it is where that is. How an arm moves what it carries is not known.
+    The carrier is the object whose frame its BaseFrameId names. Without a BaseFrameId it is the place that the object
+    is `at`, else what contains it, else what it is a part of, and the object has the carrier's pose. The pose of an
+    object that an arm carries is not known.
     """
 
     def __init__(self, state: WorldState, former: FrameTree | None = None) -> None:
-        """Begin to know a version; where the `former` tree has the same names of frames, so has this one."""
+        """Create the tree of a version; it shares the names of frames with the `former` tree if they are equal."""
         self._short, self._classes = state.vocabulary.short, state.classes
         self._values = {name: state.stored.get(name, _NO_VALUES) for name in _VALUES}
         self._links = {name: state.facts.get(name, _NO_LINKS) for name in _LINKS}
@@ -73,7 +74,7 @@ class FrameTree:
         self._owners: dict[str, list[str]] | None = None if former is None or renamed else former._owners
 
     def is_valid_for(self, state: WorldState) -> bool:
-        """Whether everything is in the same place in that version."""
+        """Whether all poses and sizes are the same in a version."""
         return (
             state.classes is self._classes
             and all(state.stored.get(name, _NO_VALUES) is values for name, values in self._values.items())
@@ -81,7 +82,7 @@ class FrameTree:
         )
 
     def pose(self, individual: str) -> Pose:
-        """Return where a thing is in the world; FrameError when that is not known or cannot be. Read-only arrays."""
+        """Return the pose of an object in the world, as read-only arrays; FrameError when unknown or contradictory."""
         poses, chain = self._poses, list[str]()
         while individual not in poses:
             if individual in chain:
@@ -101,7 +102,7 @@ class FrameTree:
         return pose
 
     def carrier(self, individual: str) -> str | None:
-        """Return what a thing moves with, None for the world itself; FrameError when nothing tells or it is unclear."""
+        """Return the carrier of an object, None for the world itself; FrameError when unknown or ambiguous."""
         base = self._values[BASE_FRAME_ID].get(individual)
         if base == WORLD_FRAME:
             return None
@@ -120,7 +121,7 @@ class FrameTree:
         )
 
     def number(self, individual: str, name: str) -> float:
-        """Return a number of a pose or a size; MissingFact when there is none."""
+        """Return a number of a pose or a size in m, or unitless for a quaternion; MissingFact when there is none."""
         value = self._values[name].get(individual)
         if isinstance(value, int | float):
             return float(value)
@@ -135,16 +136,16 @@ class FrameTree:
             f"{self._short(holder)} carries it, and nothing tells in what posture the arm is"
         )
 
-    def _owner(self, frame: str, asking: str) -> str:
+    def _owner(self, frame: str, individual: str) -> str:
         if self._owners is None:
             self._owners = {}
-            for individual, name in self._values[FRAME_ID].items():
-                self._owners.setdefault(str(name), []).append(individual)
+            for owner, name in self._values[FRAME_ID].items():
+                self._owners.setdefault(str(name), []).append(owner)
         owners = self._owners.get(frame, [])
         if len(owners) == 1:
             return owners[0]
         found = f"{len(owners)} things have" if owners else "nothing has"
-        raise FrameError(f"{self._short(asking)} is placed in the frame `{frame}`, but {found} this FrameId")
+        raise FrameError(f"{self._short(individual)} is placed in the frame `{frame}`, but {found} this FrameId")
 
     def _own_pose(self, individual: str) -> Pose:
         position = [self.number(individual, name) for name in POSITION]
@@ -155,14 +156,14 @@ class FrameTree:
 
 
 class _FrameTrees:
-    """The trees of the versions that are still in use; each is forgotten with the last version that it serves."""
+    """The trees of the versions that are still in use; each is dropped with the last of its versions."""
 
     def __init__(self) -> None:
         self._known: WeakKeyDictionary[WorldState, FrameTree] = WeakKeyDictionary()
         self._latest: Callable[[], FrameTree | None] = lambda: None
 
     def of(self, state: WorldState) -> FrameTree:
-        """Return the tree of a version, if possible the one that was asked for last."""
+        """Return the tree of a version, if possible the one that was used last."""
         space = self._known.get(state)
         if space is None:
             latest = self._latest() or next(iter(self._known.values()), None)

@@ -1,4 +1,4 @@
-"""Where things are believed to be, in the world and seen from one another, and how large they are."""
+"""Poses of objects in the world and relative to each other, changes of poses, and sizes."""
 
 from __future__ import annotations
 
@@ -16,29 +16,30 @@ if TYPE_CHECKING:
 
 
 def pose(state: WorldState, individual: str) -> Pose:
-    """Return where a thing is in the world; a thing without a pose of its own is where that is which carries it.
+    """Return the pose of an object in the world; an object without a pose of its own has that of its carrier.
 
-    FrameError when a fact is missing, a frame is unknown, or frames form a circle. The arrays are read-only.
+    FrameError when a fact is missing, a frame is unknown, or frames form a cycle. The arrays are read-only.
     """
     return frame_tree_of(state).pose(individual)
 
 
 def relative_pose(state: WorldState, viewer: str, individual: str) -> Pose:
-    """Return where a thing is in the frame of another; FrameError as for `pose`."""
+    """Return the pose of an object in the frame of another, the viewer; FrameError as for `pose`."""
     return pose(state, viewer).inverse() @ pose(state, individual)
 
 
 def placement_changes(thing: str, at: Pose, frame: str = WORLD_FRAME) -> list[SetProperty]:
-    """Return the changes that say that a thing, by IRI, is at a pose in a frame, by its FrameId."""
+    """Return the changes that place an object, by IRI, at a pose in the frame with a FrameId."""
     values = zip((*POSITION, *ORIENTATION), (*at.position, *quaternion_of(at.rotation)), strict=True)
     numbers = [SetProperty(thing, name, float(value)) for name, value in values]
     return [SetProperty(thing, BASE_FRAME_ID, frame), *numbers]
 
 
 def move_changes(state: WorldState, thing: str, at: Pose, viewer: str) -> list[SetProperty]:
-    """Return the changes that put a thing at a pose seen from another thing; what carries it goes on carrying it.
+    """Return the changes that move an object to a pose in the frame of another, the viewer; its carrier stays the same.
 
-    What was nowhere is placed in the world. FrameError when the viewer is nowhere or moves with the thing.
+    An object without a known pose is placed in the world frame. FrameError when the viewer's pose is not known or the
+    viewer moves with the object.
     """
     if _moves_with(state, viewer, thing):
         short = state.vocabulary.short
@@ -54,9 +55,9 @@ def move_changes(state: WorldState, thing: str, at: Pose, viewer: str) -> list[S
 
 
 def attachment_changes(state: WorldState, thing: str, carrier: str) -> list[SetProperty]:
-    """Return the changes that leave a thing where it is and let it move with another from now on.
+    """Return the changes that attach an object to a carrier; its pose in the world stays the same.
 
-    FrameError when either is nowhere, the carrier has no frame, or the carrier already moves with the thing.
+    FrameError when a pose is not known, the carrier has no frame, or the carrier moves with the object.
     """
     if _moves_with(state, carrier, thing):
         short = state.vocabulary.short
@@ -65,12 +66,12 @@ def attachment_changes(state: WorldState, thing: str, carrier: str) -> list[SetP
 
 
 def normal(state: WorldState, surface: str) -> Array:
-    """Return the direction (3,) that points out of a surface, in the world."""
+    """Return the direction (3,), unitless and of length 1, that points out of a surface, in the world."""
     return pose(state, surface).rotation[:, 2].copy()
 
 
 def size(state: WorldState, individual: str) -> Array:
-    """Return a thing's extent (3,) in m along the axes of its frame; MissingFact when it is not known."""
+    """Return the extent (3,) in m of an object along the axes of its frame; MissingFact when it is not known."""
     return np.array([frame_tree_of(state).number(individual, name) for name in SIZE])
 
 
@@ -80,14 +81,14 @@ def width(state: WorldState, tool: str) -> float:
 
 
 def _moves_with(state: WorldState, individual: str, carrier: str) -> bool:
-    """Whether one is the other or moves with it; FrameError when the frames of one form a circle or lead nowhere."""
+    """Whether an object is the carrier or moves with it; FrameError when its frames form a cycle or one is unknown."""
     space, at = frame_tree_of(state), individual
     space.pose(individual)
     while at != carrier:
-        below = space.carrier(at)
-        if below is None:
+        carried_by = space.carrier(at)
+        if carried_by is None:
             return False
-        at = below
+        at = carried_by
     return True
 
 

@@ -1,4 +1,4 @@
-"""A box in the world: its corners, what it contains, and how high its top is."""
+"""Oriented boxes in the world: corners, distance of points, height of the top."""
 
 from __future__ import annotations
 
@@ -10,13 +10,15 @@ import numpy as np
 from skillc_runtime.motion.pose import Array, Pose
 
 CORNERS = np.array([(x, y, z) for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
+"""The corners (8, 3) of a box in its own frame, unitless: multiples of half its extent."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class OrientedBox:
-    """A box: its middle in the world, half its extent (3,) m along its axes, its corners (8, 3) in the world.
+    """A box: pose of its middle in the world, half its extent (3,) m along its axes, corners (8, 3) m in the world.
 
-    `lowest` is the height in m of the lowest corner, `axes` are its axes in the world, each with half the extent.
+    `lowest` is the height in m of the lowest corner in the world. `axes` are the three axes: direction in the world
+    (x, y, z), unitless, and half the extent in m.
     """
 
     middle: Pose
@@ -27,18 +29,21 @@ class OrientedBox:
 
     @staticmethod
     def of(middle: Pose, half: Array) -> OrientedBox:
-        """Return the box with its middle at a pose and half its extent (3,) m."""
+        """Return the box with its middle at a pose in the world and half its extent (3,) m along its axes."""
         corners = CORNERS * half @ middle.rotation.T + middle.position
         axes = tuple((x, y, z, h) for (x, y, z), h in zip(middle.rotation.T.tolist(), half.tolist(), strict=True))
         return OrientedBox(middle, half, corners, float(corners[:, 2].min()), axes)
 
     def overhang(self, points: Array) -> float:
-        """Return how far the farthest of the points (n, 3) lies outside, along its axes, in m; negative inside."""
+        """Return how far the farthest of points (n, 3) m, in the world, lies outside, in m; negative inside.
+
+        The distance is measured along the axes of the box.
+        """
         local = (points - self.middle.position) @ self.middle.rotation
         return float((np.abs(local) - self.half).max())
 
     def height_at(self, x: float, y: float) -> float | None:
-        """Return the height in m of the box's top over a place on the floor, None where it is not over it."""
+        """Return the height in m of the top over a point (x, y) in m, both in the world; None if it is not over it."""
         top, bottom = inf, -inf
         middle_x, middle_y, middle_z = self.middle.position.tolist()
         for right, ahead, upwards, half in self.axes:

@@ -1,4 +1,4 @@
-"""How far an arm reaches, and how far away a thing is from its shoulder."""
+"""Compares the reach of an arm with the distance of an object from its shoulder."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 
 
 def reach_obstacle(state: WorldState, arm: str, base: Pose, thing: str) -> str | None:
-    """Say how much too far away a thing is for an arm with its base at a pose in the world; None when it is not.
+    """Return by how much an object is out of reach for an arm with its base at a pose in the world; None within reach.
 
-    Of a surface every corner counts, of anything else the origin of its frame. Unknown when the arm's data sheet or the
-    thing's place is missing.
+    Of a surface every corner must be within reach, of other objects the origin of the frame. InsufficientFacts when the
+    arm's data sheet or the pose of the object is missing.
     """
     try:
         sheet = sheet_of(state, arm)
@@ -40,7 +40,7 @@ def reach_obstacle(state: WorldState, arm: str, base: Pose, thing: str) -> str |
 
 
 def _points(state: WorldState, thing: str) -> Array:
-    """Return what of a thing must be reached, points (n, 3) in the world."""
+    """Return the points (n, 3) of an object that must be within reach, in m in the world."""
     if not state.is_a(thing, SURFACE):
         return frame_tree_of(state).pose(thing).position[None, :]
     return solid_box(state, thing).corners[CORNERS[:, 2] > 0]

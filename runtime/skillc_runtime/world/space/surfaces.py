@@ -1,4 +1,4 @@
-"""What of a surface is to be worked on, along which axis and how hard a tool must press, read from the facts."""
+"""Reads from the facts which parts of a surface are to be worked on, along which axis and with which force."""
 
 from __future__ import annotations
 
@@ -15,15 +15,14 @@ from skillc_runtime.world.state.terms import ALONG_AXIS, HAS_HOLE, HAS_PATCH, LE
 from skillc_runtime.world.state.world_state import WorldState
 
 MARGIN_M = 0.02
-"""How wide the rim of a hole is that says nothing of it."""
-
+"""The margin around holes that do not state one."""
 
 LEAST_FORCE_N, LEAST_SHARE = 1.0, 0.75
-"""For surfaces that do not say it."""
+"""The values for surfaces that do not state them."""
 
 
 def surface_layout(state: WorldState, surface: str) -> Layout:
-    """Return what of a surface is to be worked on; FrameError or SheetError name the fact that is missing."""
+    """Return size, patches and holes of a surface in its frame; FrameError or SheetError when a fact is missing."""
     patches, holes = (sorted(state.objects(surface, relation)) for relation in (HAS_PATCH, HAS_HOLE))
     return Layout(
         size(state, surface)[:2],
@@ -33,7 +32,7 @@ def surface_layout(state: WorldState, surface: str) -> Layout:
 
 
 def lane_direction(state: WorldState, surface: str) -> Direction:
-    """Return along which of a surface's axes lanes run; SheetError for one that it does not have."""
+    """Return the axis of a surface along which lanes run; SheetError for an unknown axis."""
     match state.value(surface, ALONG_AXIS):
         case None:
             return "longer"
@@ -41,18 +40,18 @@ def lane_direction(state: WorldState, surface: str) -> Direction:
             return "x"
         case "y":
             return "y"
-        case strange:
+        case other:
             short = state.vocabulary.short
-            raise SheetError(f"{short(surface)} has the {short(ALONG_AXIS)} {strange!r}; there are x and y")
+            raise SheetError(f"{short(surface)} has the {short(ALONG_AXIS)} {other!r}; there are x and y")
 
 
 def least_force_n(state: WorldState, surface: str) -> float:
-    """Return the force in N below which a tool does nothing to a surface."""
+    """Return the force in N below which a tool has no effect on a surface."""
     return number_of(state, surface, LEAST_FORCE, default=LEAST_FORCE_N)
 
 
 def least_contact_share(state: WorldState, surface: str) -> float:
-    """Return the share of the time, along a path, in which a tool must be pressed on a surface."""
+    """Return the share of the time along a path, from 0 to 1, in which a tool must press on a surface."""
     return number_of(state, surface, LEAST_CONTACT, default=LEAST_SHARE)
 
 
@@ -61,7 +60,7 @@ def _patch(state: WorldState, surface: str, patch: str) -> Patch:
 
 
 def _hole(state: WorldState, surface: str, hole: str) -> Hole:
-    """Return the least rectangle along the surface's axes with the hole in it."""
+    """Return the smallest rectangle along the surface's axes that contains the hole."""
     margin = number_of(state, hole, MARGIN, default=MARGIN_M)
     frame, height = _in_plane(relative_pose(state, surface, hole)), number_of(state, hole, SIZE[2], default=0.0)
     return Hole(np.zeros(2), _extent(state, hole), margin, height).seen_from(frame.inverse())
@@ -72,6 +71,6 @@ def _extent(state: WorldState, area: str) -> Array:
 
 
 def _in_plane(pose: Pose) -> Pose:
-    """Return a pose seen from a surface as it looks along the surface's normal."""
+    """Return a pose in the surface frame projected onto the surface plane."""
     x = pose.rotation[:, 0]
     return Pose(np.append(pose.position[:2], 0.0), exp(np.array([0.0, 0.0, atan2(x[1], x[0])])))

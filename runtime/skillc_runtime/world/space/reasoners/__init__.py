@@ -1,1 +1,1 @@
-"""What tells from geometry whether a relation holds: a file each, which vocabularies name by `skillc:computedBy`."""
+"""Geometric reasoners, one file for each relation; vocabularies name them in `skillc:computedBy`."""

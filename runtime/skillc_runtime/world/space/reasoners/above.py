@@ -1,4 +1,4 @@
-"""`isAbove`: a thing is over another, at whatever height."""
+"""`isAbove`: an object is over another, at any height."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ if TYPE_CHECKING:
 
 
 class Above:
-    """The object is straight below the subject's middle, and no part of the subject is lower than that."""
+    """The object is vertically below the subject's middle, and no part of the subject is lower than its top."""
 
     def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
-        """Say what is wrong with where the subject is; None when it is above the object."""
+        """Return why the subject is not above the object; None when it is."""
         short = state.vocabulary.short
         if subject == object_:
             return "nothing is above itself"

@@ -1,4 +1,4 @@
-"""`canReach`: an arm can get at a surface from where its robot works on it."""
+"""`canReach`: an arm reaches a surface from where its robot works on it."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ if TYPE_CHECKING:
 
 
 class CanReach:
-    """The arm reaches the surface from where its robot stands or, if the robot drives, would stand.
+    """The arm reaches the surface from where its robot stands or, for a mobile robot, from a workstation.
 
-    It would stand at the workstation that contains the surface; where none does, any workstation will do. Neither
-    surfaces nor fixed robots move, and arms stay on their robots, so this is as true after a plan as before it.
+    That is the workstation that contains the surface, or any workstation if none does. Surfaces and fixed robots do not
+    move, and arms stay on their robots, so the result is the same after a plan as before it.
     """
 
     def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
-        """Say how much too far away the surface is from each place; None when the arm reaches it from one."""
+        """Return by how much the surface is out of reach from each place; None when the arm reaches it from one."""
         space, short = frame_tree_of(state), state.vocabulary.short
         base = space.pose(subject)
         robot = min(state.subjects(HAS_ARM, subject), default=None)
@@ -29,13 +29,13 @@ class CanReach:
         stations = _stations(state, object_)
         if not stations:
             return f"there is no workstation at which {short(robot)} could stand"
-        mounted, told = space.pose(robot).inverse() @ base, []
+        mounted, obstacles = space.pose(robot).inverse() @ base, []
         for station in stations:
             obstacle = reach_obstacle(state, subject, space.pose(station) @ mounted, object_)
             if obstacle is None:
                 return None
-            told.append(f"at {short(station)}: {obstacle}")
-        return "; ".join(told)
+            obstacles.append(f"at {short(station)}: {obstacle}")
+        return "; ".join(obstacles)
 
 
 def _stations(state: WorldState, surface: str) -> list[str]:

@@ -1,4 +1,4 @@
-"""`isInside`: a thing is within the box of another."""
+"""`isInside`: an object is inside the bounding box of another."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ if TYPE_CHECKING:
 
 
 class Inside:
-    """No corner of the subject lies outside the box of the object."""
+    """All corners of the subject's bounding box lie inside the bounding box of the object."""
 
     def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
-        """Say how far the subject sticks out; None when it is inside."""
+        """Return how far the subject sticks out; None when it is inside."""
         if subject == object_:
             return "nothing is inside itself"
         overhang_m = solid_box(state, object_).overhang(bounding_box(state, subject).corners)

@@ -1,4 +1,4 @@
-"""`reaches`: an arm can get at a thing from where it is now."""
+"""`reaches`: an arm reaches an object from its current pose."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ if TYPE_CHECKING:
 
 
 class Reaches:
-    """The thing is no farther from the arm's shoulder than its data sheet says it reaches."""
+    """The object is no farther from the arm's shoulder than the reach in its data sheet."""
 
     def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
-        """Say how much too far away the thing is; None when the arm reaches it."""
+        """Return by how much the object is out of reach; None when the arm reaches it."""
         return reach_obstacle(state, subject, frame_tree_of(state).pose(subject), object_)

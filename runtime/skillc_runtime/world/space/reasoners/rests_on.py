@@ -1,4 +1,4 @@
-"""`restsOn`: a thing lies or stands on another."""
+"""`restsOn`: an object lies or stands on another."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class RestsOn:
     """The subject is above the object and touches it."""
 
     def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
-        """Say why the subject is not above the object, or how far; None when it rests on it."""
+        """Return why the subject is not above the object, or the gap; None when it rests on it."""
         gap_m = None if subject == object_ else gap_below(state, subject, object_)
         if gap_m is None or gap_m < -TOUCH_M:
             return Above().obstacle(state, subject, object_)
