@@ -16,7 +16,7 @@ import py_trees
 from skillc_model import tree
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Primitive, Status
-from skillc_runtime.recording.outcome import Outcome
+from skillc_runtime.recording.node_outcome import NodeOutcome
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 from tree.stage import FLAGS, Library, Stage, act, call, par, seq, world
@@ -123,7 +123,7 @@ def shape(
     return SimpleNamespace(ours=run.tick, theirs=other.tick_once, nodes=nodes, other_nodes=visited(other))
 
 
-def running(outcome: Outcome) -> int:
+def running(outcome: NodeOutcome) -> int:
     """Return how many nodes run."""
     return sum(map(running, outcome.children)) + (outcome.status == "running")
 

@@ -6,7 +6,7 @@ from claims.bench import Bench, Hand, iri, run, world
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Event, TaskEnded, WorldChanged
-from skillc_runtime.recording.known import KnownFact
+from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.world.state.changes import AddRelation
 from skillc_runtime.world.state.labelled_text import format_fact
 from skillc_runtime.world.state.model import WorldModel

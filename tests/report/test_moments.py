@@ -9,7 +9,7 @@ from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.evaluation.report.moments import find_moments
 from skillc_runtime.film.film import Moment
 from skillc_runtime.recording.events import Highlight, ImplementationChosen
-from skillc_runtime.recording.outcome import Outcome
+from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.labelled import LabelledIri
 
 HERE = Position(path="press.skill", line=1, column=1)
@@ -18,8 +18,8 @@ CELL: Any = SimpleNamespace(
 )
 
 
-def call(number: int, status: str, started: float | None, ended: float | None, *below: Outcome) -> Outcome:
-    return Outcome(
+def call(number: int, status: str, started: float | None, ended: float | None, *below: NodeOutcome) -> NodeOutcome:
+    return NodeOutcome(
         id=number, name="", kind="call", status=status, source=HERE, started=started, ended=ended, children=below
     )
 

@@ -15,7 +15,7 @@ from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.evaluation.report.choices import Choices
 from skillc_runtime.evaluation.report.wiping import Wiping, find_wipings
 from skillc_runtime.recording.events import ImplementationChosen, NodeEnded, NodeStarted
-from skillc_runtime.recording.outcome import Outcome
+from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.labelled import LabelledIri, LabelledValue, Quantity
 from skillc_runtime.world.state.terms import SURFACE, TOOL
 
@@ -29,8 +29,8 @@ def iri(name: str) -> LabelledIri:
     return LabelledIri(f"http://lab#{name}", f"lab:{name}")
 
 
-def call(number: int, ended: float, *below: Outcome) -> Outcome:
-    return Outcome(
+def call(number: int, ended: float, *below: NodeOutcome) -> NodeOutcome:
+    return NodeOutcome(
         id=number, name="", kind="call", status="success", source=HERE, started=1.0, ended=ended, children=below
     )
 

@@ -17,7 +17,7 @@ from skillc_runtime.evaluation.report.summary import summarise
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
-from skillc_runtime.recording.outcome import Outcome
+from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.labelled import LabelledIri
 from skillc_runtime.world.state.model import WorldModel
@@ -32,7 +32,7 @@ def library() -> SkillLibrary:
     return outcome.value
 
 
-def run(name: str) -> tuple[TaskResult, dict[str, list[Outcome]]]:
+def run(name: str) -> tuple[TaskResult, dict[str, list[NodeOutcome]]]:
     """Run a task; return its result and the steps of each robot's arm in order."""
     task = library().tasks[name]
     assert task.scene is not None and task.goal is not None
@@ -42,7 +42,7 @@ def run(name: str) -> tuple[TaskResult, dict[str, list[Outcome]]]:
     cell, choices = SimulatedCell(WorldModel(state), seed=4), Choices()
     execution = execute_task(prepared, library(), cell, [choices])
     result = summarise(execution, choices, library(), find_wipings([execution.last.tree], choices, cell))
-    steps: dict[str, list[Outcome]] = {}
+    steps: dict[str, list[NodeOutcome]] = {}
     for call in sorted(calls_in(execution.last.tree), key=lambda each: each.started or 0.0):
         arm = choices[call.id].bindings["arm"]
         assert isinstance(arm, LabelledIri)
@@ -50,11 +50,11 @@ def run(name: str) -> tuple[TaskResult, dict[str, list[Outcome]]]:
     return result, steps
 
 
-def calls_in(tree: Outcome) -> list[Outcome]:
+def calls_in(tree: NodeOutcome) -> list[NodeOutcome]:
     return [tree] if tree.kind == "call" else [call for child in tree.children for call in calls_in(child)]
 
 
-def names(calls: list[Outcome]) -> list[str]:
+def names(calls: list[NodeOutcome]) -> list[str]:
     return [call.name.partition("[")[0] for call in calls]
 
 

@@ -21,7 +21,7 @@ from skillc_runtime.recording.events import (
     Note,
     WorldChanged,
 )
-from skillc_runtime.recording.outcome import Outcome
+from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.recording.reader import TraceReader
 from skillc_runtime.recording.reasons import FailedCallContext
 from skillc_runtime.recording.writer import TraceWriter
@@ -135,14 +135,14 @@ def test_values_are_read_back_as_they_were_written(tmp_path: Path) -> None:
     bindings = {str(number): value for number, value in enumerate((*values, ValueList((pose, ValueList(values)))))}
     facts = (LabelledRelation(arm, arm, None, False), LabelledProperty(arm, arm, None), LabelledClass(arm, flag))
     changes = (*facts[:2], IndividualAdded(arm, (flag,)), IndividualRemoved(arm))
-    attempted = FailedCallContext(arguments=bindings, facts=(*facts, LabelledIdentity(arm, flag, False)))
+    context = FailedCallContext(arguments=bindings, facts=(*facts, LabelledIdentity(arm, flag, False)))
     here = Position("a.skill", 1, 2)
     highlights = (Highlight("ends", arm, "pressed"),)
     samples = [
         ImplementationChosen(
             time=0.0, node=1, skill="A", implementation="b", bindings=bindings, highlights=highlights, source=here
         ),
-        NodeEnded(time=1.0, node=1, name="A", status="failure", attempted=attempted, source=here),
+        NodeEnded(time=1.0, node=1, name="A", status="failure", failed_call=context, source=here),
         WorldChanged(time=1.0, origin="A", changes=changes, known="sensed"),
     ]
     with TraceWriter(tmp_path / "events.jsonl") as writer:
@@ -203,4 +203,4 @@ def test_the_outcome_is_the_tree_with_what_became_of_each_node() -> None:
     ]
     (primitive,) = outcome.children[0].children
     assert (primitive.kind, primitive.name) == ("primitive", "Scripted")
-    assert msgspec.json.decode(msgspec.json.encode(outcome), type=Outcome) == outcome
+    assert msgspec.json.decode(msgspec.json.encode(outcome), type=NodeOutcome) == outcome

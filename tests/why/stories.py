@@ -10,8 +10,8 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import FORMAT, Event, TaskEnded, TaskStarted
-from skillc_runtime.recording.history import read_story
-from skillc_runtime.recording.story import Call, Story
+from skillc_runtime.recording.history import RecordedCall, RunHistory
+from skillc_runtime.recording.history_builder import read_history
 from skillc_runtime.recording.writer import TraceWriter
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState
@@ -33,12 +33,12 @@ def events_of(body: tree.Node, library: SkillLibrary, cell: Stage, ticks: int = 
     return told
 
 
-def in_world(body: tree.Node, library: SkillLibrary, state: WorldState) -> Story:
+def in_world(body: tree.Node, library: SkillLibrary, state: WorldState) -> RunHistory:
     """Return the story of a body in a world."""
-    return known(read_story(events_of(body, library, Stage(WorldModel(state)))))
+    return known(read_history(events_of(body, library, Stage(WorldModel(state)))))
 
 
-def known(story: Story | None) -> Story:
+def known(story: RunHistory | None) -> RunHistory:
     """Return a story that there is."""
     assert story is not None
     return story
@@ -54,6 +54,6 @@ def written(folder: Path, events: Sequence[Event]) -> Path:
     return folder
 
 
-def steps_of(story: Story) -> list[Call]:
+def steps_of(story: RunHistory) -> list[RecordedCall]:
     """Return the steps of all attempts."""
     return [step for attempt in story.attempts for step in attempt.steps]

@@ -8,8 +8,8 @@ from msgspec import structs
 from selection.library import call, library, scene
 from skillc.cli.story_output import format_answer, format_overview
 from skillc_model.conditions import Individual
-from skillc_runtime.recording.question import QuestionError, find_answer
-from skillc_runtime.recording.story import Story
+from skillc_runtime.recording.history import RunHistory
+from skillc_runtime.recording.question import QuestionError, select_calls
 from skillc_runtime.world.state.changes import Change, RemoveRelation
 from why.stories import in_world
 from world.lab import fact, individual, iri
@@ -20,14 +20,14 @@ LIBRARY = structs.replace(PICKING, skills={**PICKING.skills, "Pick": PICK_SKILL}
 PICK = call("Pick", arm=Individual(iri("arm")), object=Individual(iri("eraser")))
 
 
-def picked(*changes: Change) -> Story:
+def picked(*changes: Change) -> RunHistory:
     """Return the story of picking the eraser in the changed depot."""
     return in_world(PICK, LIBRARY, scene(*changes))
 
 
-def told(story: Story, question: str) -> str:
+def told(story: RunHistory, question: str) -> str:
     """Return the answer to a question."""
-    return format_answer(find_answer(story, question))
+    return format_answer(select_calls(story, question))
 
 
 def test_the_overview_numbers_the_steps_and_says_what_led_to_the_failure() -> None:
@@ -113,5 +113,5 @@ def test_a_failure_is_told_with_the_facts_at_that_moment() -> None:
 )
 def test_a_question_about_nothing_is_told_what_there_is(question: str, answer: str) -> None:
     with pytest.raises(QuestionError) as raised:
-        find_answer(picked(), question)
+        select_calls(picked(), question)
     assert str(raised.value).startswith(answer)

@@ -23,10 +23,10 @@ from skillc_runtime.recording.events import (
     TaskEnded,
 )
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.recording.history import read_story
-from skillc_runtime.recording.outcome import Outcome
-from skillc_runtime.recording.record import AttemptRecord, NodeRecords
-from skillc_runtime.recording.story import Call, Story
+from skillc_runtime.recording.history import RecordedCall, RunHistory
+from skillc_runtime.recording.history_builder import read_history
+from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.node_records import AttemptRecord, NodeRecords
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.labelled import LabelledIri
 from tree.stage import FLAGS, ON, PERIOD_S, Library, Script, Stage, act, check, here, par, seq, world
@@ -52,8 +52,8 @@ def test_the_story_says_of_each_call_what_the_tree_says(play: Play) -> None:
             engine.halt("the test says so")
         if engine.tick() is not Status.RUNNING:
             break
-        assert shape(known(read_story(told))) == shape_of(engine.outcome)
-    story = known(read_story(told))
+        assert shape(known(read_history(told))) == shape_of(engine.outcome)
+    story = known(read_history(told))
     assert shape(story) == shape_of(engine.outcome)
     told_of = [link.message for link in story.chain]
     assert bool(told_of) == (engine.status is Status.FAILURE)
@@ -63,25 +63,25 @@ def test_the_story_says_of_each_call_what_the_tree_says(play: Play) -> None:
 Shape = list[tuple[str, str, float | None, float | None, "Shape"]]
 
 
-def shape(story: Story) -> Shape:
-    def of(calls: tuple[Call, ...]) -> Shape:
+def shape(story: RunHistory) -> Shape:
+    def of(calls: tuple[RecordedCall, ...]) -> Shape:
         return sorted((each.skill, each.status, each.started, each.ended, of(each.calls)) for each in calls)
 
     return of(tuple(steps_of(story)))
 
 
-def shape_of(outcome: Outcome) -> Shape:
+def shape_of(outcome: NodeOutcome) -> Shape:
     return sorted(
         (each.name.partition("[")[0], each.status, each.started, each.ended, shape_of_all(each.children))
         for each in calls_in(outcome)
     )
 
 
-def shape_of_all(outcomes: tuple[Outcome, ...]) -> Shape:
+def shape_of_all(outcomes: tuple[NodeOutcome, ...]) -> Shape:
     return sorted(row for each in outcomes for row in shape_of(each))
 
 
-def calls_in(outcome: Outcome) -> Iterator[Outcome]:
+def calls_in(outcome: NodeOutcome) -> Iterator[NodeOutcome]:
     if outcome.kind == "call":
         if outcome.status != "idle":
             yield outcome
@@ -100,7 +100,7 @@ def test_a_long_run_of_a_small_tree_needs_little_memory() -> None:
             starts += 1
         elif isinstance(each, NodeEnded):
             records.end(each, ())
-        most = max(most, len(records._known))
+        most = max(most, len(records._by_node))
     assert starts > 2000
     assert most == 5, "the loop, the sequence, two calls and what runs in one of them"
 
@@ -108,7 +108,7 @@ def test_a_long_run_of_a_small_tree_needs_little_memory() -> None:
 def test_how_earlier_starts_ended_is_kept() -> None:
     cell = Stage(world(), {"a": [Script("fail"), Script("fail"), Script()]})
     retry = tree.Retry(count=5, child=seq(act("a"), act("b")), source=here())
-    first, second = steps_of(known(read_story(events_of(retry, Library().build(), cell))))
+    first, second = steps_of(known(read_history(events_of(retry, Library().build(), cell))))
     assert (first.skill, first.status, first.starts) == ("Act", "success", 3)
     assert [(each.status, each.message) for each in first.earlier] == [("failure", "a failed")] * 2
     assert (second.starts, second.earlier) == (1, ())
@@ -116,7 +116,7 @@ def test_how_earlier_starts_ended_is_kept() -> None:
 
 def test_steps_side_by_side_know_of_each_other() -> None:
     cell = Stage(world(), {"a": [Script(ticks=3)], "b": [Script(ticks=5)]})
-    story = known(read_story(events_of(seq(par("all", act("a"), act("b")), act("c")), Library().build(), cell)))
+    story = known(read_history(events_of(seq(par("all", act("a"), act("b")), act("c")), Library().build(), cell)))
     assert [(step.number, step.beside) for step in steps_of(story)] == [("1", ("2",)), ("2", ("1",)), ("3", ())]
 
 
@@ -126,10 +126,10 @@ GO = PlanStep(skill="Go", arguments={"to": B}, source=LINE)
 STAY = PlanStep(skill="Go", arguments={"to": A}, source=LINE)
 
 
-def planned(*events: Event) -> Story:
+def planned(*events: Event) -> RunHistory:
     """Return the story of a plan to go to b and to a."""
     plan = PlanMade(time=0.0, planner="test", optimal="", cost=1.0, steps=(GO, STAY))
-    return known(read_story([BEGIN, plan, *events]))
+    return known(read_history([BEGIN, plan, *events]))
 
 
 def node(number: int, parent: int, kind: str) -> NodeStarted:
@@ -184,9 +184,9 @@ def test_the_end_of_a_task_is_that_of_its_story() -> None:
 
 
 def test_without_a_task_there_is_no_story() -> None:
-    assert read_story([]) is None
+    assert read_history([]) is None
 
 
 def test_a_story_survives_json() -> None:
     story = planned(node(1, 0, "call"), chose(1, B), ended(1))
-    assert msgspec.json.decode(msgspec.json.encode(story), type=Story) == story
+    assert msgspec.json.decode(msgspec.json.encode(story), type=RunHistory) == story

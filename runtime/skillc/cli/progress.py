@@ -17,7 +17,7 @@ from skillc.cli.console import rich_console
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 from skillc_runtime.evaluation.trials.verdict import find_misses
 from skillc_runtime.recording.events import Event, NodeEnded, NodeStarted, PlanMade, Replanned, TaskEnded
-from skillc_runtime.recording.known import format_status
+from skillc_runtime.recording.known_facts import format_status
 
 STEP_DEPTH = 2
 """Calls this deep are shown where the output is no terminal: the steps of a plan and what they call."""

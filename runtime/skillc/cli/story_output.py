@@ -6,17 +6,17 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain as together
 
 from skillc_runtime.recording.failure import Failure, Rejection
-from skillc_runtime.recording.known import assumed_facts, format_evidence, format_status, what_to_sense
-from skillc_runtime.recording.question import Answer
+from skillc_runtime.recording.history import Attempt, FailedNode, RecordedCall, RecordedFact, RunHistory
+from skillc_runtime.recording.known_facts import assumed_facts, describe_missing_sensing, format_evidence, format_status
+from skillc_runtime.recording.question import CallSelection
 from skillc_runtime.recording.reasons import ParameterReason, UntriedImplementation
-from skillc_runtime.recording.story import Attempt, Call, Fact, FailedNode, Story
 from skillc_runtime.world.state.labelled_text import format_fact, format_value
 
 HOW = {"passed": "passed by the caller", "default": "the default", "inferred": "found in the world"}
 PLANNED = "bound by the planner"
 
 
-def format_overview(story: Story, run: str) -> str:
+def format_overview(story: RunHistory, run: str) -> str:
     """Return the steps of a run, why there was more than one plan, and why the task failed."""
     lines = [f"{story.task}: {_ending(story)}"]
     for attempt in story.attempts:
@@ -28,14 +28,14 @@ def format_overview(story: Story, run: str) -> str:
     return "\n".join(lines)
 
 
-def format_answer(answer: Answer) -> str:
+def format_answer(answer: CallSelection) -> str:
     """Return what is known of the calls that a question is about."""
     if answer.parameter:
         return "\n".join(together.from_iterable(_parameter(call, answer.parameter) for call in answer.calls))
     return "\n\n".join("\n".join(_explained(call)) for call in answer.calls)
 
 
-def _ending(story: Story) -> str:
+def _ending(story: RunHistory) -> str:
     if story.status:
         return f"{format_status(story.status, story.verified)} after {story.last:.1f} s"
     running = [call.skill for call in story.calls if call.status == "running"]
@@ -43,12 +43,16 @@ def _ending(story: Story) -> str:
     return f"the recording ends at {story.last:.1f} s, before the task does{where}"
 
 
-def _rests_on(story: Story) -> list[str]:
+def _rests_on(story: RunHistory) -> list[str]:
     """Return the facts that a success rests on, and what would have to be sensed where they are only assumed."""
     if not story.known:
         return []
     lines = [f"{format_fact(each.fact)}  ({format_evidence(each)})" for each in story.known]
-    return ["rests on:", *_indented(lines), *_indented(what_to_sense(each) for each in assumed_facts(story.known))]
+    return [
+        "rests on:",
+        *_indented(lines),
+        *_indented(describe_missing_sensing(each) for each in assumed_facts(story.known)),
+    ]
 
 
 def _attempt(attempt: Attempt) -> Iterator[str]:
@@ -64,30 +68,30 @@ def _attempt(attempt: Attempt) -> Iterator[str]:
         yield from _indented(filter(None, [_arguments(step)]), 7)
 
 
-def _arguments(call: Call) -> str:
+def _arguments(call: RecordedCall) -> str:
     """Return what is not a default, on one line."""
     defaults = {each.parameter for each in call.determined if each.how == "default"}
     return ", ".join(f"{name}: {format_value(value)}" for name, value in call.bindings.items() if name not in defaults)
 
 
-def _line(call: Call, depth: int = 0) -> str:
+def _line(call: RecordedCall, depth: int = 0) -> str:
     beside = f"  beside {', '.join(call.beside)}" if call.beside else ""
     often = f"  started {call.starts} times" if call.starts > 1 else ""
     name = f"{'  ' * depth}{call.number:>3}  {_name(call)}"
     return f"{name:32}  {call.status:11}  {_times(call):15}  {call.source or ''}{beside}{often}".rstrip()
 
 
-def _name(call: Call) -> str:
+def _name(call: RecordedCall) -> str:
     return f"{call.skill}[{call.implementation}]" if call.implementation else call.skill
 
 
-def _times(call: Call) -> str:
+def _times(call: RecordedCall) -> str:
     if call.started is None:
         return ""
     return f"{call.started:.1f} - {call.ended:.1f} s" if call.ended is not None else f"{call.started:.1f} s -"
 
 
-def _explained(call: Call) -> Iterator[str]:
+def _explained(call: RecordedCall) -> Iterator[str]:
     yield _line(call).strip()
     yield from _never(call)
     yield from _indented(_choice(call))
@@ -100,14 +104,14 @@ def _explained(call: Call) -> Iterator[str]:
         yield from (_line(inner, 1) for inner in call.calls)
 
 
-def _never(call: Call) -> Iterator[str]:
+def _never(call: RecordedCall) -> Iterator[str]:
     if call.status == "skipped":
         yield "  skipped: what it is for held already when its turn came"
     if call.status == "not started":
         yield "  never started: the run ended, or was planned again, before its turn"
 
 
-def _choice(call: Call) -> Iterator[str]:
+def _choice(call: RecordedCall) -> Iterator[str]:
     if call.implementation:
         yield f"chosen: {call.implementation} ({call.implementation_source}), {_ground(call)}"
     rejected = _others(call)
@@ -119,13 +123,13 @@ def _choice(call: Call) -> Iterator[str]:
         yield from (f"  {each.implementation} ({each.source}): {_would(each)}" for each in call.untried)
 
 
-def _ground(call: Call) -> str:
+def _ground(call: RecordedCall) -> str:
     if call.fixed:
         return "which the call names"
     return "the first in rank that fits" if _others(call) or call.untried else "the only one"
 
 
-def _others(call: Call) -> tuple[Rejection, ...]:
+def _others(call: RecordedCall) -> tuple[Rejection, ...]:
     """Return the implementations that did not do, but for the one chosen last, whose failure is the call's."""
     return tuple(each for each in call.rejected if each.implementation != call.implementation)
 
@@ -140,7 +144,7 @@ def _refusal(rejected: Rejection) -> Iterator[str]:
         yield from _indented(_causes(rejected.failure.causes))
 
 
-def _bound(call: Call, name: str) -> Iterator[str]:
+def _bound(call: RecordedCall, name: str) -> Iterator[str]:
     reason = next((each for each in call.determined if each.parameter == name), None)
     how = reason.how if reason is not None else "passed"
     yield f"{name} = {format_value(call.bindings[name])}  ({PLANNED if call.planned and how == 'passed' else HOW[how]})"
@@ -156,7 +160,7 @@ def _because(reason: ParameterReason) -> Iterator[str]:
         yield f"`infer any` passed over {', '.join(other.label for other in reason.others)}"
 
 
-def _failed(call: Call) -> Iterator[str]:
+def _failed(call: RecordedCall) -> Iterator[str]:
     for earlier in call.earlier:
         yield f"an earlier start ended at {earlier.ended:.1f} s: {earlier.status} {earlier.message}".rstrip()
     if call.failure is None:
@@ -184,13 +188,13 @@ def _chain(links: Sequence[FailedNode], known: str = "") -> Iterator[str]:
         yield f"{'  ' * depth}in {link.kind} {link.name} ({link.source}){innermost}"
 
 
-def _fact(fact: Fact) -> str:
+def _fact(fact: RecordedFact) -> str:
     known = f"{fact.known}, " if fact.known else ""
     text = format_fact(fact.fact)
     return text if fact.since is None else f"{text}  ({known}since {fact.since:.1f} s, by {fact.by})"
 
 
-def _parameter(call: Call, name: str) -> Iterator[str]:
+def _parameter(call: RecordedCall, name: str) -> Iterator[str]:
     yield _line(call).strip()
     if name in call.bindings:
         yield from _indented(_bound(call, name), 4)
@@ -203,7 +207,7 @@ def _indented(lines: Iterable[str], spaces: int = 2) -> Iterator[str]:
     return (f"{' ' * spaces}{line}" for line in lines)
 
 
-def _example(story: Story) -> str:
+def _example(story: RunHistory) -> str:
     """Return a question worth asking: about the last step that failed, else the first."""
     failed = [call.number for call in story.calls if call.status == "failure" and "." not in call.number]
     return failed[-1] if failed else "1"

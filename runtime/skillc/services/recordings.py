@@ -7,15 +7,15 @@ from pathlib import Path
 from skillc.services.errors import RequestError, ServiceError
 from skillc.services.files import inspect_path
 from skillc.services.reporting import Reporter
-from skillc_runtime.recording.history import read_story
-from skillc_runtime.recording.question import Answer, QuestionError, find_answer
+from skillc_runtime.recording.history import RunHistory
+from skillc_runtime.recording.history_builder import read_history
+from skillc_runtime.recording.question import CallSelection, QuestionError, select_calls
 from skillc_runtime.recording.reader import TraceError, TraceReader
-from skillc_runtime.recording.story import Story
 
 NAME = "events.jsonl"
 
 
-def read_run(run: Path, reporter: Reporter) -> Story:
+def read_run(run: Path, reporter: Reporter) -> RunHistory:
     """Read what happened in a run, given by its folder or its file of events. ServiceError where it cannot be read."""
     path = run / NAME if inspect_path(run).kind == "folder" else run
     found = inspect_path(path)
@@ -25,22 +25,22 @@ def read_run(run: Path, reporter: Reporter) -> Story:
         raise ServiceError(f"{path} {found.is_what}")
     reader = TraceReader(path)
     try:
-        story = read_story(reader)
+        story = read_history(reader)
     except TraceError as error:
         raise ServiceError(str(error)) from error
     except OSError as error:
         raise ServiceError(f"{path} cannot be read: {error.strerror or error}") from error
     if story is None:
         raise ServiceError(f"{path} has nothing of a task: the run ended before it began")
-    if reader.cut_short:
+    if reader.is_truncated:
         reporter.say(f"note: the last line of {path} is incomplete; the recording ends at {story.last:.1f} s")
     return story
 
 
-def answer_question(story: Story, question: str) -> Answer:
+def answer_question(story: RunHistory, question: str) -> CallSelection:
     """Return what a recording says to a question. RequestError for one about something that is not in it."""
     try:
-        return find_answer(story, question)
+        return select_calls(story, question)
     except QuestionError as error:
         raise RequestError(str(error)) from error
 

@@ -18,7 +18,7 @@ from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Listener, Note, PlanMade, PlanStep
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.listeners import Listeners
-from skillc_runtime.recording.outcome import Outcome
+from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.labelled import label
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -73,7 +73,7 @@ class AttemptResult:
     prepared: PreparedTask
     status: Status
     failure: Failure | None
-    tree: Outcome
+    tree: NodeOutcome
     last_node: int
     invalidated: str | None
     claims: tuple[Claim, ...] = ()

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import TypeAlias
 
 from skillc_model.conditions import Condition
-from skillc_runtime.recording.known import KnownFact
+from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.grounds import Ground, find_grounds
 from skillc_runtime.world.state.labelled import label_fact

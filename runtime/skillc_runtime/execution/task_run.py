@@ -24,7 +24,7 @@ from skillc_runtime.planning.plan import Step
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import FORMAT, Listener, Replanned, TaskEnded, TaskStarted
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.recording.known import KnownFact, assumed_facts
+from skillc_runtime.recording.known_facts import KnownFact, assumed_facts
 from skillc_runtime.recording.listeners import Listeners
 from skillc_runtime.world.eval.conditions import evaluate
 

@@ -9,13 +9,13 @@ import msgspec
 
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.recording.failure import Failure, Rejection
-from skillc_runtime.recording.known import KnownFact
+from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.recording.reasons import FailedCallContext, ParameterReason, UntriedImplementation
 from skillc_runtime.world.state.evidence import Evidence
 from skillc_runtime.world.state.labelled import LabelledChange, LabelledIri, LabelledValue
 
 FORMAT = 4
-"""Raised with every change of what the events mean. A reader takes no other format."""
+"""Raised with every change of the events or their meaning. Readers accept this format only."""
 
 
 class _Event(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -25,7 +25,7 @@ class _Event(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class TaskStarted(_Event, tag="task-started", frozen=True, kw_only=True):
-    """A task begins; `library` and `hash` name what it runs, `format` is that of the events that follow."""
+    """A task starts; `library` and `hash` identify the compiled library, `format` is the format of the events."""
 
     format: int
     task: str
@@ -43,9 +43,9 @@ class PlanStep(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class PlanMade(_Event, tag="plan-made", frozen=True, kw_only=True):
-    """A planner found a plan; `cost` is in the unit of durations, seconds.
+    """A planner found a plan; `cost` is its expected duration in s.
 
-    `optimal` is what the planner says about it, `quality` the same in words, which also say of what problem.
+    `optimal` is the planner's claim, `quality` the same in words, with the problem for which it holds.
     """
 
     planner: str
@@ -56,13 +56,13 @@ class PlanMade(_Event, tag="plan-made", frozen=True, kw_only=True):
 
 
 class Replanned(_Event, tag="replanned", frozen=True, kw_only=True):
-    """What was planned failed or no longer leads to the goal; the plan that follows replaces it."""
+    """The plan failed or no longer leads to the goal; the next plan replaces it."""
 
     reason: str
 
 
 class NodeStarted(_Event, tag="node-started", frozen=True, kw_only=True):
-    """A node of the tree starts; `parent` is the id of the node above it, 0 at the root."""
+    """A node of the tree starts; `parent` is the id of its parent, 0 for the root."""
 
     node: int
     parent: int
@@ -72,18 +72,18 @@ class NodeStarted(_Event, tag="node-started", frozen=True, kw_only=True):
 
 
 class NodeEnded(_Event, tag="node-ended", frozen=True, kw_only=True):
-    """A node succeeded, failed or was halted; `failure` says why, `attempted` what a call that failed had."""
+    """A node succeeded, failed or was halted; `failure` is the reason, `failed_call` the context of a failed call."""
 
     node: int
     name: str
     status: str
     failure: Failure | None = None
-    attempted: FailedCallContext | None = None
+    failed_call: FailedCallContext | None = None
     source: Position
 
 
 class Highlight(msgspec.Struct, frozen=True):
-    """What is worth seeing of `what` when a call begins, or ends well: that it is, say, `pressed`."""
+    """What `what` is, for example `pressed`, when a call begins or ends successfully: a moment to show in a report."""
 
     when: Literal["begins", "ends"]
     what: LabelledIri
@@ -93,9 +93,9 @@ class Highlight(msgspec.Struct, frozen=True):
 class ImplementationChosen(_Event, tag="implementation-chosen", frozen=True, kw_only=True):
     """A call starts with this implementation; `bindings` are its parameters.
 
-    `determined` says of those that were not simply passed why they are what they are; `untried` are the implementations
-    that rank after this one. `fixed` tells that the call itself names the implementation. `activity` is what a
-    primitive declares that it does, as `press`; `highlights` are what there is to see of it.
+    `determined` are the reasons for the values that were not simply passed; `untried` are the implementations that
+    rank after this one. `fixed` if the call names the implementation. `activity` is what a primitive declares to do,
+    for example `press`; `highlights` are the moments of it to show.
     """
 
     node: int
@@ -117,7 +117,7 @@ class ImplementationChosen(_Event, tag="implementation-chosen", frozen=True, kw_
 
 
 class WorldChanged(_Event, tag="world-changed", frozen=True, kw_only=True):
-    """The world model changed; `known` is how this is known, None for what others wrote."""
+    """The world model changed; `known` is the evidence for the change, None for changes from outside the run."""
 
     origin: str
     changes: tuple[LabelledChange, ...]
@@ -125,7 +125,7 @@ class WorldChanged(_Event, tag="world-changed", frozen=True, kw_only=True):
 
 
 class Note(_Event, tag="note", frozen=True, kw_only=True):
-    """Something a person may want to know, which decides nothing."""
+    """A message for users, without effect on the run."""
 
     message: str
     node: int = 0
@@ -133,17 +133,17 @@ class Note(_Event, tag="note", frozen=True, kw_only=True):
 
 
 class Paused(_Event, tag="paused", frozen=True, kw_only=True):
-    """The run holds still."""
+    """The run was paused."""
 
 
 class Resumed(_Event, tag="resumed", frozen=True, kw_only=True):
-    """The run goes on."""
+    """The run was resumed."""
 
 
 class TaskEnded(_Event, tag="task-ended", frozen=True, kw_only=True):
-    """A task is over; `facts` are those that a success rests on.
+    """A task ended; `facts` are those that its success rests on.
 
-    `verified` tells whether none of them is only assumed; None where there is no success.
+    `verified` is whether none of them is only assumed; None if the task did not succeed.
     """
 
     task: str

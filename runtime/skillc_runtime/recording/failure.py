@@ -1,4 +1,4 @@
-"""Why a node failed, and why an implementation was not taken."""
+"""Why a node failed, and why an implementation was rejected."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ _KIND_OF_STAGE: dict[Stage, FailureKind] = {
 
 
 class Failure(msgspec.Struct, frozen=True, kw_only=True):
-    """Why a node failed, in the author's words; `source` is the line responsible, `skill` the innermost skill.
+    """Why a node failed; `source` is the responsible line, `skill` the innermost skill.
 
-    `values` are those that a primitive put into the message, by name. `causes` are the failures this one sums up: those
+    `values` are the values in a primitive's message, by name. `causes` are the failures that this one combines: those
     of all alternatives that were tried.
     """
 
@@ -41,14 +41,14 @@ class Failure(msgspec.Struct, frozen=True, kw_only=True):
 
     @property
     def breaks_hold(self) -> bool:
-        """Whether a hold or `verify` line broke, here or in a cause: such a failure is never turned into success."""
+        """Whether a hold or `verify` line was violated, here or in a cause; such a failure never becomes a success."""
         return self.kind in ("hold", "verify") or any(cause.breaks_hold for cause in self.causes)
 
 
 class Rejection(msgspec.Struct, frozen=True, kw_only=True):
-    """An implementation that was not taken, the stage at which it fell out, and why.
+    """An implementation that was rejected, at which stage, and why.
 
-    `failure` is the failure itself where the implementation had started.
+    `failure` is its failure if the implementation had started.
     """
 
     implementation: str
@@ -59,7 +59,7 @@ class Rejection(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def as_failure(rejected: Rejection, skill: str) -> Failure:
-    """Return the failure that a rejection means for the call that had no other implementation."""
+    """Return a rejection as the failure of a call that has no other implementation."""
     if rejected.failure is not None:
         return rejected.failure
     kind = _KIND_OF_STAGE[rejected.stage]

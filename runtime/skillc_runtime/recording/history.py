@@ -1,121 +1,129 @@
-"""From the events of a run to its story, in one pass and in memory that depends on the tree alone."""
+"""The history of a run, as a value for explanations: its attempts, their steps, the calls in these, the failures."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import assert_never
+from collections.abc import Iterator
 
-from msgspec import structs
+import msgspec
 
-from skillc_runtime.recording import events
-from skillc_runtime.recording.events import Event
-from skillc_runtime.recording.record import AttemptRecord, NodeRecords
-from skillc_runtime.recording.steps import collect_steps, failure_chain
-from skillc_runtime.recording.story import Attempt, Fact, Story
-from skillc_runtime.world.state.labelled import LabelledFact, LabelledProperty, LabelledRelation
+from skillc_rdf.vocabulary.types import Position
+from skillc_runtime.recording.failure import Failure, Rejection
+from skillc_runtime.recording.known_facts import KnownFact
+from skillc_runtime.recording.reasons import ParameterReason, UntriedImplementation
+from skillc_runtime.world.state.labelled import LabelledFact, LabelledValue
 
 
-def read_story(recording: Iterable[Event]) -> Story | None:
-    """Return what happened in a run; None where no task ever started. Raises what the recording raises."""
-    history = _History()
-    for event in recording:
-        history.hear(event)
-    return history.story()
+class _Part(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """Times are in s of the cell's clock."""
 
 
-class _History:
-    """Listens to a run; `story` may be asked at any time."""
+class RecordedFact(_Part, frozen=True, kw_only=True):
+    """A fact at one time; `since` and `by` are when and by what it was written, if that was during the run.
 
-    def __init__(self) -> None:
-        self._started: events.TaskStarted | None = None
-        self._ended: events.TaskEnded | None = None
-        self._last = 0.0
-        self._written: dict[LabelledFact, Fact] = {}
-        self._because = ""
-        self._bodies = [AttemptRecord()]
-        self._records = NodeRecords(self._bodies[0])
+    `known` is its evidence: sensed, reported or assumed; empty if unknown.
+    """
 
-    def hear(self, event: Event) -> None:
-        """Take the next event."""
-        self._last = event.time
-        match event:
-            case events.TaskStarted():
-                self._started = event
-            case events.PlanMade():
-                self._begin(AttemptRecord(plan=event, replaces=self._because))
-            case events.Replanned(reason=reason):
-                self._because = reason
-            case events.NodeStarted():
-                self._records.start(event)
-            case events.ImplementationChosen():
-                self._records.choose(event)
-            case events.NodeEnded():
-                self._records.end(event, self._facts(event))
-            case events.WorldChanged():
-                self._note(event)
-            case events.TaskEnded():
-                self._ended = event
-            case events.Note() | events.Paused() | events.Resumed():
-                pass
-            case _:
-                assert_never(event)
-
-    def story(self) -> Story | None:
-        """Return what is known by now."""
-        if self._started is None:
-            return None
-        attempts, count = [], 0
-        for body in self._bodies:
-            attempts.append(_attempt(body, count))
-            count += len(attempts[-1].steps)
-        return Story(
-            task=self._started.task,
-            status=self._ended.status if self._ended is not None else "",
-            verified=self._ended.verified if self._ended is not None else None,
-            known=self._ended.facts if self._ended is not None else (),
-            library=self._started.library,
-            hash=self._started.hash,
-            format=self._started.format,
-            last=self._last,
-            failure=self._ended.failure if self._ended is not None else None,
-            chain=failure_chain(self._bodies[-1].roots),
-            attempts=tuple(attempts),
-        )
-
-    def _begin(self, body: AttemptRecord) -> None:
-        """Begin an attempt; the first plan belongs to the body that nothing has run of yet."""
-        if self._bodies[-1].plan is None and not self._bodies[-1].roots:
-            self._bodies.pop()
-        self._bodies.append(body)
-        self._records = NodeRecords(body)
-
-    def _note(self, event: events.WorldChanged) -> None:
-        for change in event.changes:
-            if isinstance(change, LabelledRelation | LabelledProperty):
-                written = Fact(fact=change, since=event.time, by=event.origin, known=event.known or "")
-                self._written[_about(change)] = written
-
-    def _facts(self, event: events.NodeEnded) -> tuple[Fact, ...]:
-        """Return the facts that a failure met, each with who wrote it if that was during the run."""
-        found = event.attempted.facts if event.attempted is not None else ()
-        pairs = ((fact, self._written.get(_about(fact))) for fact in found)
-        return tuple(written if written and written.fact == fact else Fact(fact=fact) for fact, written in pairs)
+    fact: LabelledFact
+    since: float | None = None
+    by: str = ""
+    known: str = ""
 
 
-def _about(fact: LabelledFact) -> LabelledFact:
-    """Return what a fact is about, so that of a relation or a property only what was written last is kept."""
-    return (
-        structs.replace(fact, value=None) if isinstance(fact, LabelledProperty) else structs.replace(fact, holds=True)
-    )
+class FailedNode(_Part, frozen=True, kw_only=True):
+    """A node in a chain of failures, a call or the innermost node; `message` is its reason."""
+
+    kind: str
+    name: str
+    source: Position
+    message: str
 
 
-def _attempt(body: AttemptRecord, count: int) -> Attempt:
-    plan = body.plan
-    return Attempt(
-        steps=collect_steps(body, count),
-        planner=plan.planner if plan is not None else "",
-        optimal=plan.optimal if plan is not None else "",
-        quality=plan.quality if plan is not None else "",
-        cost=plan.cost if plan is not None else None,
-        replaces=body.replaces,
-    )
+class EarlierStart(_Part, frozen=True, kw_only=True):
+    """How an earlier start of the same call ended."""
+
+    ended: float
+    status: str
+    message: str = ""
+
+
+class RecordedCall(_Part, frozen=True, kw_only=True):
+    """A call of a skill at its last start, or a step of a plan that was never called.
+
+    `number` is the number of the step; for a call inside it, followed by its index there, for example `2.1`. `status`
+    is success, failure, halted, running, skipped (its postconditions already held) or not started. `source` is the
+    place of the call, or of the skill for a planned step; `implementation_source` that of the implementation chosen
+    last. `beside` are the steps that ran at the same time. `planned` if a planner bound its arguments, `fixed` if the
+    call names its implementation. `unset` are the parameters that could not be inferred. `starts` is the number of
+    starts, `chain` leads from this call to the node that failed.
+    """
+
+    number: str
+    skill: str
+    status: str
+    source: Position | None
+    implementation: str = ""
+    implementation_source: Position | None = None
+    started: float | None = None
+    ended: float | None = None
+    bindings: dict[str, LabelledValue] = {}
+    determined: tuple[ParameterReason, ...] = ()
+    unset: tuple[str, ...] = ()
+    planned: bool = False
+    fixed: bool = False
+    untried: tuple[UntriedImplementation, ...] = ()
+    rejected: tuple[Rejection, ...] = ()
+    failure: Failure | None = None
+    chain: tuple[FailedNode, ...] = ()
+    facts: tuple[RecordedFact, ...] = ()
+    starts: int = 1
+    earlier: tuple[EarlierStart, ...] = ()
+    beside: tuple[str, ...] = ()
+    calls: tuple[RecordedCall, ...] = ()
+
+    @property
+    def all(self) -> Iterator[RecordedCall]:
+        """This call and the calls inside it, outermost first."""
+        yield self
+        for call in self.calls:
+            yield from call.all
+
+
+class Attempt(_Part, frozen=True, kw_only=True):
+    """A plan and the outcome of its steps; a body that was given has no `planner`.
+
+    `quality` is how good the plan is known to be, `replaces` why the previous plan was abandoned.
+    """
+
+    steps: tuple[RecordedCall, ...]
+    planner: str = ""
+    optimal: str = ""
+    quality: str = ""
+    cost: float | None = None
+    replaces: str = ""
+
+
+class RunHistory(_Part, frozen=True, kw_only=True):
+    """A run. `status` is empty if the recording ends before the task does; `last` is the time of the last event.
+
+    `known` are the facts that a success rests on, `verified` is whether none of them is only assumed; None if unknown.
+    `chain` leads from the outermost call to the node that failed.
+    """
+
+    task: str
+    status: str = ""
+    verified: bool | None = None
+    known: tuple[KnownFact, ...] = ()
+    library: str = ""
+    hash: str = ""
+    format: int = 1
+    last: float = 0.0
+    failure: Failure | None = None
+    chain: tuple[FailedNode, ...] = ()
+    attempts: tuple[Attempt, ...] = ()
+
+    @property
+    def calls(self) -> Iterator[RecordedCall]:
+        """All calls of all attempts."""
+        for attempt in self.attempts:
+            for step in attempt.steps:
+                yield from step.all

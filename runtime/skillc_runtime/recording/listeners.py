@@ -1,4 +1,4 @@
-"""Passes events on to several listeners; one that fails is removed and never stops the robot."""
+"""Passes events to several listeners; one that fails is removed and never stops the robot."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from skillc_runtime.recording.events import Event, Listener
 
 
 class Listeners:
-    """A listener that passes events on, in order; `problems` says which of them failed and how."""
+    """A listener that passes events to others, in order; `problems` are the messages of those that failed."""
 
     def __init__(self, listeners: Sequence[Listener]) -> None:
         self._active = list(listeners)
@@ -18,6 +18,6 @@ class Listeners:
         for listener in tuple(self._active):
             try:
                 listener(event)
-            except Exception as error:  # noqa: BLE001  somebody else's code; the run must go on
+            except Exception as error:  # noqa: BLE001  external code; the run must go on
                 self._active.remove(listener)
                 self.problems.append(f"{listener!r} was removed as a listener: {type(error).__name__}: {error}")

@@ -1,4 +1,4 @@
-"""What a question about a run asks for: a step by its number, a skill, an implementation, a parameter."""
+"""Selects the calls that a question about a run is about: by step number, skill, implementation or parameter."""
 
 from __future__ import annotations
 
@@ -8,76 +8,76 @@ from difflib import get_close_matches
 
 import msgspec
 
-from skillc_runtime.recording.story import Call, Story
+from skillc_runtime.recording.history import RecordedCall, RunHistory
 
 _NUMBER = re.compile(r"\d+(\.\d+)*")
 
 
 class QuestionError(ValueError):
-    """A question that is about nothing in the run; the message says what there is."""
+    """A question about something that is not in the run; the message lists what is."""
 
 
-class Answer(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
-    """The calls that a question is about, in the order of the run, and the parameter that it is about, if it is."""
+class CallSelection(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """The calls that a question is about, in the order of the run, and the parameter, if it is about one."""
 
     question: str
     parameter: str = ""
-    calls: tuple[Call, ...]
+    calls: tuple[RecordedCall, ...]
 
 
-def find_answer(story: Story, question: str) -> Answer:
+def select_calls(story: RunHistory, question: str) -> CallSelection:
     """Return what a question is about: `2`, `2.1`, `Pick`, `Pick.gripper`, `2.gripper`, `gripper`, `by_grasp`.
 
-    Of names the first that exists counts: a skill, an implementation, a parameter. Capitals do not matter.
+    A name is looked up as a skill, then an implementation, then a parameter, ignoring case. QuestionError if none fits.
     """
     text = question.strip().removeprefix("step ").strip()
     calls = tuple(story.calls)
-    of_text = _about(calls, text)
-    if of_text:
-        return Answer(question=question, calls=of_text)
+    by_name = _find_calls(calls, text)
+    if by_name:
+        return CallSelection(question=question, calls=by_name)
     owner, _, parameter = text.rpartition(".")
-    found = _having(_about(calls, owner) if owner else calls, parameter)
+    found = _with_parameter(_find_calls(calls, owner) if owner else calls, parameter)
     if found:
-        return Answer(question=question, parameter=_spelled(found[0], parameter), calls=found)
-    raise QuestionError(_nothing(calls, text))
+        return CallSelection(question=question, parameter=_exact_name(found[0], parameter), calls=found)
+    raise QuestionError(_describe_unknown(calls, text))
 
 
-def parameters_of(call: Call) -> tuple[str, ...]:
-    """Return the parameters of which something is known."""
+def parameters_of(call: RecordedCall) -> tuple[str, ...]:
+    """Return the names of the parameters that are bound, or that could not be inferred."""
     return tuple(dict.fromkeys((*call.bindings, *call.unset)))
 
 
-def _about(calls: Sequence[Call], text: str) -> tuple[Call, ...]:
+def _find_calls(calls: Sequence[RecordedCall], text: str) -> tuple[RecordedCall, ...]:
     if _NUMBER.fullmatch(text):
-        return _those(calls, lambda call: call.number == text)
+        return _filter(calls, lambda call: call.number == text)
     name = text.casefold()
-    of_skill = _those(calls, lambda call: call.skill.casefold() == name)
-    return of_skill or _those(calls, lambda call: name in _implementations(call))
+    by_skill = _filter(calls, lambda call: call.skill.casefold() == name)
+    return by_skill or _filter(calls, lambda call: name in _implementation_names(call))
 
 
-def _those(calls: Sequence[Call], wanted: Callable[[Call], bool]) -> tuple[Call, ...]:
-    return tuple(call for call in calls if wanted(call))
+def _filter(calls: Sequence[RecordedCall], is_wanted: Callable[[RecordedCall], bool]) -> tuple[RecordedCall, ...]:
+    return tuple(call for call in calls if is_wanted(call))
 
 
-def _implementations(call: Call) -> frozenset[str]:
+def _implementation_names(call: RecordedCall) -> frozenset[str]:
     names = (call.implementation, *(each.implementation for each in call.rejected))
     return frozenset(name.casefold() for name in names if name)
 
 
-def _having(calls: Sequence[Call], parameter: str) -> tuple[Call, ...]:
+def _with_parameter(calls: Sequence[RecordedCall], parameter: str) -> tuple[RecordedCall, ...]:
     name = parameter.casefold()
-    return _those(calls, lambda call: name in map(str.casefold, parameters_of(call)))
+    return _filter(calls, lambda call: name in map(str.casefold, parameters_of(call)))
 
 
-def _spelled(call: Call, parameter: str) -> str:
+def _exact_name(call: RecordedCall, parameter: str) -> str:
     return next(name for name in parameters_of(call) if name.casefold() == parameter.casefold())
 
 
-def _nothing(calls: Sequence[Call], text: str) -> str:
+def _describe_unknown(calls: Sequence[RecordedCall], text: str) -> str:
     if _NUMBER.fullmatch(text):
-        return _no_number(calls, text)
+        return _describe_missing_number(calls, text)
     owner, _, parameter = text.rpartition(".")
-    owners = _about(calls, owner) if owner else ()
+    owners = _find_calls(calls, owner) if owner else ()
     if owners:
         known = dict.fromkeys(name for call in owners for name in parameters_of(call))
         return f"{owner} has no parameter `{parameter}`; it has {', '.join(known) or 'none'}"
@@ -88,14 +88,16 @@ def _nothing(calls: Sequence[Call], text: str) -> str:
     return f"nothing in this run is called `{text}`; {hint}there are the skills {', '.join(skills) or '(none)'}"
 
 
-def _no_number(calls: Sequence[Call], number: str) -> str:
-    """Say which numbers there are: of steps, or of the calls inside the one that was meant."""
-    above, _, _ = number.rpartition(".")
-    around = next((call for call in calls if call.number == above), None)
-    if above and around is None:
-        return _no_number(calls, above)
-    count = len(around.calls) if around is not None else sum("." not in call.number for call in calls)
-    numbers = f"{above}.1 to {above}.{count}" if above else f"1 to {count}"
+def _describe_missing_number(calls: Sequence[RecordedCall], number: str) -> str:
+    """Return a message with the numbers that exist: of steps, or of the calls inside a step."""
+    prefix, _, _ = number.rpartition(".")
+    enclosing = next((call for call in calls if call.number == prefix), None)
+    if prefix and enclosing is None:
+        return _describe_missing_number(calls, prefix)
+    count = len(enclosing.calls) if enclosing is not None else sum("." not in call.number for call in calls)
+    numbers = f"{prefix}.1 to {prefix}.{count}" if prefix else f"1 to {count}"
     if not count:
-        return f"no skill was called in step {above}" if above else "no step ever began"
-    return f"there is no step {number}; " + (f"those in {above} are {numbers}" if above else f"the steps are {numbers}")
+        return f"no skill was called in step {prefix}" if prefix else "no step was started"
+    return f"there is no step {number}; " + (
+        f"those in {prefix} are {numbers}" if prefix else f"the steps are {numbers}"
+    )

@@ -1,4 +1,4 @@
-"""The events of a recording, read back one after the other so that its size does not matter."""
+"""Reads the events of a recording one by one, so its size does not matter."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ import msgspec
 
 from skillc_runtime.recording.events import FORMAT, Event, TaskStarted
 
-LONGEST_LINE = 1 << 24
-"""An event takes no more bytes than this; a file with a longer line is no recording."""
+MAX_LINE_BYTES = 1 << 24
+"""The maximum length of an event; a file with a longer line is not a recording."""
 
 
 class _Start(msgspec.Struct):
-    """What the first event of every format says of itself."""
+    """The fields that the first event has in every format."""
 
     type: str
     format: int = 1
@@ -27,49 +27,49 @@ _START = msgspec.json.Decoder(_Start)
 
 
 class TraceError(ValueError):
-    """A file that is no recording this version can read; the message names the line and says why."""
+    """A file that is not a recording of this format; the message has the line and the reason."""
 
 
 class TraceReader:
-    """Yields the events of a file; TraceError at a line that is none, OSError when it cannot be read.
+    """Yields the events of a file; TraceError at a line that is not an event, OSError if it cannot be read.
 
-    A last line cut short by a crash is left out, and then `cut_short` is true at the end.
+    An incomplete last line, which a crash may leave, is skipped and sets `is_truncated`.
     """
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self.cut_short = False
+        self.is_truncated = False
 
     def __iter__(self) -> Iterator[Event]:
-        self.cut_short = False
+        self.is_truncated = False
         with self.path.open("rb") as file:
-            for number, line in enumerate(_lines(file), start=1):
+            for number, line in enumerate(_read_lines(file), start=1):
                 if line.endswith(b"\n"):
-                    yield self._event(line, number)
-                elif len(line) == LONGEST_LINE:
-                    raise TraceError(f"{self.path}:{number}: this is no event: the line has no end")
+                    yield self._decode(line, number)
+                elif len(line) == MAX_LINE_BYTES:
+                    raise TraceError(f"{self.path}:{number}: this is not an event: the line has no end")
                 else:
-                    self.cut_short = True
+                    self.is_truncated = True
 
-    def _event(self, line: bytes, number: int) -> Event:
+    def _decode(self, line: bytes, number: int) -> Event:
         if number == 1:
             self._check_format(line)
         try:
             event: Event = _DECODER.decode(line)
         except (msgspec.DecodeError, UnicodeDecodeError) as error:
-            raise TraceError(f"{self.path}:{number}: this is no event of skillc: {error}") from error
+            raise TraceError(f"{self.path}:{number}: this is not an event of skillc: {error}") from error
         return event
 
     def _check_format(self, line: bytes) -> None:
-        """Raise TraceError where the first line says that the events are of another format."""
+        """Raise TraceError if the first line declares another format."""
         with suppress(msgspec.DecodeError, UnicodeDecodeError):
             start = _START.decode(line)
             if start.type == TaskStarted.__struct_config__.tag and start.format != FORMAT:
-                who = "a newer" if start.format > FORMAT else "an older"
+                version = "a newer" if start.format > FORMAT else "an older"
                 reads = f"format {start.format}; this one reads format {FORMAT}"
-                raise TraceError(f"{self.path}:1: {who} skillc wrote this ({reads})")
+                raise TraceError(f"{self.path}:1: {version} skillc wrote this ({reads})")
 
 
-def _lines(file: BinaryIO) -> Iterator[bytes]:
-    while line := file.readline(LONGEST_LINE):
+def _read_lines(file: BinaryIO) -> Iterator[bytes]:
+    while line := file.readline(MAX_LINE_BYTES):
         yield line

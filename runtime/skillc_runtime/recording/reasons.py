@@ -1,4 +1,4 @@
-"""Why a call has the parameters it has, and what it came to grief on: the reasons that events carry."""
+"""The reasons that events carry: why a parameter has its value, and the context in which a call failed."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from skillc_runtime.world.state.labelled import LabelledFact, LabelledIri, Label
 
 
 class DecidingCondition(msgspec.Struct, frozen=True, kw_only=True):
-    """A condition as its author wrote it, with the facts that decided it."""
+    """A condition as written in the source, with the facts that decided it."""
 
     text: str
     source: Position
@@ -20,10 +20,10 @@ class DecidingCondition(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class ParameterReason(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
-    """What a parameter stands for where that is more than an argument of the call.
+    """Why a parameter that is not simply an argument of the call has its value.
 
-    `how` says who decided: the caller, the parameter's default, or the world through the conditions. `others` are the
-    individuals that would have done as well, which `infer any` passed over.
+    `how` is where the value comes from: the caller, the default, or inference from the conditions. `others` are the
+    other individuals that `infer any` could have chosen.
     """
 
     parameter: str
@@ -33,7 +33,7 @@ class ParameterReason(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=T
 
 
 class UntriedImplementation(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
-    """An implementation that ranks after the one chosen; `reason` says why it would not have fitted, if so."""
+    """An implementation that ranks after the chosen one; `reason` is why it could not start, empty if it could."""
 
     implementation: str
     source: Position
@@ -41,10 +41,10 @@ class UntriedImplementation(msgspec.Struct, frozen=True, kw_only=True, omit_defa
 
 
 class FailedCallContext(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
-    """What a call that failed had: its arguments, the implementations that did not do, the facts.
+    """The context of a failed call: its arguments, the rejected implementations, and the facts.
 
-    `unset` are the parameters that were to be found in the world. The facts are those that its conditions read, at
-    that moment.
+    `unset` are the parameters that could not be inferred. `facts` are those that its conditions read, at the time of
+    the failure.
     """
 
     arguments: dict[str, LabelledValue] = {}

@@ -1,4 +1,4 @@
-"""Events as JSON Lines in a file: one line an event, on disk as it happens."""
+"""Writes events to a file as JSON Lines; each is flushed when it happens."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from skillc_runtime.recording.events import Event
 
 
 class TraceWriter:
-    """A listener that appends every event to a file and flushes it; use it in `with`.
+    """A listener that appends every event to a file and flushes it; use it in a `with` statement.
 
-    A disk that fails never stops the robot: the writer stops writing and keeps the reason in `problem`.
+    A write error never stops the robot: the writer stops writing and stores the reason in `problem`.
     """
 
     def __init__(self, path: Path) -> None:
-        """Open the file, empty; OSError when that is not possible."""
+        """Create the file or truncate it; OSError if that fails."""
         self.path = path
         self.problem: str | None = None
         self._encoder = msgspec.json.Encoder()
@@ -33,7 +33,7 @@ class TraceWriter:
             self._give_up(error)
 
     def close(self) -> None:
-        """Close the file; a second time does nothing."""
+        """Close the file; idempotent."""
         try:
             self._file.close()
         except OSError as error:

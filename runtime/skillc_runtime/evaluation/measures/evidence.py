@@ -11,7 +11,7 @@ from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.report.wiping import Wiping
 from skillc_runtime.recording.events import ImplementationChosen
-from skillc_runtime.recording.outcome import Outcome
+from skillc_runtime.recording.node_outcome import NodeOutcome
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +20,7 @@ class RunEvidence:
 
     library: SkillLibrary
     cell: SimulatedCell
-    trees: tuple[Outcome, ...]
+    trees: tuple[NodeOutcome, ...]
     choices: Mapping[int, ImplementationChosen]
     wipings: tuple[tuple[Wiping, WipingResult], ...]
 
@@ -37,8 +37,8 @@ class RunEvidence:
 
 
 def _outermost(
-    nodes: Iterable[Outcome], choices: Mapping[int, ImplementationChosen], subject: str
-) -> Iterator[Outcome]:
+    nodes: Iterable[NodeOutcome], choices: Mapping[int, ImplementationChosen], subject: str
+) -> Iterator[NodeOutcome]:
     for node in nodes:
         choice = choices.get(node.id)
         if choice is not None and subject in choice.individuals:

@@ -12,7 +12,7 @@ from skillc_runtime.devices.ground_truth import Recording
 from skillc_runtime.evaluation.report.wiping import Wiping
 from skillc_runtime.film.film import Moment
 from skillc_runtime.recording.events import ImplementationChosen
-from skillc_runtime.recording.outcome import Outcome
+from skillc_runtime.recording.node_outcome import NodeOutcome
 
 GRASPED_S = 0.3
 """How long after the first moment at which a tool is held its grasp is looked at."""
@@ -20,7 +20,7 @@ GRASPED_S = 0.3
 
 def find_moments(
     wipings: Sequence[Wiping],
-    trees: Iterable[Outcome],
+    trees: Iterable[NodeOutcome],
     choices: Mapping[int, ImplementationChosen],
     cell: SimulatedCell,
 ) -> tuple[Moment, ...]:
@@ -30,7 +30,7 @@ def find_moments(
     return (*wiped, *(each for node, choice in calls for each in _seen(node, choice, cell)))
 
 
-def _seen(node: Outcome, choice: ImplementationChosen, cell: SimulatedCell) -> Iterator[Moment]:
+def _seen(node: NodeOutcome, choice: ImplementationChosen, cell: SimulatedCell) -> Iterator[Moment]:
     """Yield what was to be seen in a call, where an arm did it."""
     arms = {arm.individual for arm in cell.facts.arms}
     arm = next((each for each in choice.individuals if each in arms), None)

@@ -10,13 +10,13 @@ from skillc_runtime.evaluation.report.figures import FigureFiles
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.table import reason_of, table_rows
 from skillc_runtime.film.film import SPEED_UP, Filmed
-from skillc_runtime.recording.known import assumed_facts, format_assumption, format_status
-from skillc_runtime.recording.outcome import Outcome
+from skillc_runtime.recording.known_facts import assumed_facts, format_assumption, format_status
+from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.labelled_text import format_value
 
 
 def render(
-    result: TaskResult, trees: list[Outcome], figure: FigureFiles | None = None, filmed: Filmed | None = None
+    result: TaskResult, trees: list[NodeOutcome], figure: FigureFiles | None = None, filmed: Filmed | None = None
 ) -> str:
     """Return the page; `trees` are those of all attempts, the files of `filmed` are beside it."""
     environment = Environment(
@@ -42,7 +42,7 @@ def render(
     )
 
 
-def _reason(node: Outcome) -> str:
+def _reason(node: NodeOutcome) -> str:
     """Return why a node failed, unless a child says it already."""
     if node.failure is None or any(child.failure == node.failure for child in node.children):
         return ""

@@ -16,7 +16,7 @@ from skillc_runtime.execution.task_run import Execution
 from skillc_runtime.planning.plan import describe_quality
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import ImplementationChosen
-from skillc_runtime.recording.outcome import Outcome
+from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.terms import COMPLIANT_CONTROLLER
 
 ENDED: Mapping[Status, Literal["success", "failure", "halted"]] = {
@@ -63,13 +63,15 @@ def summarise(
     )
 
 
-def _steps(tree: Outcome, choices: Mapping[int, ImplementationChosen], library: SkillLibrary) -> tuple[StepResult, ...]:
+def _steps(
+    tree: NodeOutcome, choices: Mapping[int, ImplementationChosen], library: SkillLibrary
+) -> tuple[StepResult, ...]:
     """Return the calls at the top of the tree in the order in which they started; those that never did come last."""
     calls = sorted(_calls(tree), key=lambda call: (call.started is None, call.started))
     return tuple(_step(call, choices.get(call.id), library) for call in calls)
 
 
-def _calls(tree: Outcome) -> Iterator[Outcome]:
+def _calls(tree: NodeOutcome) -> Iterator[NodeOutcome]:
     """Yield the calls that no other call is around; one that was passed over has the status `skipped`."""
     if tree.kind == "call":
         yield tree
@@ -78,7 +80,7 @@ def _calls(tree: Outcome) -> Iterator[Outcome]:
         yield from _calls(structs.replace(child, status="skipped") if passed_over else child)
 
 
-def _step(call: Outcome, choice: ImplementationChosen | None, library: SkillLibrary) -> StepResult:
+def _step(call: NodeOutcome, choice: ImplementationChosen | None, library: SkillLibrary) -> StepResult:
     skill = choice.skill if choice else call.name
     objects = {p.name for p in library.skills[skill].parameters if p.direction in ("in", "infer")}
     bindings = choice.bindings if choice else {}
@@ -133,7 +135,7 @@ def _told(execution: Execution[SimulatedCell]) -> str | None:
     return f"{failure.message}\n  in {calls}" if calls else failure.message
 
 
-def _failed_calls(node: Outcome) -> Iterator[Outcome]:
+def _failed_calls(node: NodeOutcome) -> Iterator[NodeOutcome]:
     """Yield the calls from the top of the tree to the innermost one that failed."""
     if node.kind == "call":
         yield node

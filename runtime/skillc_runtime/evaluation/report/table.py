@@ -8,7 +8,7 @@ from rich.table import Table
 from rich.text import Text
 
 from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult, WipingResult
-from skillc_runtime.recording.known import assumed_facts, format_assumption, format_evidence, format_status
+from skillc_runtime.recording.known_facts import assumed_facts, format_assumption, format_evidence, format_status
 from skillc_runtime.world.state.labelled_text import format_fact, format_value
 
 STYLES = {"success": "bold green", "failure": "bold red", "refused": "bold red", "halted": "bold yellow"}

@@ -12,7 +12,7 @@ from skillc_runtime.evaluation.report.choices import Choices
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.primitives.primitive import Activity
 from skillc_runtime.recording.events import ImplementationChosen
-from skillc_runtime.recording.outcome import Outcome
+from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.space.frames import size
 from skillc_runtime.world.state.labelled import Quantity
 from skillc_runtime.world.state.terms import SURFACE, TOOL
@@ -46,7 +46,7 @@ class Wiping:
         return self.strokes[-1][1]
 
 
-def find_wipings(trees: Iterable[Outcome], choices: Choices, cell: SimulatedCell) -> tuple[Wiping, ...]:
+def find_wipings(trees: Iterable[NodeOutcome], choices: Choices, cell: SimulatedCell) -> tuple[Wiping, ...]:
     """Return for each surface the last call about it and a tool in which paths were followed while it was pressed."""
     state, found = cell.world.snapshot(), dict[str, Wiping]()
     for node in (node for tree in trees for node in tree.nodes()):
@@ -93,7 +93,7 @@ def judge_wiping(wiping: Wiping, cell: SimulatedCell) -> WipingResult:
     )
 
 
-def _strokes(node: Outcome, choices: Choices) -> Iterator[Stroke]:
+def _strokes(node: NodeOutcome, choices: Choices) -> Iterator[Stroke]:
     """Yield from when to when each path below a node was followed, in its last run."""
     for _, path in _done(node, choices, "follow-path"):
         first, last = node.started or 0.0, inf if node.ended is None else node.ended
@@ -101,8 +101,8 @@ def _strokes(node: Outcome, choices: Choices) -> Iterator[Stroke]:
 
 
 def _done(
-    node: Outcome, choices: Mapping[int, ImplementationChosen], activity: Activity
-) -> Iterator[tuple[ImplementationChosen, Outcome]]:
+    node: NodeOutcome, choices: Mapping[int, ImplementationChosen], activity: Activity
+) -> Iterator[tuple[ImplementationChosen, NodeOutcome]]:
     """Yield the calls below a node that did something and succeeded."""
     for each in node.nodes():
         choice = choices.get(each.id)

@@ -29,7 +29,7 @@ from skillc_runtime.execution.assignment import (
 )
 from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.recording.events import Listener
-from skillc_runtime.recording.known import assumed_facts
+from skillc_runtime.recording.known_facts import assumed_facts
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError, number_of

@@ -7,7 +7,7 @@ from rich.table import Table
 from rich.text import Text
 
 from skillc_runtime.evaluation.trials.series import Series, Spread
-from skillc_runtime.recording.known import UNVERIFIED
+from skillc_runtime.recording.known_facts import UNVERIFIED
 
 
 def render(series: Series) -> RenderableType:

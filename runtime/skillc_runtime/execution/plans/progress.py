@@ -10,7 +10,7 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.plans.plan_body import achieved_condition
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.validation import PlanError, apply_effects, apply_step, check_goal_reached
-from skillc_runtime.recording.outcome import Outcome
+from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.model import WorldError
 from skillc_runtime.world.state.python_calls import EvaluationError
@@ -24,19 +24,19 @@ STEP_KINDS = ("call", "if")
 class Progress:
     """The steps of a plan in the order of its body, each with the outcome of its node."""
 
-    steps: tuple[tuple[Step, Outcome], ...]
+    steps: tuple[tuple[Step, NodeOutcome], ...]
 
     def with_status(self, status: str) -> tuple[Step, ...]:
         """Return the steps with a status: idle, running, success, failure or halted."""
         return tuple(step for step, outcome in self.steps if outcome.status == status)
 
 
-def measure_progress(steps: Sequence[Step], tree: Outcome) -> Progress:
+def measure_progress(steps: Sequence[Step], tree: NodeOutcome) -> Progress:
     """Return the progress of steps, given in the order of the body that `tree` is the outcome of."""
     return Progress(tuple(zip(steps, find_step_outcomes(tree), strict=True)))
 
 
-def find_step_outcomes(tree: Outcome) -> Iterator[Outcome]:
+def find_step_outcomes(tree: NodeOutcome) -> Iterator[NodeOutcome]:
     """Yield the outcome of each step from the outcome of a plan's body."""
     if tree.kind in STEP_KINDS:
         yield tree

@@ -133,7 +133,7 @@ class Node:
                 name=self.name,
                 status=status.value,
                 failure=failure,
-                attempted=self.describe_call() if status is FAILURE else None,
+                failed_call=self.describe_call() if status is FAILURE else None,
                 source=self.source,
             )
             context.emit(ended)

@@ -23,7 +23,7 @@ from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Listener, Paused, Resumed
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.listeners import Listeners
-from skillc_runtime.recording.outcome import Outcome
+from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.transactions import ChangeEvent
 
 _ALIVE = (RUNNING, Status.IDLE)
@@ -75,7 +75,7 @@ class TreeRun:
         return self._context.last_id
 
     @property
-    def outcome(self) -> Outcome:
+    def outcome(self) -> NodeOutcome:
         """The tree with the status of each node so far."""
         return _collect_outcome(self._root)
 
@@ -212,9 +212,9 @@ class TreeRun:
         self._listeners(make_change_event(event, self._context.time))
 
 
-def _collect_outcome(node: Node) -> Outcome:
+def _collect_outcome(node: Node) -> NodeOutcome:
     """Return the status of a node and of all nodes below it, during or after the run."""
-    return Outcome(
+    return NodeOutcome(
         id=node.id,
         name=node.name,
         kind=node.kind,

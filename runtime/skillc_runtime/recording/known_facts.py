@@ -1,4 +1,4 @@
-"""What the success of a task rests on: facts, each with how it is known."""
+"""The facts that the success of a task rests on, each with its evidence, as values and as text."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from skillc_runtime.world.state.labelled import (
 from skillc_runtime.world.state.labelled_text import format_fact
 
 UNVERIFIED = "finished, not verified"
-"""How a task ended that did all it was to do, where something that this rests on is only assumed."""
+"""The status of a task that succeeded if the facts hold that are only assumed."""
 
 
 class KnownFact(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
-    """A fact and how it is known: `given` before the run, or by what `by` names."""
+    """A fact and its evidence: `given` before the run, or established by the skill or device `by`."""
 
     fact: LabelledFact
     known: Literal["sensed", "reported", "assumed", "given"]
@@ -29,27 +29,27 @@ class KnownFact(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
 
 def assumed_facts(facts: tuple[KnownFact, ...]) -> tuple[KnownFact, ...]:
-    """Return those that nothing looked at."""
+    """Return the facts that are only assumed."""
     return tuple(fact for fact in facts if fact.known == "assumed")
 
 
 def format_evidence(fact: KnownFact) -> str:
-    """Return how a fact is known, as `assumed by Place`."""
+    """Return the evidence for a fact as text, for example `assumed by Place`."""
     return f"{fact.known} by {fact.by}" if fact.by else fact.known
 
 
 def format_status(status: str, verified: bool | None) -> str:
-    """Return how a task ended, in words: a success that rests on an assumption is not called one."""
+    """Return the status of a task as text; a success that rests on an assumption is not called one."""
     return UNVERIFIED if verified is False else status
 
 
 def format_assumption(known: KnownFact) -> str:
-    """Say that a fact is only assumed, and what would have to be sensed."""
-    return f"{format_fact(known.fact)} is only assumed: {what_to_sense(known)}"
+    """Return in words that a fact is only assumed, and what would have to be sensed."""
+    return f"{format_fact(known.fact)} is only assumed: {describe_missing_sensing(known)}"
 
 
-def what_to_sense(known: KnownFact) -> str:
-    """Say what would have to be sensed for a fact to be more than assumed."""
+def describe_missing_sensing(known: KnownFact) -> str:
+    """Return in words what would have to be sensed to confirm a fact that is only assumed."""
     after = f" after {known.by}" if known.by else ""
     match known.fact:
         case LabelledProperty(individual, property_):
