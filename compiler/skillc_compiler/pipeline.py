@@ -1,4 +1,4 @@
-"""The whole compiler on one page: what happens to sources, and in which order."""
+"""The whole compiler on one page: the stages of compiling sources, in order."""
 
 from __future__ import annotations
 
@@ -33,13 +33,12 @@ def compile(
     scenes: Mapping[str, Individuals] = NO_SCENES,
     parsed_by: Parser = parse,
 ) -> Outcome[SkillLibrary]:
-    """Compile a library: read, resolve, check, lower; problems that only follow from others are left out.
+    """Compile a library: read, resolve, check, lower; diagnostics that only follow from others are left out.
 
-    `sources` are the files of the library called `name`, `importable` those that it may import, by file name.
-    `scenes` gives, by task, the individuals that the task's goal and body may name; without, any may be named.
-    `parsed_by` may remember what it parsed before.
-    The result holds everything in which no error was found; diagnostics are in the order of the files and lines, those
-    of importable files only if they are errors.
+    `sources` are the files of the library called `name`, `importable` the files that it may import, by file name.
+    `scenes` gives, for each task, the individuals that its goal and body may name; without it, any may be named.
+    `parsed_by` is the parser, which may cache its results. The result holds every declaration without errors. The
+    diagnostics are in order of file and line; those of importable files are included only if they are errors.
     """
     with gc_disabled():
         return lower_and_report(analyse(sources, vocabulary, importable, name, scenes, parsed_by), sources)
@@ -60,23 +59,23 @@ def analyse(
 
 
 def find_problems(files: Outcome[tuple[ParsedFile, ...]], program: Outcome[Program]) -> tuple[Diagnostic, ...]:
-    """Check a program; return all that is wrong with it without what only follows from something else."""
+    """Check a program; return all diagnostics except those that only follow from others."""
     found = (*program.diagnostics, *run_checks(program.value))
     own_faults = without_followers(found, files.diagnostics, files.value)
     return (*files.diagnostics, *without_consequences(own_faults, (*files.diagnostics, *found), files.value))
 
 
 def lower_and_report(program: Outcome[Program], sources: Sequence[Source]) -> Outcome[SkillLibrary]:
-    """Lower a program, and choose the diagnostics that the author of `sources` sees."""
+    """Lower a program, and select the diagnostics that the author of `sources` sees."""
     library = lower_program(program.value, program.diagnostics)
     left_out = report_unplannable(library, program.value, program.diagnostics)
     return Outcome(library, visible_diagnostics((*program.diagnostics, *left_out), sources))
 
 
 def visible_diagnostics(problems: Sequence[Diagnostic], sources: Sequence[Source]) -> tuple[Diagnostic, ...]:
-    """Return the diagnostics that the author of `sources` sees, in order of place; of other files only the errors.
+    """Return the diagnostics that the author of `sources` sees, in order of place; of other files only errors.
 
-    Warnings that the author suppresses are left out.
+    Suppressed warnings are left out.
     """
     own = {source.path for source in sources}
     chosen = [problem for problem in problems if problem.severity == "error" or problem.span.path in own]

@@ -48,7 +48,7 @@ def test_without_a_path_the_current_folder_is_checked(library: Path) -> None:
     result = check("--format", "concise")
     assert result.exit_code == 1
     assert result.stdout.splitlines() == [
-        "fetch.skill:3:7: warning[no-implementation]: the skill `Fetch` has no implementation, so nothing can run it",
+        "fetch.skill:3:7: warning[no-implementation]: the skill `Fetch` has no implementation, so it cannot run",
         "fetch.skill:5:17: error[unknown-type]: there is no type `Nubmer`",
     ]
     assert result.stderr == "1 error, 1 warning in 1 file\n"

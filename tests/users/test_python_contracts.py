@@ -75,11 +75,11 @@ TOLD = {
     "asynchronous": ("class It(Good):\n    async def tick(self): ...", "has a method `tick` that is `async`"),
     "tick with a value": ("class It(Good):\n    def tick(self, now): ...", "has a method `tick` that takes `now`"),
     "halt without": ("class It(Good):\n    def halt(self): ...", "has a method `halt` that takes nothing else"),
-    "no primitive": ("class It:\n    def __init__(self, cell, *, arm, pace): ...", "is no primitive"),
-    "a function": ("def It(cell, *, arm, pace): ...", "is no class"),
-    "a value": ("It: int = 3", "is no class"),
+    "no primitive": ("class It:\n    def __init__(self, cell, *, arm, pace): ...", "is not a primitive"),
+    "a function": ("def It(cell, *, arm, pace): ...", "is not a class"),
+    "a value": ("It: int = 3", "is not a class"),
     "missing": ("class That(Good): pass", "has no `It`"),
-    "no Python": ("class It(Good:", "is no Python"),
+    "no Python": ("class It(Good:", "is not valid Python"),
 }
 UNTOLD = {
     "decorated": "@unknown\nclass It(Other): pass",
@@ -133,7 +133,7 @@ def test_what_does_not_fit_is_reported_and_refused(
 ) -> None:
     name = written(tmp_path, module, text, way)
     messages = told(tmp_path, SKILL.replace("NAME", name))
-    if way == "itself" or words not in ("has no `It`", "is no Python"):
+    if way == "itself" or words not in ("has no `It`", "is not valid Python"):
         assert any(words in message for message in messages), messages
     with pytest.raises(PrimitiveError):
         import_matching_primitive(name, PARAMETERS)
@@ -160,7 +160,7 @@ def test_what_the_text_does_not_tell_is_refused_when_it_is_prepared(text: str, m
         ("def it(world, a, b, *, c): ...", "takes `c` by name only"),
         ("def it(): ...", "takes no world"),
         ("async def it(world, a, b): ...", "is `async`"),
-        ("it = 3", "is no function"),
+        ("it = 3", "is not a function"),
     ],
 )
 def test_functions_take_the_world_and_their_values_in_order(

@@ -36,11 +36,11 @@ def _first_conflict(
             written = _conflicts(axioms, summaries.writes_of_call(first), summaries.writes_of_call(second))
             if devices:
                 yield ParallelConflict(
-                    first, second, f"both have `{_short_name(min(devices, key=_short_name))}` for themselves"
+                    first, second, f"both use `{_short_name(min(devices, key=_short_name))}` exclusively"
                 )
                 return
             for fact in written:
-                yield ParallelConflict(first, second, f"both write `{fact}`, each in its own way")
+                yield ParallelConflict(first, second, f"both write `{fact}` differently")
                 return
 
 

@@ -16,7 +16,7 @@ NAMES = ("suspicious-angle",)
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a warning for each angle written that is more than two turns."""
+    """Yield a warning for each constant angle of more than two turns."""
     for value in all_values(program):
         match value.meaning:
             case Literal(value=float(angle)) if value.type == Measure(ANGLE) and abs(angle) > 4 * math.pi:

@@ -1,4 +1,4 @@
-"""An `apply` of something that is no post of the skill, or that only a measurement can establish."""
+"""An `apply` of a label that no post has, or of a post that only a measurement can establish."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ NAMES = ("unknown-label", "sensed-post-applied")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each label that cannot be applied where it is."""
+    """Yield a problem for each label that cannot be applied."""
     for implementation in program.implementations:
         if isinstance(implementation.body, TypedNode):
             requirements = (*implementation.skill.requirements, *implementation.requirements)

@@ -1,4 +1,4 @@
-"""A call that leaves out what it must pass, passes it twice, or uses `with` on a skill that is not scoped."""
+"""Missing or duplicate arguments, and `with` on a skill that is not scoped."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ NAMES = ("missing-argument", "duplicate-argument", "wrong-argument-count", "not-
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield what is wrong with the arguments of each call of a skill or function."""
+    """Yield the problems with the arguments of each call of a skill or function."""
     for call in all_calls(program):
         yield from _twice(call)
         if call.skill:
@@ -62,7 +62,7 @@ def _scoped(call: Call, skill: Skill) -> Iterator[Diagnostic]:
         yield Diagnostic(
             "not-scoped",
             call.written.skill.span,
-            f"`{skill.name}` sets nothing up that could be undone, so it cannot stand after `with`",
+            f"`{skill.name}` is not declared `scoped`, so `with` cannot undo it",
             help="call it as a node of its own, or declare it `scoped`",
             labels=(Label(skill.name_span, "declared here"),),
         )

@@ -1,4 +1,4 @@
-"""Something that does not say how it is done."""
+"""Implementations, skills and tasks without a body."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ NAMES = ("missing-body", "no-implementation")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each thing that says not how it is done."""
+    """Yield a problem for each missing body or implementation."""
     for implementation in program.implementations:
         if implementation.body is None:
             yield Diagnostic(
                 "missing-body",
                 implementation.name_span,
-                f"the implementation `{implementation.name}` does not say how it is done",
+                f"the implementation `{implementation.name}` has no body",
                 help='add `do seq { .. }` or `run python "module:Class"`',
             )
     implemented = {implementation.skill.name for implementation in program.implementations}
@@ -26,7 +26,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
             yield Diagnostic(
                 "no-implementation",
                 skill.name_span,
-                f"the skill `{skill.name}` has no implementation, so nothing can run it",
+                f"the skill `{skill.name}` has no implementation, so it cannot run",
                 help=f"add `impl NAME of {skill.name} {{ .. }}`",
                 severity="warning",
             )

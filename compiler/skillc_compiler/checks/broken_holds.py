@@ -1,4 +1,4 @@
-"""A child that breaks a hold of the skill it runs in."""
+"""A child that breaks a hold of its skill."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ NAMES = ("hold-broken",)
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each hold that a child breaks while others still follow."""
+    """Yield a problem for each hold that a child breaks before other children run."""
     for one in findings_of(program, BrokenHold):
         verb = "breaks" if one.certain else "may break"
         yield Diagnostic(
             "hold-broken",
             one.span,
             f"this {verb} the hold `{one.hold.text}` while the skill still runs",
-            help="do it last, or take the `hold` away" if one.certain else "say in a `pre` what rules that out",
+            help="do it last, or remove the `hold`" if one.certain else "add a `pre` that rules this out",
             severity="error" if one.certain else "warning",
             labels=(Label(one.hold.span, "must hold all the time"), *path_labels(one.path)),
         )

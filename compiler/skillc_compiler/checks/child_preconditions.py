@@ -1,4 +1,4 @@
-"""A called skill whose precondition does not hold where it starts, or is not known to."""
+"""A called skill whose precondition does not hold at its start, or is not known to hold."""
 
 from __future__ import annotations
 
@@ -30,5 +30,5 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 def _help(one: UnprovedPrecondition) -> str:
     if one.false:
-        return "call it where its precondition holds, or bring that about before"
-    return "promise it in a `pre` of the calling skill, establish it before, or look: `check(..)`"
+        return "call it where its precondition holds, or establish it before"
+    return "add it as a `pre` of the calling skill, establish it before, or test it: `check(..)`"

@@ -1,4 +1,4 @@
-"""Something asked to be of two classes that have nothing in common."""
+"""A condition that requires an individual to be of two disjoint classes."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 "disjoint-types",
                 condition.span,
                 f"this never holds: nothing is both {describe_type(asked[0])} and {describe_type(asked[1])}",
-                help="take the condition away, or ask for another class",
+                help="remove the condition, or ask for another class",
             )
 
 

@@ -14,7 +14,7 @@ NAMES = ("post-not-established",)
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each postcondition that some successful end leaves open."""
+    """Yield a problem for each postcondition that some successful end does not establish."""
     for several in _together(program):
         one = several[0]
         verb = "makes it false" if one.false else "does not establish it"
@@ -30,7 +30,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 
 def _together(program: Program) -> Iterator[tuple[UnprovedPost, ...]]:
-    """Yield what the same way leaves open, which has one cause, as one."""
+    """Group what the same path leaves open, as it has one cause."""
     groups: dict[object, tuple[UnprovedPost, ...]] = {}
     for one in findings_of(program, UnprovedPost):
         key = (id(one.implementation), id(one.path), one.false, one.beyond)
@@ -40,7 +40,7 @@ def _together(program: Program) -> Iterator[tuple[UnprovedPost, ...]]:
 
 def _help(one: UnprovedPost) -> str:
     if one.false:
-        return "undo what makes it false, or take the postcondition away"
+        return "undo what makes it false, or remove the postcondition"
     if one.post.sensed or one.post.label is None:
-        return "call a skill that establishes it, or look: `check(..)`"
+        return "call a skill that establishes it, or test it: `check(..)`"
     return f"call a skill that establishes it, or write it yourself: `apply {one.post.label.text}`"

@@ -1,4 +1,4 @@
-"""A count, a time or another number that no run can make sense of."""
+"""Counts, times and other numbers that are out of range."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from skillc_model.rewriting import constant_number
 
 NAMES = ("bad-count", "bad-time", "bad-number")
 MOST = 1e100
-"""No quantity of a robot is larger; numbers like that only overflow."""
+"""The largest quantity that is accepted; larger numbers only overflow."""
 LARGEST_INTEGER = 2**53 - 1
-"""Numbers are read as doubles; a larger integer may not be the one that was written."""
+"""The largest integer that a double represents exactly."""
 YEAR_S = 366 * 24 * 3600.0
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each count, each time and each number."""
+    """Yield a problem for each invalid count, time and number."""
     for node in all_nodes(program):
         match node.written:
             case s.Counted(count=count) | s.While(limit=count):
@@ -41,7 +41,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 def _count(count: s.Number) -> Iterator[Diagnostic]:
     if not 1 <= count.value <= MOST_ROUNDS or count.value != int(count.value):
-        message = f"`{count.text}` is no number of rounds"
+        message = f"`{count.text}` is not a valid number of rounds"
         yield Diagnostic("bad-count", count.span, message, help="write a whole number, 1 or more, at most a million")
 
 

@@ -1,4 +1,4 @@
-"""A class that a skill promises to work with, and that none of its implementations takes."""
+"""A class that a skill promises to work with and that none of its implementations takes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SHOWN = 3
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a warning for each parameter that leaves classes out, a problem for each argument that nothing takes."""
+    """Yield a warning for each parameter with classes that nothing takes, a problem for each such argument."""
     for skill in program.skills.values():
         implementations = program.implementations_of[skill.name]
         for index, parameter in enumerate(skill.parameters if implementations else ()):
@@ -47,7 +47,7 @@ def _left_out(
 
 
 def _lowest(vocabulary: Vocabulary) -> list[str]:
-    """Return the classes that no other is below."""
+    """Return the classes without subclasses."""
     parents = {parent for term in vocabulary.classes.values() for parent in term.parents}
     return sorted(iri for iri in vocabulary.classes if iri not in parents)
 

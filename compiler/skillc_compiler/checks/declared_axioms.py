@@ -1,4 +1,4 @@
-"""Axioms of declared terms that no individual can obey."""
+"""Axioms of declared terms that no individual can satisfy."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ NAMES = ("impossible-class", "class-cycle", "impossible-relation")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield what is wrong with the terms that the library declares."""
+    """Yield the problems of the terms that the library declares."""
     told: set[frozenset[str]] = set()
     for unit in program.files:
         for declaration in unit.file.declarations:
@@ -30,7 +30,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 
 def _iri(program: Program, library: str, name: str) -> str:
-    """Return the IRI of a declared class: of the library, or of the vocabulary whose class is declared again."""
+    """Return the IRI of a declared class: of the library, or of the vocabulary whose class is extended."""
     before, _, local = name.rpartition(":")
     if before:
         iri = program.vocabulary.prefixes.get(before, "") + local
@@ -53,14 +53,14 @@ def _class(
             told.add(circle | {iri})
             way = "".join(f", by `{local_name(other)}`" for other in sorted(circle))
             message = f"`{declaration.name.text}` is declared below itself{way}"
-            yield Diagnostic("class-cycle", declaration.name.span, message, "take one of the parents away")
+            yield Diagnostic("class-cycle", declaration.name.span, message, "remove one of the parents")
         return
     for one, other in combinations(declaration.parents, 2):
         pair = [_parent(vocabulary, iri, name.text) for name in (one, other)]
         if all(pair) and vocabulary.disjoint(pair[0], pair[1]):
             message = f"nothing can be `{declaration.name.text}`: nothing is both `{one.text}` and `{other.text}`"
             labels = (Label(one.span, "the other one"),)
-            help_ = "take one of the two parents away"
+            help_ = "remove one of the two parents"
             yield Diagnostic("impossible-class", other.span, message, help_, labels=labels)
 
 
@@ -75,7 +75,7 @@ def _relation(declaration: s.RelationDeclaration, traits: dict[str, s.Trait]) ->
         yield Diagnostic(
             "impossible-relation",
             declaration.name.span,
-            f"`{declaration.name.text}` passes on over several steps and yet has one value only",
-            help="take one of the two away, or declare a transitive relation above a functional one: `sub RELATION`",
+            f"`{declaration.name.text}` cannot be both transitive and functional",
+            help="remove one of the two, or declare a transitive relation above a functional one: `sub RELATION`",
             labels=tuple(Label(traits[kind].span, "this") for kind in ("transitive", "functional")),
         )

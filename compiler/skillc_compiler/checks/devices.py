@@ -1,4 +1,4 @@
-"""What is locked by `uses`, or shared, and is no device."""
+"""`uses` and `shares` of parameters that are not devices."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ DEVICE = "http://www.inf.ufrgs.br/phi-group/ontologies/sumo.owl#Device"
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each `uses` and `shares` of a value, an output, or of what is certainly no device."""
+    """Yield a problem for each `uses` and `shares` of a value, an output, or what is certainly no device."""
     for skill in program.skills.values():
         for device in skill.devices:
             parameter = skill.parameter(device.parameter.text)

@@ -14,7 +14,7 @@ NAMES = ("duplicate-condition",)
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a warning for each fact stated before in the same kind of condition."""
+    """Yield a warning for each fact that is already stated in the same kind of condition."""
     for skill in program.skills.values():
         for kind in ("pre", "hold", "post"):
             yield from _repeated(_facts(skill.requirements, kind), ())
@@ -45,7 +45,7 @@ def _repeated(facts: Iterable[TypedFact], given: Iterable[TypedFact]) -> Iterato
                 "duplicate-condition",
                 fact.source.span,
                 "this is stated already",
-                help="take one of the two away",
+                help="remove one of the two",
                 severity="warning",
                 labels=(Label(former.source.span, "stated here"),),
             )

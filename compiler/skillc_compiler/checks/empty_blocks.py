@@ -1,4 +1,4 @@
-"""Braces without a step between them."""
+"""Blocks without steps."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ NAMES = ("empty-block",)
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield an error for each node that has braces and nothing in them."""
+    """Yield an error for each node with empty braces."""
     removable = {child.written.span for node in all_nodes(program) for child in node.children if len(node.children) > 1}
     for node in all_nodes(program):
         found = _empty(node.written)
@@ -25,10 +25,10 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 
 def _empty(node: s.Node) -> tuple[str, str] | None:
-    """Return what is wrong with a node without steps and what to do; None where there are steps, or no braces."""
+    """Return the message and help for a node without steps; None if it has steps, or no braces."""
     match node:
         case s.If(then=(), text=text):
-            return "nothing is done where this condition holds", f"write `if not ({text}) {{ .. }}`, or add a step"
+            return "nothing is done if this condition holds", f"write `if not ({text}) {{ .. }}`, or add a step"
         case s.If(orelse=()):
             return "this `else` has no steps", "remove it, or add a step"
         case s.Block(kind=kind, children=()):
@@ -41,7 +41,7 @@ def _empty(node: s.Node) -> tuple[str, str] | None:
 
 
 def _head(span: Span) -> Span:
-    """Return where a node begins, up to the end of that line at most."""
+    """Return the first line of a node, at most."""
     if span.end_line == span.line:
         return span
     return Span(span.path, span.line, span.column, span.line, span.column + 1)

@@ -1,4 +1,4 @@
-"""A file with nothing in it but comments."""
+"""A file that contains only comments."""
 
 from __future__ import annotations
 
@@ -21,6 +21,6 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 "empty-file",
                 Span(unit.file.path, 1, 1, 1, 2),
                 "this file is empty: it declares nothing",
-                help="declare a skill, an implementation or a task in it, or take it away",
+                help="declare a skill, an implementation or a task in it, or remove it",
                 severity="warning",
             )

@@ -1,4 +1,4 @@
-"""A skill that never ends by itself, where nothing ends it."""
+"""A skill that never ends by itself and that nothing halts."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ NAMES = ("never-ends", "not-endless")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each body that cannot end and each declaration of what does not last."""
+    """Yield a problem for each body that cannot end, and each `endless` declaration that is wrong."""
     for skill in program.skills.values():
         if "endless" in skill.flags:
             yield from _check_promises(skill)
@@ -59,7 +59,7 @@ def endless_calls(node: TypedNode) -> Iterator[Call]:
 
 
 def _may_change(node: TypedNode) -> bool:
-    """Whether a node that has ended may end otherwise when it is looked at again."""
+    """Whether a node that has ended may end differently when it is evaluated again."""
     for each in nodes_in(node):
         if each.conditions:
             return True
@@ -75,7 +75,7 @@ def _check_ends(body: TypedNode) -> Iterator[Diagnostic]:
             "never-ends",
             call.written.skill.span,
             f"`{call.skill.name}` never ends by itself, and nothing here halts it",
-            help="run it beside what it shall last for, `par lead { .. }` with that first, or in a `timeout`",
+            help="run it in a `par lead { .. }`, after the child that it accompanies, or in a `timeout`",
             labels=(Label(call.skill.name_span, "declared `endless`"),),
         )
 
@@ -86,14 +86,14 @@ def _check_endless(implementation: Implementation, body: TypedNode) -> Iterator[
         yield Diagnostic(
             "not-endless",
             implementation.name_span,
-            f"`{skill.name}` is declared `endless`, and `{implementation.name}` ends",
+            f"`{skill.name}` is declared `endless`, but `{implementation.name}` ends",
             help="let it end with a call of an endless skill, or remove the flag `endless`",
             labels=(Label(skill.name_span, "declared here"),),
         )
 
 
 def _check_promises(skill: Skill) -> Iterator[Diagnostic]:
-    """What is true at the end of a skill that does not end never is."""
+    """Report posts, outputs and the flag `scoped` of an endless skill, as they have no effect."""
     help_ = "remove it, or the flag `endless`"
     for post in (r for r in skill.requirements if r.kind == "post"):
         message = f"`{skill.name}` is `endless`, so this is never reached"

@@ -1,4 +1,4 @@
-"""A goal that no skill of the library can bring about."""
+"""A goal that no skill of the library can achieve."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def _term(condition: TypedCondition) -> str | None:
 
 
 def _may_change(term: str, written: frozenset[str], vocabulary: Vocabulary) -> bool:
-    """Whether skills change a relation or property, or what it is computed from; nobody may know what that is."""
+    """Whether skills change a relation or property, or the facts that it is computed from, which may be unknown."""
     relation = vocabulary.relations.get(term)
     if relation is not None and relation.computed_by is not None:
         return not relation.computed_from or any(
@@ -55,7 +55,7 @@ def _may_change(term: str, written: frozenset[str], vocabulary: Vocabulary) -> b
 
 
 def _written(program: Program) -> frozenset[str]:
-    """Return what the skills write that a planner may take, as of `terms_written_by`."""
+    """Return the terms that plannable skills write, as defined by `terms_written_by`."""
     planned = (skill for skill in program.skills.values() if "noplan" not in skill.flags)
     posts = (post for skill in planned for post in skill.requirements if post.kind == "post")
     found = (effect for post in posts for effect in effects_of(post.condition) if not isinstance(effect, NoEffect))

@@ -1,4 +1,4 @@
-"""An inferred parameter that no precondition links to anything."""
+"""An inferred parameter that no precondition relates to anything."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ NAMES = ("unlinked-inference",)
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each inferred parameter of which no precondition says who it is."""
+    """Yield a problem for each inferred parameter that no precondition determines."""
     for skill in program.skills.values():
         linked = {name for r in skill.requirements if r.kind == "pre" for name in _linked(r.condition)}
         asked = {name for r in skill.requirements if r.kind == "pre" for name in free_variables(r.condition.meaning)}
@@ -34,7 +34,7 @@ def _problem(skill: Skill, name: str, linked: set[str]) -> Diagnostic:
 
 
 def _linked(condition: TypedCondition) -> set[str]:
-    """Return the variables of which a condition, when it holds, says something that is not so of everybody."""
+    """Return the variables that a condition, if it holds, constrains."""
     match condition.meaning:
         case And() | Exists():
             return set().union(*(_linked(part) for part in condition.parts))

@@ -16,7 +16,7 @@ NAMES = ("unlike-dimensions", "wrong-operands")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each operation and comparison whose sides do not go together."""
+    """Yield a problem for each operation and comparison with incompatible operands."""
     for value in all_values(program):
         if isinstance(value.meaning, Arithmetic):
             yield from _arithmetic(value, value.meaning)
@@ -44,7 +44,7 @@ def _compared(program: Program, condition: TypedCondition, meaning: Compare) -> 
         yield Diagnostic(
             "wrong-operands",
             condition.span,
-            f"`{meaning.operator}` orders numbers, and this is {describe_type(left)}",
+            f"`{meaning.operator}` compares numbers, and this is {describe_type(left)}",
             help="compare with `==` or `!=`",
         )
 
@@ -54,7 +54,7 @@ def _problem(span: Span, operator: str, left: Type, right: Type) -> Diagnostic:
     return Diagnostic(
         "unlike-dimensions" if unlike else "wrong-operands",
         span,
-        f"`{operator}` cannot join {describe_type(left)} and {describe_type(right)}",
+        f"`{operator}` cannot combine {describe_type(left)} and {describe_type(right)}",
         help=_cure(left, right) if unlike else "use values of one type",
     )
 
@@ -62,10 +62,10 @@ def _problem(span: Span, operator: str, left: Type, right: Type) -> Diagnostic:
 def _cure(left: Type, right: Type) -> str:
     match left, right:
         case Vector() | Direction(), Vector() | Direction():
-            return "bring both vectors to one dimension: multiply one by a quantity, as in `5 cm * normal`"
+            return "convert both vectors to one dimension: multiply one by a quantity, as in `5 cm * normal`"
         case (Vector() | Direction(), _) | (_, Vector() | Direction()):
             return "make a vector of the number first, as in `5 cm * normal`"
-    return "bring both sides to one dimension"
+    return "convert both sides to one dimension"
 
 
 def _is_number(kind: Type) -> bool:

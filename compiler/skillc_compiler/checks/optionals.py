@@ -1,4 +1,4 @@
-"""An optional parameter without a default, read where it may be unset."""
+"""An optional parameter without a default that is read where it may be unset."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ NONE: Guards = frozenset()
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each such reading."""
+    """Yield a problem for each such read."""
     for skill in program.skills.values():
         yield from _report(skill.parameters, _in_skill(skill))
     for implementation in program.implementations:
@@ -73,7 +73,7 @@ def _in_clause(condition: TypedCondition, guards: Guards) -> Iterator[tuple[Type
 
 
 def _given(condition: TypedCondition, holds: bool) -> Guards:
-    """Return the parameters that are certainly set when the condition holds, or when it does not."""
+    """Return the parameters that are certainly set if the condition holds, or if it does not."""
     match condition.meaning:
         case Given(parameter=name):
             return frozenset({name}) if holds else NONE

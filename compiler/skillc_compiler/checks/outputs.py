@@ -1,4 +1,4 @@
-"""An output that is read, or handed out, where no call has given it a value."""
+"""An output that is read, or returned, without a value."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ NAMES = ("out-unassigned", "out-never-assigned")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each reading too early and each output left without a value."""
+    """Yield a problem for each output that is read too early or left without a value."""
     for one in findings_of(program, UnassignedRead):
         yield Diagnostic(
             "out-unassigned",

@@ -1,4 +1,4 @@
-"""Children of a `par` that get into each other's way."""
+"""Children of a `par` that conflict."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ NAMES = ("parallel-conflict",)
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for the first two calls in each two children that clash."""
+    """Yield a problem for the first two conflicting calls of each pair of children."""
     for one in findings_of(program, ParallelConflict):
         first, second = one.first.written.skill, one.second.written.skill
         yield Diagnostic(
             "parallel-conflict",
             second.span,
-            f"`{second.text}` runs beside `{first.text}`, and {one.what}",
-            help="let one follow the other in a `seq`",
-            labels=(Label(first.span, "beside this one"),),
+            f"`{second.text}` runs in parallel with `{first.text}`, and {one.what}",
+            help="run one after the other in a `seq`",
+            labels=(Label(first.span, "in parallel with this one"),),
         )

@@ -1,4 +1,4 @@
-"""What the planner cannot use: skills without effect, values it cannot choose or count, names it cannot tell apart."""
+"""Skills that planners cannot use: without effects, with values to choose or count, or with colliding names."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ NAMES = ("no-effect", "unplannable-parameter", "numeric-effect", "colliding-name
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield warnings about planned skills, and an error for names that are one name in PDDL."""
+    """Yield warnings about planned skills, and an error for names that collide in PDDL."""
     for skill in program.skills.values():
         if "noplan" not in skill.flags:
             yield from _effect(skill)
@@ -30,8 +30,8 @@ def _effect(skill: Skill) -> Iterator[Diagnostic]:
         yield Diagnostic(
             "no-effect",
             skill.name_span,
-            f"nothing is said to be true after `{skill.name}`, so no plan will ever contain it",
-            help="add what it achieves as `post`, or `noplan`",
+            f"`{skill.name}` has no postcondition, so no plan can contain it",
+            help="add a `post` with what it achieves, or `noplan`",
             severity="warning",
         )
 
@@ -60,7 +60,7 @@ def _numbers(program: Program, skill: Skill) -> Iterator[Diagnostic]:
                 yield Diagnostic(
                     "numeric-effect",
                     post.condition.span,
-                    f"the planner does not count: it leaves `{skill.name}` out, which changes "
+                    f"the planner does not support numbers: it leaves `{skill.name}` out, which changes "
                     f"`{local_name(effect.property)}`",
                     help="add `noplan`, or state what is achieved by a relation or a truth value",
                     severity="warning",
@@ -75,7 +75,7 @@ def _colliding(program: Program) -> Iterator[Diagnostic]:
             yield Diagnostic(
                 "colliding-names",
                 skill.name_span,
-                f"`{skill.name}` and `{first.name}` are one name to a planner: `{kebab(skill.name)}`",
+                f"`{skill.name}` and `{first.name}` have the same name in PDDL: `{kebab(skill.name)}`",
                 help="give one of them another name",
                 labels=(Label(first.name_span, "the other one"),),
             )

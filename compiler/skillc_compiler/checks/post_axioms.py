@@ -61,9 +61,9 @@ def _breaks(
         yield Diagnostic(
             "breaks-axiom",
             fact.source.span,
-            f"`{name}` goes one way only, and it still goes the other way",
-            f"say that it does so no longer: `{text}`",
-            labels=(Label(back.condition.span, "the other way"),),
+            f"`{name}` is asymmetric, and it still holds in the other direction",
+            f"state that it no longer does: `{text}`",
+            labels=(Label(back.condition.span, "the other direction"),),
             fix=Fix(_after(post.span), f"\n{' ' * (post.span.column - 1)}{text}", f"add `{text}`"),
         )
 

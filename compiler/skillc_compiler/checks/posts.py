@@ -1,4 +1,4 @@
-"""A postcondition that says nothing definite, or contradicts another."""
+"""A postcondition without a definite effect, or one that contradicts another."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ NAMES = ("post-not-literal", "computed-property", "two-values", "contradicting-p
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield what is wrong with the posts of each skill, and with those an implementation adds."""
+    """Yield the problems of the posts of each skill, and of those that an implementation adds."""
     conflicts = Conflicts(program.vocabulary)
     for skill in program.skills.values():
         yield from _check(conflicts, skill.requirements, ())
@@ -47,14 +47,14 @@ def _check(conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Req
 
 
 def _same(effect: Effect | NoEffect, names: Mapping[str, Expression]) -> Effect | NoEffect:
-    """Return the effect with one name for all that are the same."""
+    """Return the effect with equal names replaced by their representative."""
     return effect if isinstance(effect, NoEffect) else substitute(effect, names)
 
 
 def _values(
     conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Requirement], names: Mapping[str, Expression]
 ) -> Iterator[Diagnostic]:
-    """Report a value that is measured and cannot be the one that another post gives or measures."""
+    """Report a measured value that contradicts the one of another post."""
     posts = [post for post in (*given, *own) if post.kind == "post"]
     facts = [(rename_fact(fact, names), post) for post in posts for fact in facts_in(post.condition)]
     valued = [(fact, post) for fact, post in facts if isinstance(fact.meaning, Compare | HasProperty)]
@@ -66,7 +66,7 @@ def _values(
 
 
 def _is_assigned(fact: TypedFact) -> bool:
-    """Whether a post gives the value, so that a second one is reported as such."""
+    """Whether a post assigns the value, so that a second assignment is reported as such."""
     match fact.meaning:
         case Compare(operator="=="):
             return fact.holds

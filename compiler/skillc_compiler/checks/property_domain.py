@@ -16,7 +16,7 @@ NAMES = ("property-domain",)
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each property of something that cannot have it."""
+    """Yield a problem for each property of an individual whose class does not have it."""
     for value in all_values(program):
         if isinstance(value.meaning, PropertyOf):
             yield from _fits(program, value.meaning.property, value.parts[0])

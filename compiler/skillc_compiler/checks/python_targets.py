@@ -1,4 +1,4 @@
-"""Python that is not there, or that takes other parameters than the skill has."""
+"""Python targets that do not exist, or whose parameters differ from those of the skill."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ from skillc_dsl.diagnostics import Diagnostic, Label, did_you_mean
 NAMES = ("bad-python-target", "missing-python", "wrong-python-parameters", "not-a-primitive")
 PRIMITIVE = "skillc_runtime.primitives.primitive:Primitive"
 CALLED_WITH = {"start": 0, "tick": 0, "halt": 1, "pause": 0, "resume": 0, "release": 0}
-"""The methods of a primitive that are called, with how many values."""
+"""The methods of a primitive that are called, with the number of arguments."""
 _Reader: TypeAlias = Callable[[str, str], TargetInfo]
 _TARGET = re.compile(r"([A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*):([A-Za-z_]\w*)")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each target that does not name fitting Python; each target is read once."""
+    """Yield a problem for each target that does not name a fitting Python object; each target is read once."""
     reader = cache(read_target)
     for implementation in program.implementations:
         if isinstance(implementation.body, s.RunPython):
@@ -48,7 +48,7 @@ def _primitive(implementation: Implementation, written: s.Text, reader: _Reader)
         case ClassInfo() as found:
             yield from _class(implementation, written, found)
         case FunctionInfo() | Other():
-            yield _no_primitive(written, "is no class", f"name a subclass of {PRIMITIVE.replace(':', '.')}")
+            yield _no_primitive(written, "is not a class", f"name a subclass of {PRIMITIVE.replace(':', '.')}")
         case Unclear():
             return
         case problem:
@@ -58,7 +58,7 @@ def _primitive(implementation: Implementation, written: s.Text, reader: _Reader)
 def _class(implementation: Implementation, written: s.Text, found: ClassInfo) -> Iterator[Diagnostic]:
     tick = found.methods.get("tick")
     if found.complete and PRIMITIVE not in found.ancestors:
-        yield _no_primitive(written, "is no primitive", f"let it inherit from {PRIMITIVE.replace(':', '.')}")
+        yield _no_primitive(written, "is not a primitive", f"let it inherit from {PRIMITIVE.replace(':', '.')}")
     elif found.complete and ("tick" not in found.methods or (tick is not None and tick.owner == PRIMITIVE)):
         yield _no_primitive(written, "has no method `tick`", "define `tick`, which returns RUNNING or SUCCESS")
     for name, count in CALLED_WITH.items():
@@ -73,7 +73,7 @@ def _class(implementation: Implementation, written: s.Text, found: ClassInfo) ->
 
 
 def _by_name(taken: PythonSignature, given: Sequence[str]) -> str | None:
-    """Say why a constructor cannot be called with the cell and these parameters by name, None when it can."""
+    """Return why a constructor cannot be called with the cell and these parameters by name, None if it can."""
     if not taken.by_position and not taken.args:
         return "takes no cell as its first value"
     left = taken.without_first(1)
@@ -89,7 +89,7 @@ def _by_name(taken: PythonSignature, given: Sequence[str]) -> str | None:
 
 
 def _not_callable(method: FunctionInfo, count: int) -> str | None:
-    """Say why a method cannot be called with so many values, None when it can or the text does not tell."""
+    """Return why a method cannot be called with so many arguments, None if it can or is not determined."""
     if method.asynchronous:
         return "is `async`, which is never waited for"
     taken = method.signature
@@ -113,7 +113,7 @@ def _function(declared: s.FunctionDeclaration, reader: _Reader) -> Iterator[Diag
         case FunctionInfo(signature=taken) | ClassInfo(constructor=taken):
             wrong = _in_order(taken, given) if taken is not None else None
         case Other():
-            wrong = "is no function"
+            wrong = "is not a function"
         case Unclear():
             return
         case problem:
@@ -125,7 +125,7 @@ def _function(declared: s.FunctionDeclaration, reader: _Reader) -> Iterator[Diag
 
 
 def _in_order(taken: PythonSignature, given: Sequence[str]) -> str | None:
-    """Say why a function cannot be called with the world and these values in order, None when it can."""
+    """Return why a function cannot be called with the world and these values in order, None if it can."""
     if not taken.by_position and not taken.args:
         return "takes no world as its first value"
     left = taken.without_first(1)
@@ -140,7 +140,7 @@ def _in_order(taken: PythonSignature, given: Sequence[str]) -> str | None:
 
 
 def _found(written: s.Text, reader: _Reader) -> ClassInfo | FunctionInfo | Other | Unclear | Diagnostic:
-    """Return what the target is, or what is wrong with it."""
+    """Return what the target is, or a diagnostic."""
     target = _TARGET.fullmatch(written.value)
     if target is None:
         message = f'"{written.value}" does not name something in a Python module'
@@ -155,7 +155,9 @@ def _found(written: s.Text, reader: _Reader) -> ClassInfo | FunctionInfo | Other
             help_ = "install it where the skill is checked and run, or correct the name"
             return _missing(written, message, help_)
         case BrokenModule(line=line, message=why):
-            return _missing(written, f"the Python module `{module}` is no Python: {why} (line {line})", "correct it")
+            return _missing(
+                written, f"the Python module `{module}` is not valid Python: {why} (line {line})", "correct it"
+            )
         case NoName(there=there):
             message = f"the Python module `{module}` has no `{name}`"
             return _missing(written, message, did_you_mean(name, there) or "write it there, or correct the name")

@@ -1,4 +1,4 @@
-"""A number outside the range that is declared for it, or a range that holds no number."""
+"""A number outside its declared range, or an empty range."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def _empty(parameter: Parameter) -> Iterator[Diagnostic]:
 
 
 def _outside(parameter: Parameter, value: TypedExpression | None, place: Span | None = None) -> Iterator[Diagnostic]:
-    """Report a constant outside the range; `place` is where to report it if not at the value."""
+    """Report a constant outside the range, at `place` or else at the value."""
     low, high = _bounds(parameter)
     known = _number(value, parameter.type)
     if (
@@ -76,7 +76,7 @@ def _bounds(parameter: Parameter) -> tuple[float | None, float | None]:
 
 
 def _number(value: TypedExpression | None, kind: Type) -> float | None:
-    """Return a bound, None if there is none or it is of another type, which is reported elsewhere."""
+    """Return a bound, None if there is none or if its type is wrong, which is reported elsewhere."""
     return constant_number(value.meaning) if value and _same(value.type, kind) else None
 
 

@@ -1,4 +1,4 @@
-"""A skill that calls itself, directly or through others, and so never begins."""
+"""A skill that calls itself, directly or through others."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Edges = Mapping[str, Sequence[tuple[str, Call]]]
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each circle of implementations that call one another, at the call that closes it."""
+    """Yield a problem for each cycle of implementations that call one another, at the call that closes it."""
     edges = {i.key: tuple(_edges(program, i)) for i in program.implementations}
     finished: set[str] = set()
     reported: set[int] = set()
@@ -52,5 +52,5 @@ def _problem(chain: Sequence[str], call: Call) -> Diagnostic:
         "recursion",
         call.written.skill.span,
         f"this never ends: {way}",
-        help="call another skill, or fix an implementation that does not come back here: `Skill[name](..)`",
+        help="call another skill, or select an implementation that does not call this one: `Skill[name](..)`",
     )

@@ -1,4 +1,4 @@
-"""A refinement that does not narrow what the description says."""
+"""A refinement that does not narrow the description."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ NAMES = ("not-narrower",)
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each refinement that widens or replaces."""
+    """Yield a problem for each refinement that widens or replaces a type or range."""
     for implementation in program.implementations:
         for new in implementation.refinements:
             if new.of is None:
@@ -29,7 +29,7 @@ def _problem(new: Refinement, of: Parameter, reason: str) -> Diagnostic:
         "not-narrower",
         new.written.type.span if "range" not in reason or new.written.range is None else new.written.range.span,
         f"a refinement of `{of.name}` may only narrow it, but {reason}",
-        help="take a subclass or a smaller range, or change the description",
+        help="use a subclass or a smaller range, or change the description",
         labels=(Label(of.span, "the description"),),
     )
 

@@ -1,4 +1,4 @@
-"""A relation used between individuals that it does not relate."""
+"""A relation between individuals of the wrong classes."""
 
 from __future__ import annotations
 
@@ -41,6 +41,6 @@ def _problem(name: str, relation: RelationTerm, side: TypedExpression, where: st
         name,
         side.span,
         f"`{local_name(relation.iri)}` goes from {ways}, but {where} stands {describe_type(side.type)}",
-        help="turn the sides round, narrow the class of the parameter, or take another relation",
+        help="swap the sides, narrow the class of the parameter, or use another relation",
         labels=label_declaration(relation),
     )

@@ -1,4 +1,4 @@
-"""Implementations of which it is not said which one is taken, or of which one is never taken."""
+"""Implementations whose selection is ambiguous, or that are never selected."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ NAMES = ("ambiguous-selection", "never-selected")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a warning for each implementation that one before it leaves no sure place."""
+    """Yield a warning for each implementation that an earlier one shadows or ties with."""
     conflicts = Conflicts(program.vocabulary)
     fixed = {(call.skill.name, call.implementation) for call in all_calls(program) if call.skill}
     for declared in program.implementations_of.values():
@@ -56,7 +56,7 @@ def _never(late: Implementation, early: Implementation) -> Diagnostic:
     return Diagnostic(
         "never-selected",
         late.name_span,
-        f"`{late.name}` is never taken: `{early.name}` fits wherever it does, and is tried first",
+        f"`{late.name}` is never selected: `{early.name}` fits wherever it does, and is tried first",
         help=f"add `prefer {early.prefer + 1:g}` to `{late.name}`, or conditions to `{early.name}`",
         severity="warning",
         labels=(Label(early.name_span, "tried first"),),
@@ -67,8 +67,8 @@ def _ambiguous(late: Implementation, early: Implementation) -> Diagnostic:
     return Diagnostic(
         "ambiguous-selection",
         late.name_span,
-        f"`{late.name}` and `{early.name}` may both fit, and only their order says that `{early.name}` is taken",
-        help="say with `prefer NUMBER` in one of them which is better, or refine their parameters so that one fits",
+        f"`{late.name}` and `{early.name}` may both fit, and only their order decides that `{early.name}` is selected",
+        help="add `prefer NUMBER` to the better one, or refine their parameters so that only one fits",
         severity="warning",
         labels=(Label(early.name_span, "the other one"),),
     )

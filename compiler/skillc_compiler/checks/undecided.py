@@ -1,4 +1,4 @@
-"""A body with more possible states than are told apart."""
+"""A body with more states than are kept apart."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ NAMES = ("not-decided",)
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a note for each body that was followed only in part."""
+    """Yield a warning for each body that was analysed only in part."""
     for one in findings_of(program, TooManyStates):
         yield Diagnostic(
             "not-decided",
             one.span,
-            "this can end in more ways than are followed one by one, so what is told of it may be too careful",
-            help="make skills of parts of it",
+            "this has more possible states than are analysed separately, so warnings about it may be false positives",
+            help="move parts of it into skills",
             severity="warning",
         )

@@ -1,4 +1,4 @@
-"""A child changes something that the skill does not say it changes."""
+"""A child that changes something that its skill does not declare."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ NAMES = ("undeclared-effect",)
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each effect of a call that outlasts the skill and that no `post` tells."""
+    """Yield a problem for each effect of a call that lasts beyond the skill and that no `post` declares."""
     for one in findings_of(program, UndeclaredEffect):
         skill = one.implementation.skill
         yield Diagnostic(
             "undeclared-effect",
             one.call.written.skill.span,
-            f"`{one.call.written.skill.text}` brings about `{one.post.text}`, and `{skill.name}` does not say so",
-            help=f"add a `post` that says it to `{skill.name}` or to this implementation, or undo it",
+            f"`{one.call.written.skill.text}` causes `{one.post.text}`, which `{skill.name}` does not declare",
+            help=f"add a `post` that declares it to `{skill.name}` or to this implementation, or undo it",
             labels=(
                 Label(one.post.span, "the effect"),
-                Label(skill.name_span, "whose posts do not tell it"),
+                Label(skill.name_span, "whose posts do not declare it"),
                 *path_labels(one.path),
             ),
         )

@@ -1,4 +1,4 @@
-"""A node that never starts, whatever its neighbours do."""
+"""A node that never starts."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ NAMES = ("unreachable-node",)
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for the first of several nodes that never start."""
+    """Yield a problem for the first of consecutive nodes that never start."""
     for one in findings_of(program, UnreachableNode):
         yield Diagnostic(
             "unreachable-node",
             one.node.written.span,
-            "this never starts: what comes before it always ends otherwise",
-            help="take it away, or look again at the node before it",
+            "this never starts: the nodes before it always end otherwise",
+            help="remove it, or check the node before it",
             severity="warning",
         )

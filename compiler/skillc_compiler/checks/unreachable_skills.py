@@ -14,7 +14,7 @@ NAMES = ("unreachable-skill",)
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a warning for each skill of a library with tasks that none of them reaches."""
+    """Yield a warning for each skill that no task reaches, in a library with tasks."""
     own = [unit for unit in program.files if unit.library == program.name]
     if not any(isinstance(d, s.TaskDeclaration) for unit in own for d in unit.file.declarations):
         return
@@ -27,7 +27,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 "unreachable-skill",
                 skill.name_span,
                 f"no task of this library can reach `{skill.name}`",
-                help="call it, give it a `post` for which it can be planned, or take it away",
+                help="call it, give it a `post` for which it can be planned, or remove it",
                 severity="warning",
             )
 
@@ -44,7 +44,7 @@ def _planned(skill: Skill) -> bool:
 
 
 def _achieves_nothing(skill: Skill) -> bool:
-    """Whether a planner is offered a skill without a post, which is a problem of its own."""
+    """Whether a planned skill has no post, which is a problem of its own."""
     return "noplan" not in skill.flags and not any(r.kind == "post" for r in skill.requirements)
 
 

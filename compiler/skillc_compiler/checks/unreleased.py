@@ -1,4 +1,4 @@
-"""Something that is set up, or changed, and not put back when a child fails."""
+"""A change or set-up that is not undone when a child fails."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ NAMES = ("not-released",)
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each call that sets up what is not put back."""
+    """Yield a problem for each call whose change or set-up is not undone."""
     for one in findings_of(program, LeakedChange):
         name, cause = one.call.written.skill, path_labels(one.path)
         if one.post is None:
             message = f"what `{name.text}` sets up is not undone when this skill ends"
             help_ = f"write `with {name.text}(..) {{ .. }}` around what needs it"
         else:
-            message = f"`{name.text}` brings about `{one.post.text}`, which stays so when a later child fails"
+            message = f"`{name.text}` causes `{one.post.text}`, which remains when a later child fails"
             help_ = f"declare `{name.text}` `scoped` and write `with {name.text}(..) {{ .. }}`"
             cause = (Label(one.post.span, "the effect"), *cause)
         yield Diagnostic("not-released", name.span, message, help_, "warning", labels=cause)

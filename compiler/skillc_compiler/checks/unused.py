@@ -1,4 +1,4 @@
-"""Something declared and never used, which can be taken away."""
+"""Declarations that are never used."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ NAMES = ("unused-use", "unused-prefix", "unused-import", "unused-let", "unused-p
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a warning for each thing that could be taken away without changing anything."""
+    """Yield a warning for each declaration that can be removed without changing anything."""
     for unit in program.files:
         yield from _header(program, unit)
     for implementation in program.implementations:
@@ -44,7 +44,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 
 def _unused(name: str, span: Span, message: str) -> Diagnostic:
-    return Diagnostic(name, span, message, help="take it away", severity="warning")
+    return Diagnostic(name, span, message, help="remove it", severity="warning")
 
 
 def _header(program: Program, unit: ParsedFile) -> Iterator[Diagnostic]:
@@ -74,7 +74,7 @@ def _terms(vocabulary: Vocabulary, prefix: str) -> set[str]:
 
 
 def _import_used(program: Program, unit: ParsedFile, path: str) -> bool:
-    """Whether a file names something of another, or has a goal, for which a planner may use all of it."""
+    """Whether a file names a declaration of another, or has a goal, for which a planner may use all of them."""
     if any(isinstance(d, s.TaskDeclaration) and d.goal is not None for d in unit.file.declarations):
         return True
     imported = next(other for other in program.files if other.file.path == path)

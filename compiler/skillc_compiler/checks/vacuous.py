@@ -1,4 +1,4 @@
-"""A condition whose answer is known beforehand."""
+"""A condition that is always true or always false."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _Parameters = Mapping[str, Parameter]
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a warning for each condition that always holds, a problem for each that never does."""
+    """Yield a warning for each condition that is always true, a problem for each that is always false."""
     conflicts = Conflicts(program.vocabulary)
     for condition, parameters in _conditions(program):
         for part in conditions_in(condition):
@@ -27,7 +27,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 
 def _conditions(program: Program) -> Iterator[tuple[TypedCondition, _Parameters]]:
-    """Yield every condition with the parameters it may speak of."""
+    """Yield every condition with the parameters that it can read."""
     owners: tuple[Skill | Implementation, ...] = (*program.skills.values(), *program.implementations)
     for owner in owners:
         parameters = {parameter.name: parameter for parameter in owner.parameters}
@@ -54,18 +54,18 @@ def _judged(conflicts: Conflicts, condition: TypedCondition, parameters: _Parame
             "always-true" if answer else "always-false",
             condition.span,
             f"this {'always' if answer else 'never'} holds: {reason}",
-            help="take the condition away, or ask for something else",
+            help="remove the condition, or ask for something else",
             severity="warning" if answer else "error",
         )
 
 
 def _truth(conflicts: Conflicts, condition: TypedCondition, parameters: _Parameters) -> tuple[bool, str] | None:
-    """Return whether a condition always or never holds, and why; None if it depends."""
+    """Return whether a condition is always true or always false, and why; None if it depends."""
     match condition.meaning:
         case Holds() as fact if conflicts.is_impossible(fact):
             return False, "nothing has this relation to itself"
         case Same(left=left, right=right) if left == right:
-            return True, "it is the same by name"
+            return True, "both sides are the same name"
         case IsA(cls=cls):
             of = condition.values[0].type
             if isinstance(of, Thing) and of.cls is not None and conflicts.vocabulary.is_a(of.cls, cls):
@@ -84,7 +84,7 @@ def _any_way(conflicts: Conflicts, condition: TypedCondition) -> tuple[bool, str
     denied = [(fact, part) for part in condition.parts for fact in facts_in(part, holds=False)]
     pairs = ((one, other) for i, (one, _) in enumerate(denied) for other, _ in denied[:i])
     if any(conflicts.exclude(one, other) for one, other in pairs):
-        return True, "where one part does not, another does"
+        return True, "if one part does not hold, another does"
     return None
 
 
@@ -99,9 +99,9 @@ def _compared(comparison: Compare, parameters: _Parameters) -> tuple[bool, str] 
         return None
     name, range_ = limit.of.name, tuple(_range(parameters[limit.of.name]))
     if any(are_disjoint(limit, end) for end in range_):
-        return False, f"no value in the range of `{name}` is such"
+        return False, f"no value in the range of `{name}` satisfies it"
     if any(are_disjoint(limit.opposite(), end) for end in range_):
-        return True, f"every value in the range of `{name}` is such"
+        return True, f"every value in the range of `{name}` satisfies it"
     return None
 
 

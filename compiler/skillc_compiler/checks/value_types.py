@@ -1,4 +1,4 @@
-"""A value of the wrong type, of the wrong dimension, or without its unit."""
+"""Values of the wrong type, of the wrong dimension, or without a unit."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _QUANTITY = re.compile(r"\s*(-?\d+(?:\.\d+)?)\s*([A-Za-z/0-9]*)\s*$")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each value that does not fit where it stands."""
+    """Yield a problem for each value that does not fit the expected type."""
     for place in type_constraints(program):
         if not fits(program.vocabulary, place.value.type, place.wanted):
             name, help_ = _problem(program.vocabulary, place)
@@ -49,7 +49,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 
 def _problem(vocabulary: Vocabulary, place: TypeConstraint) -> tuple[str, str]:
-    """Return the name of the problem and what to type."""
+    """Return the name of the problem and the help."""
     given, wanted, meaning = place.value.type, place.wanted, place.value.meaning
     match wanted, given, meaning:
         case Measure(dimension=dimension), _, Literal(value=number) if given in (INT, Measure(NUMBER)):
@@ -59,7 +59,7 @@ def _problem(vocabulary: Vocabulary, place: TypeConstraint) -> tuple[str, str]:
         case Vector(), Vector() | Direction(), _:
             return "wrong-dimension", "multiply or divide it by a quantity of the missing dimension"
         case Direction(), Vector(), _:
-            return "wrong-type", "a Direction is of length 1: take a property or a function that gives one"
+            return "wrong-type", "a Direction is of length 1: use a property or a function that gives one"
         case Measure(dimension=dimension), _, Literal(value=str(text)) if given == TEXT:
             return "wrong-type", _unquoted(text, dimension)
         case Thing(), Thing(), _ if fits(vocabulary, wanted, given):
@@ -83,7 +83,7 @@ def _unquoted(text: str, dimension: Dimension) -> str:
 
 
 def _by_property(vocabulary: Vocabulary, place: TypeConstraint) -> str:
-    """Suggest a property that leads from the individual to what is wanted, such as `grasp.pose`."""
+    """Suggest a property of the individual that has the expected type, such as `grasp.pose`."""
     leading = sorted(
         local_name(term.iri)
         for term in vocabulary.properties.values()
@@ -92,7 +92,7 @@ def _by_property(vocabulary: Vocabulary, place: TypeConstraint) -> str:
     )
     if not isinstance(place.value.meaning, Variable) or not 0 < len(leading) <= 3:
         return ""
-    return f"take a property of it: {' or '.join(f'`{place.value.meaning.name}.{name}`' for name in leading)}"
+    return f"use a property of it: {' or '.join(f'`{place.value.meaning.name}.{name}`' for name in leading)}"
 
 
 SECONDS = Measure(TIME)
@@ -100,7 +100,10 @@ SECONDS = Measure(TIME)
 
 @dataclass(frozen=True, slots=True)
 class TypeConstraint:
-    """A value and the type expected of it; `by` reads on from "is expected", `cause` is where that is said."""
+    """A value and the type expected of it.
+
+    `by` continues "is expected"; `cause` is the place that states the type.
+    """
 
     value: TypedExpression
     wanted: Type
@@ -109,7 +112,7 @@ class TypeConstraint:
 
 
 def type_constraints(program: Program) -> Iterator[TypeConstraint]:
-    """Yield every place where a type is expected of a value."""
+    """Yield every value for which a type is expected."""
     for skill in program.skills.values():
         for parameter in skill.parameters:
             yield from _parameter_constraints(parameter, parameter.name, parameter.span)

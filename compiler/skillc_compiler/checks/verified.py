@@ -1,4 +1,4 @@
-"""Properties of every execution, which `verify` lines state."""
+"""Properties of all executions, stated by `verify` lines."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ NAMES = ("verify-violated", "verify-undecided")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each property that does not hold in all executions, or is not known to."""
+    """Yield a problem for each property that some execution violates, or that is undecided."""
     for one in findings_of(program, ViolatedProperty):
         yield Diagnostic(
             "verify-violated",
@@ -28,6 +28,6 @@ def check(program: Program) -> Iterator[Diagnostic]:
             "verify-undecided",
             two.property.span,
             f"it is not known whether `{two.property.text.removeprefix('verify ')}` holds",
-            help="look before, with `check(..)`, or make skills of parts of the body",
+            help="add a `check(..)` before, or move parts of the body into skills",
             severity="warning",
         )

@@ -1,4 +1,4 @@
-"""Leaves out what only follows from the wrong name of a file, vocabulary, skill or term, or from a second skill."""
+"""Leaves out what only follows from a misspelt file, vocabulary, skill or term, or from a duplicate skill."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ WHOLE = frozenset({"unachievable-goal", "no-implementation", "unreachable-skill"
 def without_consequences(
     found: Iterable[Diagnostic], problems: Sequence[Diagnostic], files: Sequence[ParsedFile]
 ) -> Iterator[Diagnostic]:
-    """Yield what was found, without what any of all the problems explains, and a misspelt declaration once."""
+    """Yield the diagnostics that no other one explains; a misspelt declaration is reported once."""
     explanations = (
         *_of_headers(problems),
         *_of_second_skills(problems, files),
@@ -59,10 +59,10 @@ def without_consequences(
 
 
 def _of_headers(problems: Iterable[Diagnostic]) -> Iterator[Explains]:
-    """A file or vocabulary that is not found explains unknown names in its file, and types that depend on them.
+    """A missing file or vocabulary explains unknown names in its file, and types that depend on them.
 
-    Where it was clear what is meant, the names are known, and a name so like a known one that a fix is offered
-    is a mistake of its own.
+    If it was clear which one is meant, its names are known. A name so close to a known one that a fix is offered is a
+    mistake of its own.
     """
     wrong = [problem for problem in problems if problem.name in HEADER]
     unread = {problem.span.path for problem in wrong if problem.fix is None}
@@ -71,7 +71,7 @@ def _of_headers(problems: Iterable[Diagnostic]) -> Iterator[Explains]:
 
 
 def _of_second_skills(problems: Iterable[Diagnostic], files: Sequence[ParsedFile]) -> Iterator[Explains]:
-    """A second skill of a name explains what calls and implementations say wrong of the first, or leave out."""
+    """A duplicate skill explains the problems of calls and implementations written for the other one."""
     second = [problem for problem in problems if problem.name == "duplicate-declaration"]
     first = {label.span for problem in second for label in problem.labels}
     spans = [d.span for unit in files for d in unit.file.declarations if _is_skill(d) and d.name.span in first]
@@ -87,10 +87,9 @@ def _of_second_skills(problems: Iterable[Diagnostic], files: Sequence[ParsedFile
 
 
 def _of_terms(problems: Sequence[Diagnostic], files: Sequence[ParsedFile]) -> Iterator[Explains]:
-    """An unknown term explains that its goal seems out of reach; one in a post explains that for every goal.
+    """An unknown term explains an unachievable goal that contains it; one in a post explains every unachievable goal.
 
-    Whatever is unknown explains what seems not to be used in the header of its file, an unknown skill also what no task
-    seems to reach.
+    Anything unknown explains unused lines in the header of its file; an unknown skill also explains unreachable skills.
     """
     misspelt = {problem.span.path for problem in problems if problem.name in NAMES | HEADER}
     yield lambda d: d.name in UNUSED_IN_HEADER and d.span.path in misspelt
@@ -111,7 +110,7 @@ def _of_terms(problems: Sequence[Diagnostic], files: Sequence[ParsedFile]) -> It
 
 
 def _of_implemented(problems: Iterable[Diagnostic], files: Sequence[ParsedFile]) -> Iterator[Explains]:
-    """An implementation of an unknown skill explains that a skill of a like name has none."""
+    """An implementation of an unknown skill explains that a skill with a similar name has none."""
     of = {
         declaration.skill.span
         for unit in files
@@ -124,13 +123,13 @@ def _of_implemented(problems: Iterable[Diagnostic], files: Sequence[ParsedFile])
 
 
 def _of_conditions(problems: Iterable[Diagnostic]) -> Iterator[Explains]:
-    """What is wrong in a condition explains that it seems to be always so, or to go ill with another."""
+    """An error in a condition explains that it is always true or false, or contradicts another."""
     wrong = _errors(problems, LOGIC | REASONED)
     yield lambda d: d.name in LOGIC and any(wrong.any_inside(whole) for whole in _spans(d))
 
 
 def _of_bodies(problems: Iterable[Diagnostic], files: Sequence[ParsedFile]) -> Iterator[Explains]:
-    """A declaration with another mistake, and what implements or calls such a skill, are not reasoned about."""
+    """Declarations with another error, and what implements or calls such a skill, are not reasoned about."""
     wrong = _errors(problems, REASONED)
     declarations = [d for unit in files for d in unit.file.declarations]
     broken = [d for d in declarations if wrong.any_inside(d.span)]
@@ -179,7 +178,7 @@ def _called(declaration: s.ImplementationDeclaration) -> Iterator[str]:
 
 
 def _of_arguments(problems: Iterable[Diagnostic], files: Sequence[ParsedFile]) -> Iterator[Explains]:
-    """What is passed as an unknown argument, or to an unknown skill or function, is used after all."""
+    """A value passed as an unknown argument, or to an unknown skill or function, is used."""
     wrong = SpanIndex(problem.span for problem in problems if problem.name in PASSED)
     done = [d for unit in files for d in unit.file.declarations if isinstance(d, s.ImplementationDeclaration)]
     broken = [d for d in done if wrong.any_inside(d.span)]

@@ -1,4 +1,4 @@
-"""Leaves out what only follows from a syntax error: names and members on a line that was not understood."""
+"""Leaves out what only follows from a syntax error: names and members in lines that could not be parsed."""
 
 from __future__ import annotations
 
@@ -54,12 +54,12 @@ WORD = re.compile(r"\w+")
 def without_followers(
     found: Iterable[Diagnostic], syntax: Sequence[Diagnostic], files: Sequence[ParsedFile]
 ) -> Iterator[Diagnostic]:
-    """Yield what was found, without what the syntax errors explain.
+    """Yield the diagnostics that no syntax error explains.
 
-    An error inside a declaration explains what else is wrong on its line, what is unknown or missing in the
-    declaration, in the implementations of a skill so broken and in calls of it; and whatever depends on types, values
-    and effects in all that speaks of it. One outside any declaration, such as an import of a file that there is not,
-    explains names that are like no known one, and in its own file those of vocabularies that seem not to be used.
+    A syntax error in a declaration explains other problems on its line, unknown and missing names in the declaration,
+    in implementations and calls of a broken skill, and everything that depends on types, values and effects in
+    declarations that mention it. A syntax error outside any declaration, such as a broken import, explains names
+    without a close match, and unused vocabularies in its own file.
     """
     lines = {(problem.span.path, problem.span.line) for problem in syntax}
     broken = tuple(_broken(syntax, files))
@@ -91,7 +91,7 @@ def _broken(syntax: Sequence[Diagnostic], files: Sequence[ParsedFile]) -> Iterat
 
 
 def _speaking_of(syntax: Sequence[Diagnostic], files: Sequence[ParsedFile]) -> Iterator[Span]:
-    """Yield the spans of the declarations that name one with a syntax error."""
+    """Yield the spans of the declarations that mention one with a syntax error."""
     names = {declaration.name.text for declaration in _with_errors(syntax, files)}
     if not names:
         return

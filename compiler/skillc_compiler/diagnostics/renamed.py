@@ -1,4 +1,4 @@
-"""Tells a name that is declared one way and used another way once, however often it is used."""
+"""Reports a name that is declared one way and used another way once, however often it is used."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ DEPENDENT = frozenset(
 
 @dataclass(frozen=True, slots=True)
 class _Slip:
-    """A name that means nothing, and the name that it is like; for an undeclared prefix the file that lacks it."""
+    """An unknown name and the close name that is meant; for an undeclared prefix the file that lacks it."""
 
     written: str
     meant: str
@@ -38,10 +38,10 @@ class _Slip:
 
 
 def told_once(found: Sequence[Diagnostic], files: Sequence[ParsedFile]) -> Iterator[Diagnostic]:
-    """Yield what was found, uses of one misspelt declaration as one problem, without what names it besides.
+    """Yield the diagnostics, with all uses of one misspelt declaration as one, and without what depends on it.
 
-    A declaration is misspelt, rather than its uses, where its name stands nowhere else. A prefix is declared once for a
-    file, so that it is missed once.
+    A declaration is misspelt, rather than its uses, if its name occurs nowhere else. A prefix is declared once for a
+    file, so it is reported once.
     """
     slips = {problem: slip for problem in found if (slip := _slip(problem, files)) is not None}
     times = _times(files) if slips else {}
@@ -72,15 +72,15 @@ def _slip(problem: Diagnostic, files: Sequence[ParsedFile]) -> _Slip | None:
 
 
 def _written(text: str, span: Span) -> str:
-    """Return what stands at a place within a line."""
+    """Return the text of a span within one line."""
     return text.split("\n")[span.line - 1][span.column - 1 : span.end_column - 1] if span.line == span.end_line else ""
 
 
 def _times(files: Sequence[ParsedFile]) -> Mapping[str, int]:
-    """Return how often each word stands in the files, comments left out."""
+    """Return how often each word occurs in the files, without comments."""
     return Counter(word for unit in files for word in _WORD.findall(_COMMENT.sub("", unit.text)))
 
 
 def _only_names(problem: Diagnostic, meant: set[str]) -> bool:
-    """Whether a problem is that a name is not used, linked or taken by which something else was meant."""
+    """Whether the problem is that a name is unused, unlinked or missing that was meant by an unknown one."""
     return problem.name in DEPENDENT and any(f"`{name}`" in problem.message for name in meant)

@@ -1,4 +1,4 @@
-"""Warnings that an author has decided to live with: `# allow NAME: reason` above the line they are told of."""
+"""Suppression of warnings by a comment above the line of the warning: `# allow NAME: reason`."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _SUPPRESSION = re.compile(r"#\s*allow\s+(?P<name>[\w-]+)\s*(?P<colon>:?)\s*(?P<r
 
 @dataclass(frozen=True, slots=True)
 class Suppression:
-    """A comment that allows the warnings called `name` on `line`; `reason` may be missing."""
+    """A comment that suppresses the warnings called `name` on `line`; `reason` may be empty."""
 
     name: s.Name
     reason: str
@@ -27,9 +27,9 @@ class Suppression:
 
 
 def apply_suppressions(problems: Sequence[Diagnostic], sources: Iterable[Source]) -> tuple[Diagnostic, ...]:
-    """Return the problems without the warnings that `sources` allow, and with what is wrong with the suppressions.
+    """Return the problems without suppressed warnings, and with the problems of the suppressions themselves.
 
-    Which of them are unused is told only where there is no error, because errors leave things unchecked.
+    Unused suppressions are only reported if there is no error, because errors leave parts unchecked.
     """
     found = tuple(suppression for source in sources for suppression in find_suppressions(source))
     if not found:
@@ -43,7 +43,7 @@ def apply_suppressions(problems: Sequence[Diagnostic], sources: Iterable[Source]
 
 
 def without_suppressed(problems: Iterable[Diagnostic], sources: Iterable[Source]) -> tuple[Diagnostic, ...]:
-    """Leave out the warnings that `sources` allow, of problems that are found when a library has been compiled."""
+    """Return the problems without suppressed warnings, for problems that are found after compiling a library."""
     allowed = {
         (each.comment.path, each.line, each.name.text) for source in sources for each in find_suppressions(source)
     }
@@ -51,7 +51,7 @@ def without_suppressed(problems: Iterable[Diagnostic], sources: Iterable[Source]
 
 
 def find_suppressions(source: Source) -> Iterator[Suppression]:
-    """Yield the suppressions in a text; each is for the first line below that is no comment."""
+    """Yield the suppressions in a text; each is for the first line below that is not a comment."""
     if "allow" not in source.text:
         return
     every = find_comments(source)
@@ -67,7 +67,7 @@ def find_suppressions(source: Source) -> Iterator[Suppression]:
 
 
 def _is_meant(match: re.Match[str]) -> bool:
-    """Whether this is a suppression and not prose that begins with the word."""
+    """Whether this is a suppression, not prose that begins with the word."""
     return bool(match["colon"]) or "-" in match["name"] or match["name"] in page_names()
 
 
@@ -89,16 +89,18 @@ def _problems(each: Suppression, used: set[tuple[str, int, str]], errors: Sequen
             fix=suggest_fix(each.name, page_names()),
         )
     elif any(_place(error) == (each.comment.path, each.line, name) for error in errors):
-        yield _unused(each, f"`{name}` is an error here, which cannot be allowed", "cure it, and delete this comment")
+        yield _unused(each, f"`{name}` is an error here, which cannot be allowed", "fix it, and delete this comment")
     elif not errors and not _is_found_later(name) and (each.comment.path, each.line, name) not in used:
-        yield _unused(each, f"there is no `{name}` to be allowed on line {each.line}", "delete this comment")
+        yield _unused(each, f"there is no `{name}` to allow on line {each.line}", "delete this comment")
     elif not each.reason:
-        help_ = f"write `# allow {name}: ` and why"
-        yield Diagnostic("allow-without-reason", each.comment, "this says not why it is allowed", help_, "warning")
+        help_ = f"write `# allow {name}: ` and the reason"
+        yield Diagnostic(
+            "allow-without-reason", each.comment, "this gives no reason why it is allowed", help_, "warning"
+        )
 
 
 def _is_found_later(name: str) -> bool:
-    """Whether the compiler cannot tell if there is such a warning, because `skillc check` looks for it afterwards."""
+    """Whether the compiler cannot decide if there is such a warning, because `skillc check` reports it later."""
     return name == "unknown-value" or load_page(name).found_by == "check"
 
 

@@ -1,4 +1,4 @@
-"""Tells which skills a planner leaves out, and which construct is the reason; nothing is left out silently."""
+"""Reports the skills that planners leave out, and the construct that is the reason."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ COUNTING = ("compares", "no finite", "known only at run time")
 
 
 def report_unplannable(library: SkillLibrary, program: Program, problems: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
-    """Yield a warning for each skill that no plan can contain, unless one of the problems says so already.
+    """Yield a warning for each skill that no plan can contain, unless one of the problems already explains it.
 
-    Where there is an error, nothing is planned: what it leaves out is not told again.
+    If there is an error, nothing is planned, so nothing is reported.
     """
     problems = tuple(problems)
     if any(problem.severity == "error" for problem in problems) or _has_class_cycle(library.vocabulary):
@@ -42,16 +42,16 @@ def _problem(skill: Skill, excluded: Excluded) -> Diagnostic:
         "unplannable-construct",
         next(written, skill.name_span),
         f"planners leave `{skill.name}` out: {excluded.reason}",
-        help=f"{_suggest_planner(excluded.reason)}; say it in another way, or add `noplan`",
+        help=f"{_suggest_planner(excluded.reason)}; rewrite it, or add `noplan`",
         severity="warning",
     )
 
 
 def _suggest_planner(reason: str) -> str:
-    """Say which planners could take it."""
+    """Return which planners support the construct."""
     if any(words in reason for words in COUNTING):
-        return "planners that count, such as ENHSP, could take it; Fast Downward and the built-in search do not count"
-    return "neither Fast Downward nor the built-in search nor any other planner of PDDL takes it"
+        return "numeric planners such as ENHSP support it; Fast Downward and the built-in search do not"
+    return "no PDDL planner supports it"
 
 
 def _inside(place: Span, whole: Span) -> bool:

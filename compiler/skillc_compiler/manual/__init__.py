@@ -49,10 +49,10 @@ _PAGE = re.compile(
 class Page:
     """The explanation of a diagnostic.
 
-    `family` is the heading under which it is listed, `found_by` what reports it: the compiler, the loaders of
-    vocabularies and scenes, `skillc check` of a library with its scenes, the formatter, the parser of goals that are
-    given on the command line. `title` is a sentence without its full stop, `prose` Markdown. `bad` is a whole file with
-    this problem and no other, `good` a file without problems, both in `language`.
+    `family` is the heading under which it is listed; `found_by` is the part that reports it: the compiler, the loaders
+    of vocabularies and scenes, `skillc check` of a library with its scenes, the formatter, or the parser of goals from
+    the command line. `title` is a sentence without its full stop, `prose` is Markdown. `bad` is a whole file with this
+    problem and no other, `good` a file without problems; both are in `language`.
     """
 
     name: str
@@ -79,12 +79,12 @@ def load_pages() -> Mapping[str, Page]:
 
 @cache
 def load_page(name: str) -> Page:
-    """Return the page of a diagnostic; ValueError if it does not have the form of a page."""
+    """Return the page of a diagnostic; raise ValueError if it has the wrong form."""
     return parse_page(name, (_FOLDER / f"{name}.md").read_text("utf-8"))
 
 
 def parse_page(name: str, text: str) -> Page:
-    """Return the page in the text of the file NAME.md; ValueError if it does not have the form of a page."""
+    """Return the page in the text of the file NAME.md; raise ValueError if it has the wrong form."""
     match = _PAGE.fullmatch(text)
     if match is None:
         raise ValueError(f"{name}.md is not of the form that {__name__} documents")
@@ -98,7 +98,7 @@ def parse_page(name: str, text: str) -> Page:
 
 
 def group_by_family(shown: Iterable[Page]) -> Mapping[str, tuple[Page, ...]]:
-    """Return pages in alphabetical order by their family, the families in the order of `FAMILIES`."""
+    """Return pages in alphabetical order by family, the families in the order of `FAMILIES`."""
     ordered = sorted(shown, key=lambda each: each.name)
     grouped = {family: tuple(each for each in ordered if each.family == family) for family in FAMILIES}
     return {family: members for family, members in grouped.items() if members}

@@ -1,1 +1,1 @@
-"""What Python modules define, read from their text: nothing is imported or run."""
+"""Reads Python targets from their source text, without importing them. Start with `targets`."""

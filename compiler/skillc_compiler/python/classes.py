@@ -1,4 +1,4 @@
-"""What a class inherits, how it is made and which methods it has, read from its text."""
+"""The bases, constructor and methods of a class, read from the source text."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from skillc_compiler.python.modules import Defined, Function, dotted_name, resol
 from skillc_compiler.python.signatures import inspect_method
 
 Lineage: TypeAlias = "tuple[Defined | Unclear, ...]"
-"""A class and what it inherits from, in the order in which Python looks for methods."""
+"""A class and its bases, in method resolution order."""
 
 NEUTRAL = frozenset(("object", "typing.Generic", "typing.Protocol", "abc.ABC"))
-"""Classes that neither take nor do anything."""
+"""Base classes without a constructor or methods of interest."""
 PLAIN_DECORATORS = frozenset((DATACLASS, "typing.final", "typing.runtime_checkable", "functools.total_ordering"))
 PLAIN_METACLASSES = frozenset(("abc.ABCMeta", "type"))
 
 
 def inspect_class(of: Defined) -> ClassInfo:
-    """Return what is certain of a class."""
+    """Return what the source text determines about a class."""
     lineage = _lineage(of, frozenset())
     known = tuple(each for each in lineage if isinstance(each, Defined))
     unusual = any(_is_decorated(each) or _has_custom_creation(each) for each in known)
@@ -34,7 +34,7 @@ def inspect_class(of: Defined) -> ClassInfo:
 
 
 def _lineage(of: Defined, around: frozenset[str]) -> Lineage:
-    """Return the classes, each before those that it inherits from; of one that is reached twice the last counts."""
+    """Return the class and its bases; if a base is reached twice, the last occurrence counts."""
     found: list[Defined | Unclear] = [of]
     bases = of.node.bases if isinstance(of.node, ast.ClassDef) else []
     for base in bases:
@@ -54,12 +54,12 @@ def _qualified_name(of: Defined) -> str:
 
 
 def _is_decorated(of: Defined) -> bool:
-    """Whether a decorator may make something else of a class."""
+    """Whether a decorator may replace the class."""
     return any(dotted_name(of.module, each) not in PLAIN_DECORATORS for each in of.node.decorator_list)
 
 
 def _has_custom_creation(of: Defined) -> bool:
-    """Whether a metaclass or `__new__` may take what the constructor would not."""
+    """Whether a metaclass or `__new__` may accept other arguments than the constructor."""
     keywords = of.node.keywords if isinstance(of.node, ast.ClassDef) else []
     metaclasses = (each.value for each in keywords if each.arg == "metaclass")
     unusual = any(dotted_name(of.module, each) not in PLAIN_METACLASSES for each in metaclasses)
@@ -67,7 +67,7 @@ def _has_custom_creation(of: Defined) -> bool:
 
 
 def _members(node: ast.stmt) -> Iterator[tuple[str, ast.stmt]]:
-    """Yield what a class's own body defines."""
+    """Yield the definitions in the body of a class."""
     for part in node.body if isinstance(node, ast.ClassDef) else ():
         match part:
             case ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name):
@@ -93,7 +93,7 @@ def _methods(lineage: Lineage) -> Iterator[tuple[str, Method | None]]:
 
 
 def _constructor(lineage: Sequence[Defined | Unclear]) -> PythonSignature | None:
-    """Return what the first class that has a constructor takes, without `self`; None where that is not certain."""
+    """Return the parameters of the first constructor among the classes, without `self`; None if not determined."""
     for index, each in enumerate(lineage):
         if isinstance(each, Unclear):
             return None
@@ -110,7 +110,7 @@ def _constructor(lineage: Sequence[Defined | Unclear]) -> PythonSignature | None
 
 
 def _passed_on(own: PythonSignature, function: ast.FunctionDef, above: Sequence[Defined | Unclear]) -> PythonSignature:
-    """Return what a constructor takes; what it takes in `**rest` and only passes on is what the next one takes."""
+    """Return the parameters of a constructor; `**rest` that is only passed on becomes those of the next one."""
     rest = function.args.kwarg.arg if function.args.kwarg else ""
     uses = [node for node in ast.walk(function) if isinstance(node, ast.Name) and node.id == rest]
     calls = [node for node in ast.walk(function) if isinstance(node, ast.Call) and _is_super_init(node.func)]

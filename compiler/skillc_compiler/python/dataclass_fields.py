@@ -1,4 +1,4 @@
-"""What the constructor that `dataclass` writes takes."""
+"""The constructor that `dataclass` generates."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ class _Field:
 
 
 def is_dataclass(of: Defined) -> bool:
-    """Whether `dataclass` writes the class's constructor."""
+    """Whether `dataclass` generates the constructor of the class."""
     return any(
         dotted_name(of.module, each) == DATACLASS and not _is_set(each, "init", False) for each in _decorators(of)
     )
 
 
 def constructor_signature(lineage: Sequence[Defined]) -> PythonSignature:
-    """Return what a dataclass takes, with the fields of the dataclasses that it inherits from."""
+    """Return the parameters of a dataclass, including the fields of inherited dataclasses."""
     fields: dict[str, _Field] = {}
     for each in reversed(lineage):
         if any(dotted_name(each.module, decorator) == DATACLASS for decorator in _decorators(each)):
@@ -65,7 +65,7 @@ def _decorators(of: Defined) -> list[ast.expr]:
 
 
 def _is_set(written: ast.expr, word: str, to: bool) -> bool:
-    """Whether a call passes a word as true or as false."""
+    """Whether a call passes a keyword as true or as false."""
     match written:
         case ast.Call(keywords=keywords):
             constants = {each.arg: each.value.value for each in keywords if isinstance(each.value, ast.Constant)}

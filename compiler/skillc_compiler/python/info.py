@@ -1,4 +1,4 @@
-"""What the text of a module says of a name."""
+"""What the source text of a module says about a name."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from typing import TypeAlias
 
 @dataclass(frozen=True, slots=True)
 class NoModule:
-    """There is no such module; `installed` if the package it should be in is there."""
+    """There is no such module; `installed` if its top-level package exists."""
 
     installed: bool
 
 
 @dataclass(frozen=True, slots=True)
 class BrokenModule:
-    """The module's file is no Python."""
+    """The file of the module is not valid Python."""
 
     line: int
     message: str
@@ -24,14 +24,14 @@ class BrokenModule:
 
 @dataclass(frozen=True, slots=True)
 class NoName:
-    """The module defines nothing of that name, but `there`."""
+    """The module does not define the name; `there` are the classes and functions that it defines."""
 
     there: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Unclear:
-    """The text alone does not tell."""
+    """The source text does not determine it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,9 +41,10 @@ class Other:
 
 @dataclass(frozen=True, slots=True)
 class PythonSignature:
-    """What can be passed: `by_position` in order, the first `unnamed` of them not by name, and `by_name` only by name.
+    """The parameters of a callable.
 
-    `needed` are those without a default. With `args` and `named` any other is taken too, by position and by name.
+    `by_position` are in order; the first `unnamed` of them cannot be passed by name; `by_name` only by name. `needed`
+    have no default. With `args` and `named`, any others are accepted by position and by name.
     """
 
     by_position: tuple[str, ...] = ()
@@ -54,7 +55,7 @@ class PythonSignature:
     named: bool = False
 
     def without_first(self, count: int) -> PythonSignature:
-        """Return what is left to pass when the first `count` are passed by position."""
+        """Return the parameters left when the first `count` are passed by position."""
         gone, rest = self.by_position[:count], self.by_position[count:]
         needed = tuple(name for name in self.needed if name not in gone)
         return PythonSignature(rest, max(0, self.unnamed - count), self.by_name, needed, self.args, self.named)
@@ -62,7 +63,7 @@ class PythonSignature:
 
 @dataclass(frozen=True, slots=True)
 class FunctionInfo:
-    """A function; None for a signature that the text does not tell."""
+    """A function; `signature` is None if the text does not determine it."""
 
     signature: PythonSignature | None
     asynchronous: bool = False
@@ -70,7 +71,7 @@ class FunctionInfo:
 
 @dataclass(frozen=True, slots=True)
 class Method:
-    """A method, without `self`, and the class "module:Class" that defines it."""
+    """A method without `self`, and the class "module:Class" that defines it."""
 
     owner: str
     function: FunctionInfo
@@ -78,10 +79,11 @@ class Method:
 
 @dataclass(frozen=True, slots=True)
 class ClassInfo:
-    """A class. `ancestors` are its own "module:Class" and those it inherits from; if `complete`, there are no others.
+    """A class.
 
-    None for a constructor that the text does not tell. `methods` are all that its text and theirs define, None for one
-    that the text does not tell.
+    `ancestors` are its own "module:Class" and its base classes; if `complete`, there are no others. `constructor` is
+    None if the text does not determine it. `methods` are all that its text and that of its bases define, None for one
+    that the text does not determine.
     """
 
     constructor: PythonSignature | None

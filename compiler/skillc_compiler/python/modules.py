@@ -1,4 +1,4 @@
-"""Finds where a module's names are defined, through imports, re-exports, `import *` and aliases."""
+"""Finds where the names of a module are defined, through imports, re-exports, `import *` and aliases."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ QualifiedName: TypeAlias = tuple[str, str]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Defined:
-    """The definition of a class or function, and the module it stands in."""
+    """The definition of a class or function, and its module."""
 
     module: str
     node: ast.ClassDef | Function
@@ -28,7 +28,7 @@ class Defined:
 
 @dataclass(frozen=True, slots=True)
 class _Names:
-    """What a module binds at its top, by name, and where it imports everything from."""
+    """The names that a module binds at its top level, and its `import *` lines."""
 
     bound: Mapping[str, ast.stmt | ast.expr | Unclear]
     stars: tuple[ast.ImportFrom, ...]
@@ -38,7 +38,7 @@ Definition: TypeAlias = Defined | Other | NoModule | BrokenModule | NoName | Unc
 
 
 def find_definition(module: str, name: str, seen: frozenset[QualifiedName] = frozenset()) -> Definition:
-    """Return where a name of a module is really defined."""
+    """Return where a name of a module is defined."""
     names = _names_in(module)
     if not isinstance(names, _Names):
         return names
@@ -61,7 +61,7 @@ def find_definition(module: str, name: str, seen: frozenset[QualifiedName] = fro
 
 
 def resolve_expression(module: str, written: ast.expr, seen: frozenset[QualifiedName] = frozenset()) -> Definition:
-    """Return what a name, or a name in an imported module, stands for in a module."""
+    """Return the definition of a name, or of a name in an imported module."""
     match written:
         case ast.Name(id=name):
             return find_definition(module, name, seen)
@@ -75,7 +75,7 @@ def resolve_expression(module: str, written: ast.expr, seen: frozenset[Qualified
 
 
 def dotted_name(module: str, written: ast.expr) -> str:
-    """Return the "module.name" that an expression imports, as far as its own file tells; else as it is written."""
+    """Return the "module.name" that an expression imports, as far as its file determines it; else as written."""
     match written:
         case ast.Call(func=func):
             return dotted_name(module, func)
@@ -91,7 +91,7 @@ def dotted_name(module: str, written: ast.expr) -> str:
 
 
 def _find_starred(module: str, name: str, names: _Names, seen: frozenset[QualifiedName]) -> Definition:
-    """Return what `import *` brings; the last that has the name wins."""
+    """Return what `import *` provides; the last line that has the name wins."""
     if "__getattr__" in names.bound:
         return UNCLEAR
     if not name.startswith("_"):
@@ -103,7 +103,7 @@ def _find_starred(module: str, name: str, names: _Names, seen: frozenset[Qualifi
 
 
 def _module_at(module: str, written: ast.expr) -> str:
-    """Return the module that an expression stands for, empty if it stands for none."""
+    """Return the module that an expression denotes, or an empty string."""
     match written:
         case ast.Attribute(value=value, attr=name):
             of = _module_at(module, value)
@@ -121,7 +121,7 @@ def _module_at(module: str, written: ast.expr) -> str:
 
 
 def _source(module: str, line: ast.ImportFrom) -> str:
-    """Return the module that a line imports from, which may be given relative to its own."""
+    """Return the module that an import line imports from, with relative imports resolved."""
     if line.level == 0:
         return line.module or ""
     file = _file(module)
@@ -136,7 +136,7 @@ def _original(line: ast.ImportFrom, name: str) -> str:
 
 
 def _file(module: str) -> Path | NoModule | Unclear:
-    """Return the file of a module; packages on the way are not imported."""
+    """Return the file of a module; packages above it are not imported."""
     first, *rest = module.split(".")
     try:
         spec = find_spec(first) if first else None
@@ -168,7 +168,7 @@ def _names_in(module: str) -> _Names | NoModule | BrokenModule | Unclear:
 
 @lru_cache(maxsize=256)
 def _read(file: Path, _changed_ns: int) -> _Names | BrokenModule | Unclear:
-    """Return what a file's text defines at its top."""
+    """Return what the text of a file defines at its top level."""
     try:
         body = ast.parse(file.read_bytes()).body
     except SyntaxError as error:
@@ -183,7 +183,7 @@ def _read(file: Path, _changed_ns: int) -> _Names | BrokenModule | Unclear:
 
 
 def _bound(body: Iterable[ast.stmt], sure: bool) -> Iterator[tuple[str, ast.stmt | ast.expr | Unclear, bool]]:
-    """Yield each name that statements bind, with what it stands for and whether the statement is always run."""
+    """Yield each name that statements bind, with its value and whether the statement always runs."""
     for node in body:
         match node:
             case ast.ClassDef(name=name) | ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name):

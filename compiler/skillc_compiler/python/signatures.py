@@ -1,4 +1,4 @@
-"""What a function takes, read from its text."""
+"""Signatures of functions, read from the source text."""
 
 from __future__ import annotations
 
@@ -13,23 +13,23 @@ PLAIN_DECORATORS = frozenset(
         *("numba.njit", "numba.jit", "abc.abstractmethod"),
     )
 )
-"""Decorators that leave what a function takes as it is."""
+"""Decorators that do not change the signature."""
 
 
 def inspect_function(module: str, function: Function) -> FunctionInfo:
-    """Return a function's signature, None for one that a decorator may have changed."""
+    """Return a function with its signature, None if a decorator may have changed it."""
     plain = all(dotted_name(module, each) in PLAIN_DECORATORS for each in function.decorator_list)
     return FunctionInfo(read_signature(function) if plain else None, isinstance(function, ast.AsyncFunctionDef))
 
 
 def inspect_method(module: str, function: Function) -> FunctionInfo:
-    """Return a method's signature without `self`."""
+    """Return a method with its signature without `self`."""
     found = inspect_function(module, function)
     return FunctionInfo(found.signature and found.signature.without_first(1), found.asynchronous)
 
 
 def read_signature(function: Function) -> PythonSignature:
-    """Return all parameters of a function."""
+    """Return the parameters of a function."""
     arguments = function.args
     positional = [*arguments.posonlyargs, *arguments.args]
     optional = [*positional[len(positional) - len(arguments.defaults) :]] if arguments.defaults else []

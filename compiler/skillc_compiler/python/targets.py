@@ -1,4 +1,4 @@
-"""Reads what a module says of a name."""
+"""What a Python target "module:name" is, and what its methods may return, read from the source text."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from skillc_compiler.python.signatures import inspect_function
 
 
 def read_target(module: str, name: str) -> TargetInfo:
-    """Return what the name "module:name" is, as far as the texts of the modules tell."""
+    """Return what "module:name" is, as far as the source text of the modules determines it."""
     found = find_definition(module, name)
     match found:
         case Defined(node=ast.ClassDef()):
@@ -25,7 +25,7 @@ def read_target(module: str, name: str) -> TargetInfo:
 
 
 def method_returns(module: str, name: str, method: str) -> frozenset[str]:
-    """Return the last name of everything that a method of a class may return; none where the text does not tell."""
+    """Return the last name of every value that a method may return; empty if the text does not determine it."""
     return _returns(find_definition(module, name), method, frozenset())
 
 

@@ -1,1 +1,1 @@
-"""From parsed files to a program: every name looked up, every value typed."""
+"""From parsed files to a program: every name is looked up, every expression typed. Start with `program`."""

@@ -1,4 +1,4 @@
-"""Understanding calls of skills: who is called, and which value goes to which parameter."""
+"""Resolving calls of skills: the skill, and the value of each parameter."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from skillc_dsl.diagnostics import Label
 
 
 def resolve_call(context: FileContext, scope: Scope, written: s.CallSkill) -> tuple[Call, Scope]:
-    """Return what a call means, and the scope after it, in which its output has a value."""
+    """Return the call, and the scope after it, in which its output has a value."""
     name = context.names.look_up_skill(written.skill)
     skill = context.skills.get(name) if name else None
     arguments = tuple(_arguments(context, scope, written, skill))
@@ -45,7 +45,7 @@ def _report_argument(
     out: Parameter | None,
     written: s.CallSkill,
 ) -> None:
-    """Report an argument that no parameter takes; its value is still looked at unless it is only the name again."""
+    """Report an argument that no parameter takes; its value is still resolved, unless it repeats the name."""
     name = argument.name.text
     kind = UNKNOWN if _is_shorthand(argument) else resolve_value(context, scope, argument.value).type
     if out is not None:
@@ -53,7 +53,7 @@ def _report_argument(
             "unknown-argument",
             argument.name.span,
             f"`{name}` is an output of `{skill.name}`, which cannot be passed in",
-            f"take it with `{skill.name}(..) -> {name}`",
+            f"read it with `{skill.name}(..) -> {name}`",
             Label(out.span, "declared here"),
         )
         return
@@ -68,7 +68,7 @@ def _report_argument(
 
 
 def _free_parameters(context: FileContext, skill: Skill, written: s.CallSkill, kind: Type) -> list[str]:
-    """Return the parameters that are not passed yet and take a value of this type."""
+    """Return the parameters that are not passed yet and that take a value of this type."""
     passed = {a.name.text for a in written.arguments}
     takes = [p for p in skill.parameters if p.direction != "out" and p.name not in passed]
     return [p.name for p in takes if fits(context.vocabulary, kind, p.type)]
@@ -99,7 +99,7 @@ def _scope_after(context: FileContext, scope: Scope, written: s.CallSkill, skill
             "no-output",
             written.out.span,
             f"the skill `{skill.name}` has {len(outputs) or 'no'} outputs, so `->` has nothing to name",
-            "take `->` away, or declare one `out` parameter in the skill",
+            "remove `->`, or declare one `out` parameter in the skill",
             Label(skill.name_span, "declared here"),
         )
     return _assign_output(context, scope, written.out, kind)

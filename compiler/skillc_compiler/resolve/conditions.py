@@ -1,4 +1,4 @@
-"""Understanding conditions: relations, properties and classes looked up, sides typed."""
+"""Resolving conditions: relations, properties and classes are looked up, both sides are typed."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from skillc_rdf.vocabulary.types import THING
 
 
 def resolve_condition(context: FileContext, scope: Scope, written: s.Condition) -> TypedCondition:
-    """Return what a condition means; what cannot be understood is reported."""
+    """Return the typed condition; unresolved parts are reported."""
     match written:
         case s.Relation():
             return _holds(context, scope, written)
@@ -111,7 +111,7 @@ def _relation(context: FileContext, name: s.Name, subject: Type, object_: Type) 
 
 
 def _term(context: FileContext, of: TypedExpression) -> Term:
-    """Return the individual that a value stands for; anything else is reported and taken for `_`."""
+    """Return the individual that a value denotes; anything else is reported and replaced by `_`."""
     match of.meaning:
         case VariableTerm(name="_"):
             return Anything()
@@ -121,7 +121,7 @@ def _term(context: FileContext, of: TypedExpression) -> Term:
         context.report(
             "not-an-individual",
             of.span,
-            "a relation, `has` or `is` speaks of individuals, and this is a value",
+            "a relation, `has` or `is` is about individuals, and this is a value",
             "write a parameter of an ontology class, or an individual; values are compared with `==`, `<`, ..",
         )
     return Anything()
@@ -145,7 +145,7 @@ def _all_terms(*sides: TypedExpression) -> bool:
 
 
 def _sides(context: FileContext, scope: Scope, written: s.Compare) -> tuple[TypedExpression, TypedExpression]:
-    """Understand the side with the property first: it tells which values a bare name on the other may be."""
+    """Resolve both sides; the side with the property first, as it determines the values that a bare name may be."""
     if isinstance(written.left, s.Reference) and isinstance(written.right, s.Member):
         right = resolve_value(context, scope, written.right)
         return _other_side(context, scope, written.left, right), right
@@ -154,7 +154,7 @@ def _sides(context: FileContext, scope: Scope, written: s.Compare) -> tuple[Type
 
 
 def _other_side(context: FileContext, scope: Scope, written: s.Value, known: TypedExpression) -> TypedExpression:
-    """Understand the side that `known` is compared with; beside something unknown, a bare name may be anything."""
+    """Resolve the side that is compared with `known`; beside an unknown type, a bare name may be anything."""
     match written:
         case s.Reference(name=s.Name(text=text), span=span) if known.type == UNKNOWN and ":" not in text:
             if text not in scope.variables:
@@ -192,7 +192,7 @@ def _quantified(context: FileContext, scope: Scope, written: s.Quantified) -> Ty
 
 
 def _bare(context: FileContext, scope: Scope, written: s.Bare) -> TypedCondition:
-    """A value is no condition; a truth value is one once it is compared."""
+    """Resolve a value that stands as a condition: report it, with the comparison to write if it is a truth value."""
     of = resolve_value(context, scope, written.value)
     span = written.span
     end = Span(span.path, span.end_line, span.end_column, span.end_line, span.end_column)

@@ -1,4 +1,4 @@
-"""Which terms, functions and skills each file declares, and under which IRIs."""
+"""The terms, functions and skills that each file declares, and their IRIs."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ Bare: TypeAlias = dict[Kind, dict[str, tuple[str, ...]]]
 
 @dataclass
 class Declarations:
-    """What one file declares: bare names of terms with their IRIs, functions and skills."""
+    """The declarations of one file: bare names of terms with their IRIs, functions and skills."""
 
     terms: dict[Kind, dict[str, str]] = field(default_factory=lambda: {kind: {} for kind in KINDS})
     functions: set[str] = field(default_factory=set)
     skills: set[str] = field(default_factory=set)
 
     def names(self) -> set[str]:
-        """Return every bare name the file declares."""
+        """Return every bare name that the file declares."""
         return {*self.functions, *self.skills, *(name for table in self.terms.values() for name in table)}
 
 
 def term_kind(declaration: TermDeclaration) -> Kind:
-    """Return what kind of term is declared."""
+    """Return the kind of a declared term."""
     match declaration:
         case s.ClassDeclaration():
             return "class"
@@ -49,16 +49,16 @@ def library_namespace(library: str) -> str:
 
 
 def library_prefix(library: str, taken: Mapping[str, str]) -> str:
-    """Return the prefix for a library's namespace: its name, unless another namespace has that prefix."""
+    """Return the prefix of a library's namespace: its name, unless another namespace has that prefix."""
     name = re.sub(r"\W", "_", library)
     return name if taken.get(name, library_namespace(library)) == library_namespace(library) else f"{name}_library"
 
 
 def collect_declarations(files: Sequence[ParsedFile], vocabulary: Vocabulary) -> dict[str, Declarations]:
-    """Return by path what each file declares.
+    """Return the declarations of each file, by path.
 
-    A term whose bare name is visible where it is declared is that term, with something added; else it is new. A
-    qualified name says itself which term it is; where there is no such prefix, it counts as a bare one.
+    A term whose bare name is visible where it is declared is that term, with additions; otherwise it is new. A
+    qualified name determines the term; if its prefix is unknown, it counts as a bare name.
     """
     found: dict[str, Declarations] = {}
     bare = bare_names_in(files, vocabulary)
@@ -68,19 +68,19 @@ def collect_declarations(files: Sequence[ParsedFile], vocabulary: Vocabulary) ->
 
 
 def prefixes_in(file: s.File, vocabulary: Vocabulary) -> dict[str, str]:
-    """Return the prefixes that a file can write: those of all vocabularies and its own."""
+    """Return the prefixes that a file can use: those of all vocabularies and its own."""
     return {**vocabulary.prefixes, **{line.name.text: line.iri for line in file.header if isinstance(line, s.Prefix)}}
 
 
 def bare_names_in(files: Sequence[ParsedFile], vocabulary: Vocabulary) -> dict[str, Bare]:
-    """Return by path what bare names mean in each file; it is the same where the same vocabularies are used."""
+    """Return, by path, the terms that bare names denote; files that use the same vocabularies share them."""
     uses = {unit.file.path: used_vocabularies(unit.file, vocabulary) for unit in files}
     terms = {prefixes: bare_terms(vocabulary, prefixes) for prefixes in set(uses.values())}
     return {path: terms[prefixes] for path, prefixes in uses.items()}
 
 
 def used_vocabularies(file: s.File, vocabulary: Vocabulary) -> tuple[str, ...]:
-    """Return the prefixes of the vocabularies that a file uses; for a misspelt one, the one that is meant."""
+    """Return the prefixes of the vocabularies that a file uses; a misspelt one is corrected."""
     names = (name for line in file.header if isinstance(line, s.Use) for name in line.vocabularies)
     return tuple(
         meant.text
@@ -91,7 +91,7 @@ def used_vocabularies(file: s.File, vocabulary: Vocabulary) -> tuple[str, ...]:
 
 
 def merge_imported(bare: Bare, imported: Iterable[Declarations]) -> Bare:
-    """Return what bare names mean when the terms of other files are added."""
+    """Return the terms that bare names denote when those of other files are added."""
     merged: dict[Kind, dict[str, set[str]]] = {kind: defaultdict(set) for kind in KINDS}
     for kind in KINDS:
         for name, iris in bare[kind].items():

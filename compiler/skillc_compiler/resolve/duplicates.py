@@ -1,4 +1,4 @@
-"""What a library declares twice."""
+"""Duplicate declarations of a library."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from skillc_dsl.source import Span
 def remove_duplicates(
     files: Sequence[ParsedFile], declared: Mapping[str, Declarations]
 ) -> Outcome[tuple[ParsedFile, ...]]:
-    """Return the files with the first skill, implementation and task of each name; report every second declaration.
+    """Return the files with the first skill, implementation and task of each name; report the others.
 
-    Implementations that follow a second skill of a name in its file were written for that one: they go with it.
-    Second terms and functions stay, as they add to the first.
+    Implementations that follow a second skill of a name in its file were written for it, so they are removed with it.
+    Second declarations of terms and functions stay, as they add to the first.
     """
     first: dict[tuple[str, ...], Span] = {}
     problems: list[Diagnostic] = []
@@ -32,7 +32,7 @@ def remove_duplicates(
 def _first_declarations(
     file: s.File, declared: Declarations, first: dict[tuple[str, ...], Span], problems: list[Diagnostic]
 ) -> Iterator[s.Declaration]:
-    """Yield the declarations that stay; `first` holds the places of those known so far and is added to."""
+    """Yield the declarations that stay; the place of each is added to `first`."""
     second_skills: set[str] = set()
     for declaration in file.declarations:
         if isinstance(declaration, s.ImplementationDeclaration) and declaration.skill.text in second_skills:
@@ -56,7 +56,7 @@ def _problem(kind: str, name: s.Name, first: Span) -> Diagnostic:
         "duplicate-declaration",
         name.span,
         f"the {kind} `{name.text}` is declared twice",
-        help="give one of them another name, or take one away",
+        help="give one of them another name, or remove one",
         labels=(Label(first, "first declared here"),),
     )
 

@@ -1,4 +1,4 @@
-"""Reads a library: its files, and the importable files that they import, each after what it imports."""
+"""Reads a library: its files, and the importable files that they import, each after its own imports."""
 
 from __future__ import annotations
 
@@ -23,7 +23,8 @@ def read_sources(
 ) -> Outcome[tuple[ParsedFile, ...]]:
     """Parse the sources and what they import; `importable` is keyed by file name, `name` is the library's.
 
-    Importable files belong to the library `std` if their path says so, else to this one. `parsed_by` may remember.
+    Importable files belong to the library `std` if their path begins with it, else to this one. `parsed_by` is the
+    parser, which may cache its results.
     """
     reader = _Reader({source.path: source for source in sources}, importable, name, parsed_by)
     for path in sorted(reader.own):
@@ -41,7 +42,7 @@ class _Reader:
     problems: list[Diagnostic] = field(default_factory=list)
 
     def read(self, source: Source, library: str, importing: tuple[str, ...]) -> None:
-        """Read a file after the files it imports; `importing` are the files on the way here."""
+        """Read a file after the files that it imports; `importing` is the chain of files that led here."""
         if source.path in self.files:
             return
         parsed = self.parse(source)
@@ -73,7 +74,7 @@ class _Reader:
         return found, STANDARD_LIBRARY if found.path.startswith(f"{STANDARD_LIBRARY}/") else self.name
 
     def _meant(self, file: s.File, line: s.Import, library: str) -> tuple[Source, str] | None:
-        """Report a file that there is not; return the one that is meant, if its name is like that of one file only."""
+        """Report a missing file; return the one that is meant, if its name is close to that of one file only."""
         folder = posixpath.dirname(file.path)
         beside = [posixpath.relpath(p, folder or ".") for p in self.own] if library == self.name else []
         candidates = [name for name in (*beside, *self.importable) if name != posixpath.basename(file.path)]
@@ -96,7 +97,7 @@ class _Reader:
             Diagnostic(
                 "import-cycle",
                 line.path.span,
-                f"the imports go round in a circle: {way}",
+                f"the imports form a cycle: {way}",
                 help="move what both files need into a third file and import that from both",
             )
         )

@@ -1,4 +1,4 @@
-"""Understanding implementations: refinements merged into the description's parameters, lets, own conditions, body."""
+"""Resolving implementations: refinements merged into the parameters, `let` values, own conditions, body."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from skillc_dsl.source import Span
 def resolve_implementation(
     context: FileContext, written: s.ImplementationDeclaration, skill: Skill, lines: Sequence[str]
 ) -> Implementation:
-    """Return what an implementation means; `lines` is the file's text."""
+    """Return the resolved implementation; `lines` is the text of its file."""
     refinements = tuple(_refinements(context, written, skill))
     parameters = tuple(_merge_refinement(p, refinements) for p in skill.parameters)
     owner = f"the implementation `{written.name.text}` of `{skill.name}`"
@@ -118,7 +118,7 @@ def _body(context: FileContext, scope: Scope, written: s.ImplementationDeclarati
         context.report(
             "duplicate-member",
             extra.span,
-            "an implementation has one body, and there is another",
+            "an implementation can only have one body",
             "keep one `do` or `run`, or make two implementations",
             Label(bodies[0].span, "the first one"),
         )
@@ -141,7 +141,7 @@ def _verified(
 
 
 def _text(lines: Sequence[str], span: Span) -> str:
-    """Return what a span covers, in one line."""
+    """Return the text that a span covers, in one line."""
     covered = list(lines[span.line - 1 : span.end_line])
     covered[-1] = covered[-1][: span.end_column - 1]
     covered[0] = covered[0][span.column - 1 :]

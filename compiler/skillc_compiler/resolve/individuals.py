@@ -1,4 +1,4 @@
-"""The individuals of a scene, as values see them."""
+"""The individuals of a scene, with their classes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Individuals: TypeAlias = Mapping[str, Sequence[str]]
 
 
 def most_specific_classes(vocabulary: Vocabulary, individuals: Individuals) -> dict[str, str | None]:
-    """Return each individual's class of which no other of its classes is a subclass, None where there are several."""
+    """Return the most specific class of each individual, None if there are several."""
     return {iri: _most_specific(vocabulary, classes) for iri, classes in individuals.items()}
 
 

@@ -1,4 +1,4 @@
-"""Understanding what skills and implementations share: parameter heads, requirements, durations."""
+"""Resolving what skills and implementations share: requirements, durations, constants."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ CONSTANT_SCOPE = Scope("a default or range, which is a constant,")
 def resolve_requirements(
     context: FileContext, before: Scope, after: Scope, members: Sequence[object], labels: dict[str, s.Name]
 ) -> Iterator[Requirement]:
-    """Yield the conditions; posts are understood in the scope `after`, where outputs have values.
+    """Yield the conditions; posts are resolved in the scope `after`, where outputs have values.
 
-    `labels` holds the labels taken so far and is added to.
+    `labels` holds the labels used so far; new ones are added to it.
     """
     for member in members:
         if isinstance(member, s.Requirement):
@@ -40,13 +40,13 @@ def resolve_requirements(
 
 
 def resolve_duration(context: FileContext, scope: Scope, members: Sequence[object]) -> TypedExpression | None:
-    """Return the expected time; a second one is reported."""
+    """Return the expected duration; a second one is reported."""
     written = single_member(context, members, s.Duration, "duration")
     return resolve_value(context, scope, written.value, ExpectedType(Measure(TIME))) if written else None
 
 
 def single_member(context: FileContext, members: Sequence[object], kind: type[Member], word: str) -> Member | None:
-    """Return the one member of a kind; every further one is reported."""
+    """Return the member of a kind; further ones are reported."""
     found = [member for member in members if isinstance(member, kind)]
     for extra in found[1:]:
         context.report(
@@ -72,7 +72,7 @@ def _check_label(context: FileContext, member: s.Requirement, labels: dict[str, 
         context.report(
             "duplicate-label",
             member.label.span,
-            f"`{member.label.text}` labels another condition already",
+            f"`{member.label.text}` is already the label of another condition",
             "choose another label",
             Label(former.span, "the other one"),
         )

@@ -1,4 +1,4 @@
-"""What a file can name, and looking names up in it."""
+"""The names that are visible in a file, and their look-up."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ KINDS: tuple[Kind, ...] = ("class", "relation", "property")
 
 @dataclass
 class Names:
-    """The names visible in one file, and what went wrong in looking some up.
+    """The names visible in one file, and the problems found when looking names up.
 
-    `bare` gives the IRIs that a bare name may mean, `known` all IRIs there are; `elsewhere` tells which file of the
-    library declares what this file does not import.
+    `bare` gives the IRIs that a bare name may denote, `known` all IRIs that exist; `elsewhere` gives the file of the
+    library that declares a name which this file does not import.
     """
 
     bare: Mapping[Kind, Mapping[str, tuple[str, ...]]]
@@ -43,7 +43,7 @@ class Names:
     used: set[str] = field(default_factory=set)
 
     def look_up_term(self, kind: Kind, name: s.Name, fits: Callable[[str], bool] = lambda _: True) -> str | None:
-        """Return the IRI that a name means, or report that it means none or several. Near misses satisfy `fits`."""
+        """Return the IRI of a name, or report that it denotes no term or several. Suggestions satisfy `fits`."""
         self.used.add(name.text)
         if ":" in name.text:
             return self._qualified_term(kind, name, fits)
@@ -73,14 +73,14 @@ class Names:
         return None
 
     def look_up_function(self, name: s.Name) -> FunctionTerm | None:
-        """Return the function of that name, or report that there is none."""
+        """Return the function of that name, or report that it is unknown."""
         self.used.add(name.text)
         if name.text not in self.functions:
             self._report_unknown("function", name, self.functions)
         return self.functions.get(name.text)
 
     def look_up_skill(self, name: s.Name) -> str | None:
-        """Return the name if it is a visible skill's, or report that there is none."""
+        """Return the name if it is a visible skill's, or report that it is unknown."""
         self.used.add(name.text)
         if name.text in self.skills:
             return name.text
@@ -88,11 +88,11 @@ class Names:
         return None
 
     def kind_of(self, iri: str) -> Kind | None:
-        """Return what kind of term an IRI is, None for an individual."""
+        """Return the kind of term that an IRI denotes, None for an individual."""
         return next((kind for kind in KINDS if iri in self.known[kind]), None)
 
     def is_term(self, kind: Kind, text: str) -> bool:
-        """Whether a bare or qualified name means a term of this kind here."""
+        """Whether a bare or qualified name denotes a term of this kind here."""
         prefix, _, local = text.rpartition(":")
         if not prefix:
             return text in self.bare[kind]
@@ -100,7 +100,7 @@ class Names:
         return self.vocabulary.aliases.get(iri, iri) in self.known[kind]
 
     def shorten(self, iri: str) -> str:
-        """Return an IRI as it can be written here: with the longest prefix that fits."""
+        """Return an IRI as it can be written here, with the longest prefix that fits."""
         fitting = [(len(base), prefix) for prefix, base in self.prefixes.items() if iri.startswith(base)]
         if not fitting:
             return iri
@@ -131,8 +131,8 @@ class Names:
             Diagnostic(
                 "deprecated-term",
                 name.span,
-                f"the {kind} `{name.text}` should not be used any more",
-                help=f"use `{text}` instead" if other else "its vocabulary names nothing to use instead",
+                f"the {kind} `{name.text}` is deprecated",
+                help=f"use `{text}` instead" if other else "its vocabulary gives no replacement",
                 severity="warning",
                 labels=label_declaration(self._table(kind)[iri]) if iri in self._table(kind) else (),
                 fix=Fix(name.span, text, f"write `{text}`") if other else None,
@@ -194,7 +194,7 @@ class Names:
 
 
 def bare_terms(vocabulary: Vocabulary, used: Iterable[str]) -> dict[Kind, dict[str, tuple[str, ...]]]:
-    """Return what bare names mean in a file that uses these vocabularies; `Thing` is always there."""
+    """Return the terms that bare names denote in a file that uses these vocabularies; `Thing` is always included."""
     tables: dict[Kind, Mapping[str, object]] = {
         "class": vocabulary.classes,
         "relation": vocabulary.relations,

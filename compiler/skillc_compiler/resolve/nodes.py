@@ -1,4 +1,4 @@
-"""Understanding bodies: the values, conditions and calls of nodes, and where outputs have their values."""
+"""Resolving bodies: the expressions, conditions and calls of nodes, and the scope after each node."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ SECONDS = ExpectedType(Measure(TIME))
 
 
 def resolve_node(context: FileContext, scope: Scope, written: s.Node) -> tuple[TypedNode, Scope]:
-    """Return what a node means, and the scope after it."""
+    """Return the typed node, and the scope after it."""
     match written:
         case s.Block():
             return _block(context, scope, written)
@@ -93,7 +93,7 @@ def _for(context: FileContext, scope: Scope, written: s.For) -> tuple[TypedNode,
 
 
 def assume_outputs_assigned(scope: Scope) -> Scope:
-    """Return the scope of a body, in which outputs may be read; whether they have a value there is proved later."""
+    """Return the scope of a body, in which outputs may be read; the analysis proves whether they have a value."""
     return replace(scope, variables={name: replace(v, is_assigned=True) for name, v in scope.variables.items()})
 
 

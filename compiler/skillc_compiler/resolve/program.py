@@ -1,4 +1,4 @@
-"""Resolves a library: vocabulary first, then all skills, then what calls them."""
+"""Resolves a library: the vocabulary first, then all skills, then implementations and tasks."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from skillc_rdf.vocabulary.types import Vocabulary
 def resolve_program(
     read: Sequence[ParsedFile], base: Vocabulary, name: str, scenes: Mapping[str, Individuals]
 ) -> Outcome[Program]:
-    """Return the program that the files mean together; what cannot be understood is reported and left unknown.
+    """Return the program of the files; unresolved names are reported and left unknown.
 
     `scenes` holds the individuals that tasks may name, by task.
     """
@@ -145,7 +145,7 @@ def _tasks(
 
 
 def _headers(files: Sequence[ParsedFile], base: Vocabulary) -> Iterator[Diagnostic]:
-    """Report vocabularies that there are not, and prefixes that mean something else already."""
+    """Report unknown vocabularies, and prefixes that already denote something else."""
     for unit in files:
         for line in unit.file.header:
             match line:
@@ -162,7 +162,7 @@ def _headers(files: Sequence[ParsedFile], base: Vocabulary) -> Iterator[Diagnost
                     yield Diagnostic(
                         "duplicate-prefix",
                         name.span,
-                        f"the prefix `{name.text}` is that of the vocabulary <{base.prefixes[name.text]}>",
+                        f"the prefix `{name.text}` already denotes the vocabulary <{base.prefixes[name.text]}>",
                         "choose another prefix",
                     )
                 case _:

@@ -1,4 +1,4 @@
-"""Understanding `verify` lines: the skills, conditions and forces they speak of."""
+"""Resolving `verify` lines: their skills, conditions and forces."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from skillc_dsl import syntax as s
 from skillc_dsl.units import FORCE
 
 FORCE_NAME = "force"
-"""The name of the measured contact force, where no parameter of that name is meant."""
+"""The name of the measured contact force, unless a parameter has that name."""
 
 
 def resolve_verify(context: FileContext, scope: Scope, written: s.Verify, text: str) -> Property | None:
-    """Return what a property means; None where a skill in it is unknown."""
+    """Return the resolved `verify` line, or None if a skill in it is unknown."""
     first = _event(context, scope, written.first)
     second = _event(context, scope, written.second) if written.second is not None else None
     if first is None or (second is None and written.second is not None):

@@ -1,4 +1,4 @@
-"""The local names that a value or condition can read, and the context in which it is understood."""
+"""The local names that an expression can read, and the context in which it is resolved."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class LocalName:
 
 @dataclass(frozen=True, slots=True)
 class Scope:
-    """Local names; `owner` says in messages what they belong to: "skill `Pick`"."""
+    """Local names; `owner` is what they belong to, as shown in messages: "skill `Pick`"."""
 
     owner: str
     variables: Mapping[str, LocalName] = field(default_factory=dict)
@@ -42,9 +42,9 @@ class Scope:
 
 @dataclass(frozen=True, slots=True)
 class FileContext:
-    """What does not change within a declaration: the file's names, the vocabulary, the skills.
+    """What is constant within a declaration: the file's names, the vocabulary, the skills.
 
-    `individuals` are those of the scene with the class of each, None where several; None where no scene is known.
+    `individuals` are those of the scene with the class of each, None if it has several; None if no scene is known.
     """
 
     names: Names
@@ -54,13 +54,13 @@ class FileContext:
     individuals: Mapping[str, str | None] | None = None
 
     def report(self, name: str, span: Span, message: str, help: str = "", *labels: Label) -> None:
-        """Note a problem."""
+        """Record a problem."""
         self.names.problems.append(Diagnostic(name, span, message, help, labels=labels))
 
     def report_unknown(
         self, name: str, wrong: s.Name, message: str, candidates: Sequence[str], otherwise: str = "", *labels: Label
     ) -> None:
-        """Note that a name means nothing; help is the names it is like, else `otherwise`."""
+        """Record that a name is unknown; the help lists close names, or is `otherwise`."""
         help_ = did_you_mean(wrong.text, candidates) or otherwise
         fix = suggest_fix(wrong, candidates)
         self.names.problems.append(Diagnostic(name, wrong.span, message, help_, labels=labels, fix=fix))

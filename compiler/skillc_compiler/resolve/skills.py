@@ -1,4 +1,4 @@
-"""Understanding skills: parameters, conditions, devices, flags."""
+"""Resolving skills: parameters, conditions, devices, flags."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from skillc_dsl.diagnostics import Label
 
 
 def resolve_skill(context: FileContext, written: s.SkillDeclaration) -> Skill:
-    """Return what a description means."""
+    """Return the resolved description."""
     parameters = tuple(_parameters(context, written))
     before, after = build_scopes(f"the skill `{written.name.text}`", parameters)
     return Skill(
@@ -31,7 +31,7 @@ def resolve_skill(context: FileContext, written: s.SkillDeclaration) -> Skill:
 
 
 def build_scopes(owner: str, parameters: tuple[Parameter, ...]) -> tuple[Scope, Scope]:
-    """Return the names that can be read before a skill has run, when outputs have no values, and after."""
+    """Return the scope before a skill has run, in which outputs have no values, and the scope after it."""
     inputs = {p.name: LocalName(p.type, "parameter", p.span) for p in parameters if p.direction != "out"}
     outputs = {p.name: p for p in parameters if p.direction == "out"}
     before = Scope(
@@ -54,7 +54,7 @@ def _parameters(context: FileContext, written: s.SkillDeclaration) -> Iterator[P
             "duplicate-parameter",
             member.name.span,
             f"the parameter `{member.name.text}` is declared twice",
-            "give it another name, or take one away",
+            "give it another name, or remove one",
             Label(first.name.span, "first declared here"),
         )
 

@@ -10,7 +10,7 @@ from skillc_dsl.diagnostics import Fix
 
 
 def suggest_fix(wrong: s.Name, candidates: Iterable[str]) -> Fix | None:
-    """Return the edit that puts the one candidate close to a name in its place, None if none or several are close."""
+    """Return the edit that replaces a name by the one candidate close to it, None if none or several are close."""
     near = difflib.get_close_matches(wrong.text, sorted(set(candidates)), n=2, cutoff=0.75)
     if len(near) != 1:
         return None

@@ -1,4 +1,4 @@
-"""Understanding tasks: a scene with a goal or a body, spoken of individuals."""
+"""Resolving tasks: a scene with a goal or a body."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from skillc_dsl import syntax as s
 
 
 def resolve_task(context: FileContext, written: s.TaskDeclaration) -> Task:
-    """Return what a task means."""
+    """Return the resolved task."""
     scope = Scope(f"the task `{written.name.text}`")
     return Task(
         name=written.name.text,

@@ -25,7 +25,7 @@ def extend_vocabulary(
     declared: Mapping[str, Declarations],
     names: Mapping[str, Names],
 ) -> Vocabulary:
-    """Return the vocabulary with everything the files declare; problems are told to the files' names."""
+    """Return the vocabulary with everything that the files declare; problems are added to the files' names."""
     classes, relations = dict(vocabulary.classes), dict(vocabulary.relations)
     properties, functions = dict(vocabulary.properties), dict(vocabulary.functions)
     for unit in files:
@@ -57,7 +57,7 @@ def extend_vocabulary(
 
 
 def _declared(kind: Kind, name: s.Name, here: Declarations, names: Names) -> str:
-    """Return the IRI under which a term is declared; report a prefix that there is not."""
+    """Return the IRI under which a term is declared; report an unknown prefix."""
     if ":" in name.text:
         names.look_up_individual(name)
     return here.terms[kind][name.text]
@@ -82,7 +82,7 @@ def _added_to(unit: ParsedFile, here: Declarations, vocabulary: Vocabulary) -> I
         yield Diagnostic(
             "redeclared-term",
             name.span,
-            f"`{name.text}` is a {kind} already, `{short}`: this adds to it, and declares no new one",
+            f"`{name.text}` is already a {kind}, `{short}`: this extends it instead of declaring a new one",
             help=f"choose another name, or write `{kind} {short}` if you mean to add to that one",
             severity="warning",
             labels=_declared_at(old),
@@ -90,7 +90,7 @@ def _added_to(unit: ParsedFile, here: Declarations, vocabulary: Vocabulary) -> I
 
 
 def _differs(written: s.Declaration, old: ClassTerm | RelationTerm | PropertyTerm) -> bool:
-    """Whether a property is declared with a type that the old one certainly has not."""
+    """Whether a property is declared with a type that certainly differs from the old one."""
     if not isinstance(written, s.PropertyDeclaration) or not isinstance(old, PropertyTerm):
         return False
     return not isinstance(written.type, s.Name) or BUILT_IN.get(written.type.text) != old.type
@@ -164,7 +164,7 @@ def _function(written: s.FunctionDeclaration, names: Names) -> FunctionTerm:
 
 
 def _complete_inverses(relations: Mapping[str, RelationTerm]) -> dict[str, RelationTerm]:
-    """Say of both relations that they are inverse, where only one was said to be."""
+    """Return the relations with `inverse` set on both if it was only stated for one."""
     stated = {term.inverse: iri for iri, term in relations.items() if term.inverse}
     return {
         iri: term if term.inverse or iri not in stated else msgspec.structs.replace(term, inverse=stated[iri])

@@ -1,4 +1,4 @@
-"""What a written type means."""
+"""The types that type names denote."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ BUILT_IN: dict[str, ValueType] = {
 
 
 def resolve_type(names: Names, written: s.TypeName) -> ValueType:
-    """Return the type; a name that means none is reported, and NOT_UNDERSTOOD is returned for it."""
+    """Return the type; an unknown name is reported, and UNRESOLVED_TYPE is returned for it."""
     match written:
         case s.ListOf(element=element):
             return ListType(resolve_type(names, element))
@@ -36,10 +36,10 @@ def resolve_type(names: Names, written: s.TypeName) -> ValueType:
 
 
 def _of_dimension(names: Names, written: s.OfDimension) -> ValueType:
-    """Return the type of `Vector of DIMENSION`; what else stands before or after `of` is reported."""
+    """Return the type of `Vector of DIMENSION`; anything else before or after `of` is reported."""
     of, dimension = written.of, written.dimension
     if of.text != "Vector":
-        message = f"only a `Vector` is of a dimension, and this is `{of.text}`"
+        message = f"only a `Vector` has a dimension, and this is `{of.text}`"
         help_ = f"write `{dimension.text}` alone" if of.text in DIMENSIONS else f"write `{of.text}` alone"
         names.problems.append(Diagnostic("unknown-type", written.span, message, help=help_))
         return UNRESOLVED_TYPE
@@ -57,7 +57,7 @@ def _class(names: Names, written: s.Name) -> ValueType:
 
 
 def _unknown(names: Names, written: s.Name) -> ValueType:
-    """Report an unknown type; near misses are classes and built-in types alike."""
+    """Report an unknown type; suggestions are classes and built-in types."""
     close = did_you_mean(written.text, BUILT_IN)
     if close.startswith("did you mean"):
         names.problems.append(

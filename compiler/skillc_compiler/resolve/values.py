@@ -1,4 +1,4 @@
-"""Understanding values: what they mean, in SI units, and their types."""
+"""Resolving expressions: their meaning, in SI units, and their types."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from skillc_model.conditions import Arithmetic, Individual, Invoke, Literal, Pro
 
 @dataclass(frozen=True, slots=True)
 class ExpectedType:
-    """What fits where a value stands: near misses are chosen by it, and a bare name may be one of `values`."""
+    """The type expected of an expression: suggestions fit it, and a bare name may be one of `values`."""
 
     type: Type = UNKNOWN
     values: tuple[str, ...] = ()
@@ -40,7 +40,7 @@ ANYTHING = ExpectedType()
 def resolve_value(
     context: FileContext, scope: Scope, written: s.Value, wanted: ExpectedType = ANYTHING
 ) -> TypedExpression:
-    """Return what a value means; what cannot be understood is reported and has an unknown type."""
+    """Return the typed expression; unresolved parts are reported and have an unknown type."""
     match written:
         case s.Quantity(value=number, unit=unit, span=span):
             return TypedExpression(Literal(to_si(number, unit)), Measure(dimension_of(unit)), span)
@@ -89,7 +89,7 @@ def _reference(context: FileContext, scope: Scope, written: s.Reference, wanted:
 
 
 def _unknown_value(context: FileContext, name: s.Name, wanted: ExpectedType) -> None:
-    message = f"`{name.text}` is no value of this property"
+    message = f"`{name.text}` is not a value of this property"
     context.report_unknown("unknown-value", name, message, wanted.values, f"it is {' or '.join(wanted.values)}")
 
 
@@ -143,7 +143,7 @@ def _member(context: FileContext, scope: Scope, written: s.Member) -> TypedExpre
 
 
 def resolve_property(context: FileContext, of: TypedExpression, name: s.Name) -> str | None:
-    """Return the IRI of a property; near misses are those that `of` can have."""
+    """Return the IRI of a property; suggestions are those that `of` can have."""
     names, vocabulary = context.names, context.vocabulary
     if names.is_term("relation", name.text) and not names.is_term("property", name.text):
         context.report(
@@ -182,14 +182,14 @@ def _arithmetic(context: FileContext, scope: Scope, written: s.Arithmetic) -> Ty
 
 
 def _is_turned(operator: str, left: TypedExpression, right: TypedExpression) -> bool:
-    """Whether this is a direction times or by 1 or -1, which is a direction still."""
+    """Whether this is a direction times or divided by 1 or -1, which is still a direction."""
     one, other = (right, left) if operator == "*" and isinstance(right.type, Direction) else (left, right)
     is_one = _as_number_type(other.type) == Measure(NUMBER) and other.meaning in (Literal(1), Literal(-1))
     return operator in ("*", "/") and isinstance(one.type, Direction) and is_one
 
 
 def arithmetic_type(operator: str, left: Type, right: Type) -> Type | None:
-    """Return the type of `left operator right`, None where the operator does not apply to such values."""
+    """Return the type of `left operator right`, None if the operator does not apply to such values."""
     if UNKNOWN in (left, right):
         return UNKNOWN
     if (left, right) == (INT, INT) and operator != "/":
@@ -209,7 +209,7 @@ def arithmetic_type(operator: str, left: Type, right: Type) -> Type | None:
 
 
 def _as_number_type(kind: Type) -> Type:
-    """Return what a type is to arithmetic: a whole number is a number, a direction a vector of pure numbers."""
+    """Return the type for arithmetic: an integer is a number, a direction a dimensionless vector."""
     match kind:
         case Direction():
             return Vector(NUMBER)
