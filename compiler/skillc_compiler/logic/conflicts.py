@@ -28,9 +28,8 @@ class Conflicts:
 
     def implied(self, fact: Holds) -> Iterator[Link]:
         """Yield every link that a relation implies: its own, those of its super-relations, and inverses."""
-        for each in self.vocabulary.closure.implied.get(fact.relation, ()):
-            subject, object_ = each.ends(fact.subject, fact.object)
-            yield Link(subject, each.relation, object_)
+        for term, subject, object_ in self.vocabulary.implied_links(fact.relation, fact.subject, fact.object):
+            yield Link(subject, term.iri, object_)
 
     def exclude(self, one: TypedFact, other: TypedFact) -> bool:
         """Whether the two facts cannot both be true."""

@@ -67,9 +67,7 @@ class Consistency:
                 assert_never(effect)
 
     def _implied(self, effect: Assert) -> Iterator[tuple[RelationTerm, Term, Term]]:
-        vocabulary = self.translator.symbols.vocabulary
-        for each in vocabulary.closure.implied[effect.relation]:
-            yield vocabulary.relations[each.relation], *each.ends(effect.subject, effect.object)
+        return self.translator.symbols.vocabulary.implied_links(effect.relation, effect.subject, effect.object)
 
     def _irreflexive(self, effect: Assert) -> Iterator[Formula]:
         for term, subject, object_ in self._implied(effect):

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, TypeVar
 
 import msgspec
 
 from skillc_rdf.vocabulary.closure import RelationClosure, reachable, relation_closure
+
+T = TypeVar("T")
 
 THING = "http://www.w3.org/2002/07/owl#Thing"
 CHARACTERISTICS = ("functional", "inverse_functional", "symmetric", "transitive", "asymmetric", "irreflexive")
@@ -191,6 +194,15 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     def closure(self) -> RelationClosure:
         """What follows from relations by sub-relations, inverses and symmetry."""
         return relation_closure(self.relations)
+
+    def implied_links(self, relation: str, subject: T, object_: T) -> Iterator[tuple[RelationTerm, T, T]]:
+        """Yield what a relation between two things implies, itself included: relations with their subject and object.
+
+        Every rule about axioms of relations looks at these: of the compiler between terms, of the planner between
+        variables, of the world between individuals.
+        """
+        for implied in self.closure.implied.get(relation, ()):
+            yield self.relations[implied.relation], *implied.ends(subject, object_)
 
     @cached_property
     def namespaces(self) -> dict[str, str]:

@@ -164,9 +164,8 @@ def _signature_violations(state: WorldState, subject: str, relation: str, object
 
 def _implied(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[tuple[RelationTerm, str, str]]:
     """Yield the relations that a fact implies, with their subjects and objects; the fact itself first."""
-    for implied, flipped in sorted(state.axioms.implied[relation], key=lambda each: each != (relation, False)):
-        start, end = (object_, subject) if flipped else (subject, object_)
-        yield state.vocabulary.relations[implied], start, end
+    links = state.vocabulary.implied_links(relation, subject, object_)
+    yield from sorted(links, key=lambda each: (each[0].iri, each[1]) != (relation, subject))
 
 
 def asserted_facts(state: WorldState, subject: str, relation: str, object_: str) -> tuple[IriTriple, ...]:
