@@ -11,11 +11,11 @@ import mujoco
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.load import load
-from skillc_runtime.collision.arm_assembly import outfit
-from skillc_runtime.collision.body import body
-from skillc_runtime.collision.contacts import Contacts
-from skillc_runtime.collision.path_planning import Known, NoWay, plan_joint_path
-from skillc_runtime.collision.scenery import Block, Place, scenery
+from skillc_runtime.collision.arm_assembly import read_arm_assembly
+from skillc_runtime.collision.collision_checker import CollisionChecker
+from skillc_runtime.collision.collision_model import build_collision_model
+from skillc_runtime.collision.path_planning import JointSpace, NoPath, plan_joint_path
+from skillc_runtime.collision.scenery import BoxObstacle, PoseKey, read_scenery
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.frames import pose
@@ -28,17 +28,19 @@ PILLARS = {"iiwa_table": (0.42, 0.33), "ur5e_whiteboard": (0.34, 0.3)}
 REPEATS = 200
 
 
-def situation(scene: str) -> tuple[Contacts, Array, Known]:
+def situation(scene: str) -> tuple[CollisionChecker, Array, JointSpace]:
     """Return what an arm with a pillar before it can touch, its home posture, and what is known of it."""
     vocabulary = load([Source(path, text) for path, text in catalogue.vocabulary_files()]).value
     state = load_scene(catalogue.scene(scene), vocabulary)
     arm = min(state.instances(ARM_DEVICE))
-    pillar = Block("pillar", Place((*PILLARS[scene], 0.0), (1.0, 0.0, 0.0, 0.0)), (0.06, 0.06, 0.55))
-    around = scenery(state, pose(state, arm))
+    pillar = BoxObstacle("pillar", PoseKey((*PILLARS[scene], 0.0), (1.0, 0.0, 0.0, 0.0)), (0.06, 0.06, 0.55))
+    around = read_scenery(state, pose(state, arm))
     around = replace(around, blocks=(*around.blocks, pillar))
-    shape = body(outfit(state, arm, dict.fromkeys(state.objects(arm, HAS_GRIPPER), 0.05)), around)
+    shape = build_collision_model(
+        read_arm_assembly(state, arm, dict.fromkeys(state.objects(arm, HAS_GRIPPER), 0.05)), around
+    )
     home = sheet_of(state, arm).posture("home")
-    return Contacts(shape, home), home, Known(shape.model.jnt_range[: shape.joints], (home,))
+    return CollisionChecker(shape, home), home, JointSpace(shape.compiled.jnt_range[: shape.joints], (home,))
 
 
 def least(call: Callable[[], object]) -> float:
@@ -54,17 +56,18 @@ def least(call: Callable[[], object]) -> float:
 def measure(scene: str) -> str:
     """Return what it costs in one scene, as ratios."""
     contacts, home, known = situation(scene)
-    data = mujoco.MjData(contacts.body.model)
-    look = least(lambda: contacts.touch(home)) / least(lambda: mujoco.mj_kinematics(contacts.body.model, data))
+    data = mujoco.MjData(contacts.model.compiled)
+    bare = least(lambda: mujoco.mj_kinematics(contacts.model.compiled, data))
+    look = least(lambda: contacts.find_collision(home)) / bare
     aside, away = home.copy(), home.copy()
     aside[0], away[0] = 1.4, -0.9
-    before = contacts.looks
+    before = contacts.checks
     plan_joint_path(contacts, home, [away], known)
-    straight, before = contacts.looks - before, contacts.looks
+    straight, before = contacts.checks - before, contacts.checks
     try:
         pieces = len(plan_joint_path(contacts, home, [aside], known))
-        around = f"{contacts.looks - before} looks for a way of {pieces} pieces around a pillar"
-    except NoWay as why:
+        around = f"{contacts.checks - before} looks for a way of {pieces} pieces around a pillar"
+    except NoPath as why:
         around = str(why)
     return f"{scene}: a look costs {look:.1f} x mj_kinematics; {straight} looks for a straight way, {around}"
 

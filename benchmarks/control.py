@@ -21,7 +21,7 @@ from skillc_rdf.vocabulary.load import load
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
-from skillc_runtime.motion.path import path
+from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.scene.load import load_scene
@@ -44,7 +44,7 @@ def moving(scene: str) -> tuple[SimulatedCell, str]:
     name = next(iter(cell.arms))
     start = cell.arm(name).motion.stopping_pose()
     goal = Pose(start.position + np.array([0.0, 0.0, 0.1]), start.rotation)
-    cell.arm(name).motion.move_along(path([start, goal], MotionLimits(speed=0.001, acceleration=0.4)))
+    cell.arm(name).motion.move_along(path_through([start, goal], MotionLimits(speed=0.001, acceleration=0.4)))
     cell.advance(1.0)
     return cell, name
 

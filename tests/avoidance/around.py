@@ -11,12 +11,12 @@ import numpy as np
 from simulation import cells
 from simulation.cells import ARM, LAB
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.mujoco.names import box_geom
-from skillc_runtime.collision.arm_assembly import outfit
-from skillc_runtime.collision.body import body
-from skillc_runtime.collision.contacts import Contacts
-from skillc_runtime.collision.path_planning import Known
-from skillc_runtime.collision.scenery import scenery
+from skillc_runtime.backends.mujoco.names import box_geom_name
+from skillc_runtime.collision.arm_assembly import read_arm_assembly
+from skillc_runtime.collision.collision_checker import CollisionChecker
+from skillc_runtime.collision.collision_model import build_collision_model
+from skillc_runtime.collision.path_planning import JointSpace
+from skillc_runtime.collision.scenery import read_scenery
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.frames import placement_changes, pose
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
@@ -86,29 +86,31 @@ def home(scene: str) -> Array:
     return sheet_of(world(scene, []), ARM[scene]).posture("home")
 
 
-def contacts(scene: str, changes: list[Change]) -> tuple[Contacts, Known]:
+def contacts(scene: str, changes: list[Change]) -> tuple[CollisionChecker, JointSpace]:
     """What an arm can touch, and what else is known of it."""
     state, arm = world(scene, changes), ARM[scene]
     sheet = sheet_of(state, arm)
     openings = dict.fromkeys(state.objects(arm, HAS_GRIPPER), 0.05)
-    shape = body(outfit(state, arm, openings), scenery(state, pose(state, arm)))
+    shape = build_collision_model(read_arm_assembly(state, arm, openings), read_scenery(state, pose(state, arm)))
     postures = tuple(sheet.posture(name) for name in sheet.posture_names)
-    return Contacts(shape, sheet.posture("home")), Known(shape.model.jnt_range[: shape.joints], postures)
+    return CollisionChecker(shape, sheet.posture("home")), JointSpace(
+        shape.compiled.jnt_range[: shape.joints], postures
+    )
 
 
 def true_gap(there: SimulatedCell, scene: str, box_name: str) -> float:
     """How far in m, up to 5 cm, arm, gripper and what that holds really are from a box; below 0 inside."""
     model, mine = there.model, own_geoms(there, scene)
-    other = model.geom(box_geom(there.facts.names[LAB + box_name])).id
+    other = model.geom(box_geom_name(there.scene.names[LAB + box_name])).id
     points = np.zeros(6)
     return min(mujoco.mj_geomDistance(model, there.data, geom, other, 0.05, points) for geom in mine)
 
 
 def own_geoms(there: SimulatedCell, scene: str) -> list[int]:
     """The geoms of the arm and of its gripper."""
-    facts = next(each for each in there.facts.arms if each.individual == ARM[scene])
+    facts = next(each for each in there.scene.arms if each.individual == ARM[scene])
     devices = [facts.individual, *([facts.gripper.individual] if facts.gripper else [])]
-    prefixes = tuple(there.facts.names[each] + "/" for each in devices)
+    prefixes = tuple(there.scene.names[each] + "/" for each in devices)
     bodies = there.model.geom_bodyid
     found = [g for g in range(there.model.ngeom) if there.model.body(bodies[g]).name.startswith(prefixes)]
     assert len(found) > 10

@@ -12,21 +12,21 @@ from hypothesis import strategies as st
 
 from avoidance.around import ASIDE_RAD, OWN, aside, contacts, home, pillar
 from simulation.cells import SCENES
-from skillc_runtime.collision.contacts import SLACK_M, Contacts
+from skillc_runtime.collision.collision_checker import SLACK_M, CollisionChecker
 from skillc_runtime.motion.pose import Array
 
 CLEARANCE_M = 0.02
 
 
 @cache
-def of_scene(scene: str) -> Contacts:
+def of_scene(scene: str) -> CollisionChecker:
     return contacts(scene, pillar(scene))[0]
 
 
-def least_distance(of: Contacts, q: Array) -> float:
+def least_distance(of: CollisionChecker, q: Array) -> float:
     """How far in m any part of the arm is from anything that stands around, asked for pair by pair, up to 10 cm."""
-    model, data = of.body.model, mujoco.MjData(of.body.model)
-    data.qpos[:] = [*q, *of.body.fingers]
+    model, data = of.model.compiled, mujoco.MjData(of.model.compiled)
+    data.qpos[:] = [*q, *of.model.fingers]
     mujoco.mj_forward(model, data)
     moving = [g for g in range(model.ngeom) if model.body_weldid[model.geom_bodyid[g]] != 0]
     fixed = [g for g in range(model.ngeom) if model.geom_contype[g] == 2]
@@ -41,7 +41,7 @@ def least_distance(of: Contacts, q: Array) -> float:
 def test_a_posture_is_free_where_every_pair_is_far_enough_apart(scene: str, turn: list[float]) -> None:
     of, q = of_scene(scene), home(scene)
     q[:6] += turn
-    distance, touch = least_distance(of, q), of.touch(q)
+    distance, touch = least_distance(of, q), of.find_collision(q)
     if distance > CLEARANCE_M:
         assert touch is None or touch.other.startswith(OWN)
     elif distance < CLEARANCE_M - 2 * SLACK_M:
@@ -51,15 +51,15 @@ def test_a_posture_is_free_where_every_pair_is_far_enough_apart(scene: str, turn
 @pytest.mark.parametrize("scene", SCENES)
 def test_home_is_free_and_what_is_touched_is_named(scene: str) -> None:
     of, q = of_scene(scene), home(scene)
-    assert of.touch(q) is None
-    touch = of.worst(aside(scene, turn) for turn in np.arange(0.0, ASIDE_RAD, 0.05))
+    assert of.find_collision(q) is None
+    touch = of.worst_collision(aside(scene, turn) for turn in np.arange(0.0, ASIDE_RAD, 0.05))
     assert touch is not None and touch.other == "lab:Pillar"
     assert touch.one.startswith(OWN) and str(touch).endswith("would touch lab:Pillar")
 
 
 def test_an_arm_must_not_touch_itself() -> None:
     of = contacts("iiwa_table", [])[0]
-    touch = of.touch(np.array([0.0, 0.3, 0.0, -2.09, 0.0, -2.09, 0.0]))
+    touch = of.find_collision(np.array([0.0, 0.3, 0.0, -2.09, 0.0, -2.09, 0.0]))
     assert touch is not None
     assert "lab:" in touch.one and touch.other.split()[0] in ("lab:Iiwa-1", "lab:Robotiq-1")
 
@@ -67,21 +67,21 @@ def test_an_arm_must_not_touch_itself() -> None:
 def test_what_is_near_at_the_start_may_stay_as_near_but_no_nearer() -> None:
     of, start = contacts("iiwa_table", pillar("iiwa_table"))[0], home("iiwa_table")
     turns = np.arange(0.0, ASIDE_RAD, 0.005).tolist()
-    turn = next(turn for turn in turns if of.touch(aside("iiwa_table", turn)) is not None)
+    turn = next(turn for turn in turns if of.find_collision(aside("iiwa_table", turn)) is not None)
     near, nearer = aside("iiwa_table", turn), aside("iiwa_table", turn + 0.02)
     of.allow(near, start)
-    assert of.touch(near) is None
-    assert of.touch(nearer) is not None
+    assert of.find_collision(near) is None
+    assert of.find_collision(nearer) is not None
     of.allow(start, start)
-    assert of.touch(near) is not None
+    assert of.find_collision(near) is not None
 
 
 def test_what_the_arm_stands_deep_in_at_the_start_is_not_asked_about() -> None:
     of = contacts("iiwa_table", pillar("iiwa_table"))[0]
     turns = np.arange(0.0, ASIDE_RAD, 0.02).tolist()
-    deep = min((aside("iiwa_table", turn) for turn in turns), key=lambda q: min(of.near(q).values(), default=1.0))
-    assert of.touch(deep) is not None
+    deep = min((aside("iiwa_table", turn) for turn in turns), key=lambda q: min(of.near_pairs(q).values(), default=1.0))
+    assert of.find_collision(deep) is not None
     of.allow(deep, home("iiwa_table"))
-    assert of.first(aside("iiwa_table", turn) for turn in turns) is None
+    assert of.first_collision(aside("iiwa_table", turn) for turn in turns) is None
     of.allow(home("iiwa_table"), home("iiwa_table"))
-    assert of.touch(deep) is not None
+    assert of.find_collision(deep) is not None

@@ -6,8 +6,8 @@ import numpy as np
 
 from avoidance.around import box, world
 from simulation.cells import ARM, ERASER, GRIPPER, LAB, PLACE
-from skillc_runtime.collision.arm_assembly import ArmAssembly, outfit
-from skillc_runtime.collision.scenery import scenery
+from skillc_runtime.collision.arm_assembly import ArmAssembly, read_arm_assembly
+from skillc_runtime.collision.scenery import read_scenery
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.space.frames import placement_changes, pose
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, RemoveRelation, SetProperty
@@ -19,7 +19,7 @@ IN_HAND = Pose.of((0.0, 0.0, 0.03), (0.0, 1.0, 0.0, 0.0))
 
 def names(changes: list[Change]) -> list[str]:
     state = world(SCENE, changes)
-    return [block.name for block in scenery(state, pose(state, ARM[SCENE])).blocks]
+    return [block.name for block in read_scenery(state, pose(state, ARM[SCENE])).blocks]
 
 
 def taken() -> list[Change]:
@@ -33,7 +33,7 @@ def taken() -> list[Change]:
 
 
 def dressed(changes: list[Change]) -> ArmAssembly:
-    return outfit(world(SCENE, changes), ARM[SCENE], {GRIPPER[SCENE]: 0.05})
+    return read_arm_assembly(world(SCENE, changes), ARM[SCENE], {GRIPPER[SCENE]: 0.05})
 
 
 def test_whatever_has_a_place_and_a_size_stands_around() -> None:
@@ -52,7 +52,7 @@ def test_a_workspace_is_nothing_to_touch() -> None:
 
 def test_boxes_are_seen_from_the_arm_by_their_middle() -> None:
     state = world(SCENE, [])
-    table = next(b for b in scenery(state, pose(state, ARM[SCENE])).blocks if b.name == "lab:Table-1")
+    table = next(b for b in read_scenery(state, pose(state, ARM[SCENE])).blocks if b.name == "lab:Table-1")
     assert np.allclose(table.place.position, (0.56, 0.05, 0.75 - 0.025 - 0.6))
     assert np.allclose(table.half, (0.15, 0.2, 0.025))
 
@@ -71,4 +71,4 @@ def test_what_is_held_moves_along_and_stands_around_no_more() -> None:
 def test_the_same_facts_make_the_same_outfit_and_scenery() -> None:
     state, again = world(SCENE, []), world(SCENE, [])
     assert dressed([]) == dressed([]) and hash(dressed([])) == hash(dressed([])) and dressed([]) != dressed(taken())
-    assert scenery(state, pose(state, ARM[SCENE])) == scenery(again, pose(again, ARM[SCENE]))
+    assert read_scenery(state, pose(state, ARM[SCENE])) == read_scenery(again, pose(again, ARM[SCENE]))

@@ -15,8 +15,8 @@ from avoidance.around import aside, box, contacts, home, pillar, posture
 from avoidance.test_contacts import least_distance
 from simulation.cells import SCENES
 from skillc_runtime.collision import path_planning as ways
-from skillc_runtime.collision.contacts import SLACK_M, Contacts
-from skillc_runtime.collision.path_planning import NoWay, plan_joint_path, touch_on
+from skillc_runtime.collision.collision_checker import SLACK_M, CollisionChecker
+from skillc_runtime.collision.path_planning import NoPath, find_motion_collision, plan_joint_path
 from skillc_runtime.motion.joint_path import joint_path
 from skillc_runtime.motion.pose import Array
 
@@ -42,16 +42,16 @@ def finely(postures: list[Array], step: float = 0.005) -> list[Array]:
     return found
 
 
-def is_free(of: Contacts, start: Array, found: tuple[Array, ...]) -> None:
+def is_free(of: CollisionChecker, start: Array, found: tuple[Array, ...]) -> None:
     """Check that nothing is touched and, blended, no limit of the joints is broken, by other means than the search."""
     postures = [start, *found]
     assert min(least_distance(of, q) for q in finely(postures)[::4]) > 0.0
-    assert all(of.touch(q) is None or of.touch(q).distance_m > 0.0 for q in finely(postures))
+    assert all(of.find_collision(q) is None or of.find_collision(q).distance_m > 0.0 for q in finely(postures))
     speed = np.full(len(start), 0.5)
     motion = joint_path(postures, speed, speed / 0.5, [0.0] * (len(postures) - 2))
-    touch = touch_on(of, motion)
-    nearest = min(of.body.margin, least_distance(of, start), least_distance(of, found[-1]))
-    assert touch is None or touch.distance_m > nearest - of.body.margin / 2 - SLACK_M
+    touch = find_motion_collision(of, motion)
+    nearest = min(of.model.margin, least_distance(of, start), least_distance(of, found[-1]))
+    assert touch is None or touch.distance_m > nearest - of.model.margin / 2 - SLACK_M
     samples = [motion.at(time) for time in np.linspace(0.0, motion.duration, 200).tolist()]
     assert all(
         (np.abs(now.dq) <= speed + 1e-9).all() and (np.abs(now.ddq) <= 2 * speed + 1e-9).all() for now in samples
@@ -71,7 +71,7 @@ def test_whatever_way_is_found_is_free(scene: str, where: tuple[float, float, fl
     assume(least_distance(of, start) > 0.03)
     try:
         found = plan_joint_path(of, start, [goal], known)
-    except NoWay as why:
+    except NoPath as why:
         assert "lab:" in str(why)
         return
     assert (found[-1] == goal).all()
@@ -96,7 +96,7 @@ def test_without_search_it_is_said_what_is_in_the_way(scene: str, monkeypatch: p
     monkeypatch.setattr(ways, "DRAWN", 0)
     of, known = contacts(scene, pillar(scene))
     with pytest.raises(
-        NoWay, match=r"straight way lab:\S+.* would touch lab:Pillar; .* extra `motion` searches longer"
+        NoPath, match=r"straight way lab:\S+.* would touch lab:Pillar; .* extra `motion` searches longer"
     ):
         plan_joint_path(of, home(scene), [aside(scene)], known)
 
@@ -129,7 +129,7 @@ def test_where_nothing_is_in_the_way_it_goes_straight() -> None:
 def test_a_goal_that_touches_is_told_and_another_one_taken() -> None:
     of, known = contacts("iiwa_table", pillar("iiwa_table"))
     into, beside = aside("iiwa_table", 0.65), aside("iiwa_table", -0.3)
-    with pytest.raises(NoWay, match=r"where it shall go lab:.* would touch lab:Pillar"):
+    with pytest.raises(NoPath, match=r"where it shall go lab:.* would touch lab:Pillar"):
         plan_joint_path(of, home("iiwa_table"), [into], known)
     assert plan_joint_path(of, home("iiwa_table"), [into, beside], known) == (beside,)
 
@@ -139,6 +139,6 @@ def test_a_search_ends_after_so_many_looks(monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setattr(ways, "MOST_LOOKS", 1)
     monkeypatch.setattr(ways, "DRAWN", 0)
     of, known = contacts("ur5e_whiteboard", pillar("ur5e_whiteboard"))
-    with pytest.raises(NoWay, match=r"no way around was found in \d+ looks"):
+    with pytest.raises(NoPath, match=r"no way around was found in \d+ looks"):
         plan_joint_path(of, home("ur5e_whiteboard"), [aside("ur5e_whiteboard")], known)
-    assert of.looks < 2000
+    assert of.checks < 2000

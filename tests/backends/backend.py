@@ -13,7 +13,7 @@ import numpy as np
 
 from simulation.cells import ARM, world
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.mujoco.names import part
+from skillc_runtime.backends.mujoco.names import part_name
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.devices.arm import Arm
 from skillc_runtime.motion.pose import Array
@@ -58,11 +58,11 @@ class MujocoBackend:
     def __init__(self, scene: str, controller: str | None = None, steps_per_command: int = 1) -> None:
         changes = [] if controller is None else [SetProperty(ARM[scene], COMPLIANT_CONTROLLER, controller)]
         self._cell = SimulatedCell(WorldModel(world(scene).with_changes(changes)), steps_per_command=steps_per_command)
-        facts = self._cell.facts.arms[0]
+        facts = self._cell.scene.arms[0]
         assert facts.gripper is not None
         self.arm = self._cell.arms[facts.individual]
         self.driver = self._cell.arm(facts.individual)
-        self._hand = self._cell.data.body(part(self._cell.facts.names[facts.gripper.individual], "palm"))
+        self._hand = self._cell.data.body(part_name(self._cell.scene.names[facts.gripper.individual], "palm"))
         self._normal, self._place, self.force_n = np.zeros(3), 0.0, 0.0
         self._depth = 0.0
 

@@ -10,7 +10,7 @@ import pytest
 
 from backends.backend import BACKENDS, Backend
 from skillc_runtime.devices.arm import JointPosition, JointVelocity, Mode, ModeRefused, Torque
-from skillc_runtime.motion.path import path
+from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.segments import MotionLimits
 
@@ -38,7 +38,7 @@ def beside(backend: Backend, *way: float) -> Pose:
 
 
 def go(backend: Backend, target: Pose, seconds: float) -> None:
-    backend.driver.motion.move_along(path([backend.driver.motion.stopping_pose(), target], LIMITS))
+    backend.driver.motion.move_along(path_through([backend.driver.motion.stopping_pose(), target], LIMITS))
     backend.advance(seconds)
 
 
@@ -137,7 +137,7 @@ def test_what_it_cannot_do_is_refused_and_it_goes_on_as_before(backend: Backend)
 
 def test_it_changes_its_mode_on_the_way_without_a_jump_and_rests_until_the_first_command(backend: Backend) -> None:
     arm, driver, before = backend.arm, backend.driver, backend.arm.interface
-    driver.motion.move_along(path([driver.motion.stopping_pose(), beside(backend, 0.0, 0.08, 0.0)], LIMITS))
+    driver.motion.move_along(path_through([driver.motion.stopping_pose(), beside(backend, 0.0, 0.08, 0.0)], LIMITS))
     for mode in (*arm.capabilities.modes, before):
         backend.advance(0.25)
         moving, speeds = arm.state().dq.copy(), []
@@ -180,7 +180,7 @@ def test_a_motion_of_the_joints_that_runs_into_something_does_not_press_ever_har
 
 def test_an_arm_that_nobody_commands_holds_still_and_goes_on_without_a_jump(backend: Backend) -> None:
     driver = backend.driver
-    driver.motion.move_along(path([driver.motion.stopping_pose(), beside(backend, 0.0, 0.08, 0.0)], LIMITS))
+    driver.motion.move_along(path_through([driver.motion.stopping_pose(), beside(backend, 0.0, 0.08, 0.0)], LIMITS))
     backend.advance(0.4)
     assert np.abs(driver.measured.velocity[:3]).max() > 0.1
     backend.neglect(0.6)
@@ -198,7 +198,7 @@ def test_an_arm_that_nobody_commands_holds_still_and_goes_on_without_a_jump(back
 
 def test_it_stops_at_once(backend: Backend) -> None:
     driver = backend.driver
-    driver.motion.move_along(path([driver.motion.stopping_pose(), beside(backend, 0.0, 0.08, 0.0)], LIMITS))
+    driver.motion.move_along(path_through([driver.motion.stopping_pose(), beside(backend, 0.0, 0.08, 0.0)], LIMITS))
     backend.advance(0.4)
     where = driver.measured.pose.position
     driver.hold_still("enough")

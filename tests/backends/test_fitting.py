@@ -10,7 +10,7 @@ import pytest
 from simulation.cells import ARM, LAB, world
 from skillc_runtime.backends.mujoco.arm import SimulatedArm
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.mujoco.driver_factory import driver
+from skillc_runtime.backends.mujoco.driver_factory import make_driver
 from skillc_runtime.world.state.changes import Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldModel
@@ -48,7 +48,7 @@ def test_a_law_whose_commands_the_arm_does_not_take_is_told() -> None:
 
 def test_an_arm_that_takes_positions_only_refuses_speeds() -> None:
     there = SimulatedCell(WorldModel(world(UR5E)))
-    facts = replace(there.facts.arms[0], modes=("position",), controller="forward_dynamics_velocity")
-    arm = SimulatedArm(facts, there.facts.names[facts.individual], None, there.model, there.data, there.variation)
+    facts = replace(there.scene.arms[0], modes=("position",), controller="forward_dynamics_velocity")
+    arm = SimulatedArm(facts, there.scene.names[facts.individual], None, there.model, there.data, there.variation)
     with pytest.raises(SheetError, match="the arm takes position commands, not velocity commands"):
-        driver(facts, arm, there.period_s)
+        make_driver(facts, arm, there.period_s)

@@ -10,7 +10,7 @@ import pytest
 from backends.backend import MujocoBackend
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.devices.arm import Command, JointVelocity
-from skillc_runtime.motion.path import path
+from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.segments import MotionLimits
 
@@ -47,7 +47,7 @@ def beside(there: MujocoBackend, *way: float) -> Pose:
 def test_whatever_is_changed_on_the_way_no_speed_jumps() -> None:
     there = arm_told_speeds()
     driver, home, speeds = there.driver, there.driver.measured.q, told(there)
-    driver.motion.move_along(path([driver.motion.stopping_pose(), beside(there, 0.0, 0.08, 0.0)], LIMITS))
+    driver.motion.move_along(path_through([driver.motion.stopping_pose(), beside(there, 0.0, 0.08, 0.0)], LIMITS))
     there.advance(0.3)
     driver.motion.move_joints(home + 0.1, 0.2)
     there.advance(0.2)
@@ -94,7 +94,7 @@ def test_an_arm_whose_speeds_are_wrong_gets_to_its_goals() -> None:
 def test_what_is_no_number_makes_it_hold_and_not_drift() -> None:
     there = arm_told_speeds()
     driver, state = there.driver, there.arm.state
-    driver.motion.move_along(path([driver.motion.stopping_pose(), beside(there, 0.0, 0.08, 0.0)], LIMITS))
+    driver.motion.move_along(path_through([driver.motion.stopping_pose(), beside(there, 0.0, 0.08, 0.0)], LIMITS))
     there.advance(0.3)
     speeds, joints = told(there), there.arm._q
     good, joints[:] = joints.copy(), np.nan
@@ -131,7 +131,7 @@ def test_a_line_is_followed_alike_at_every_rate() -> None:
     for steps in (1, 2, 4):
         there, place = arm_told_speeds(steps), []
         there.driver.motion.move_along(
-            path([there.driver.motion.stopping_pose(), beside(there, 0.0, 0.05, 0.03)], LIMITS)
+            path_through([there.driver.motion.stopping_pose(), beside(there, 0.0, 0.05, 0.03)], LIMITS)
         )
         for _ in range(8):
             there.advance(0.1)

@@ -9,31 +9,31 @@ from dataclasses import replace
 import numpy as np
 from rig import GAINS, LAWS, ROBOTS, Bench, moved_by
 
+from skillc_runtime.backends.mujoco.arm_sensing import ArmSensing, LastLink, add_payload_mass, measure
 from skillc_runtime.backends.mujoco.coverage import add_dose
-from skillc_runtime.backends.mujoco.hand import ArmSensing, Hand, load_mass, measure
-from skillc_runtime.backends.mujoco.motors import drive
+from skillc_runtime.backends.mujoco.motors import update_servo_targets
 from skillc_runtime.backends.mujoco.wrist import low_pass
-from skillc_runtime.control.command_validator import take_over
+from skillc_runtime.control.command_validator import update_holding
 from skillc_runtime.control.controllers import make_controllers
 from skillc_runtime.control.limits import EXPECTED, SpeedLimit
 from skillc_runtime.control.momentum_observer import MomentumObserver
 from skillc_runtime.control.safety import distance_outside, tool_speed
-from skillc_runtime.control.virtual_arm import virtual_model
+from skillc_runtime.control.virtual_arm import load_virtual_model
 from skillc_runtime.devices.arm import command_values
 from skillc_runtime.motion.arc import arc_through
 from skillc_runtime.motion.overlays import Circle, Lissajous
-from skillc_runtime.motion.path import joined, path
+from skillc_runtime.motion.path import join_segments, path_through
 from skillc_runtime.motion.pose import Pose, exp
 from skillc_runtime.motion.reference import Compliance, Reference
 from skillc_runtime.motion.reference_generator import ReferenceGenerator
-from skillc_runtime.motion.segments import MotionLimits, segment
+from skillc_runtime.motion.segments import MotionLimits, segment_between
 
 
 def laws(robot: str, count: int) -> list[list[float]]:
     """What one law commands for drawn postures, references and compliances, one after the other."""
     chance, bench, told = np.random.default_rng(5), Bench(robot), []
     home = bench.data.qpos.copy()
-    model = virtual_model(ROBOTS / f"{robot}.xml")
+    model = load_virtual_model(ROBOTS / f"{robot}.xml")
     for step in range(count):
         if step % 20 == 0:
             state = bench.state()
@@ -69,7 +69,7 @@ def servos(count: int) -> list[list[float]]:
     chance, targets, told = np.random.default_rng(12), np.zeros(6), []
     for step in range(count):
         speed, q, dq, lead, farthest = chance.uniform(-1.0, 1.0, (5, 6)) * [[step % 3 > 0], [0.02], [1], [0.01], [0.01]]
-        drive(targets, speed, q, dq, np.abs(lead), np.abs(farthest), 0.001)
+        update_servo_targets(targets, speed, q, dq, np.abs(lead), np.abs(farthest), 0.001)
         told.append(targets.tolist())
     return told
 
@@ -79,7 +79,7 @@ def references(count: int) -> list[list[float]]:
     start = Bench("iiwa14").state().tool
     corners = (moved_by(start, 0.2, 0, 0, turn=(0, 0.5, 0)), moved_by(start, 0.2, 0.1, 0, turn=(0.4, 0.5, 0.0)))
     guide = ReferenceGenerator(start, 0.5)
-    guide.follow(path([start, *corners, start], MotionLimits(0.1, 0.4), 0.01), 0.0)
+    guide.follow(path_through([start, *corners, start], MotionLimits(0.1, 0.4), 0.01), 0.0)
     handle, found = guide.add(Circle(0.01, 1.0), exp(np.array([0.1, 0.2, 0.3])), 0.5, 0.1), []
     for step in range(count):
         now = 0.1 + 8.0 * step / count
@@ -97,8 +97,8 @@ def curves(count: int) -> list[list[float]]:
     side, over = moved_by(start, 0.1, 0, 0), moved_by(start, 0.2, 0.1, 0, turn=(0.0, 0.3, 0.1))
     arc = arc_through(side, moved_by(start, 0.17, 0.03, 0).position, over, limits)
     end = moved_by(start, 0.2, 0.1, 0, turn=(0.4, 0.3, 0.1))
-    pieces = segment(start, side, limits), arc, segment(over, end, limits)
-    motion = joined((start, side, over, end), pieces, limits, 0.01)
+    pieces = segment_between(start, side, limits), arc, segment_between(over, end, limits)
+    motion = join_segments((start, side, over, end), pieces, limits, 0.01)
     samples = [motion.at(motion.duration * step / (count - 1)) for step in range(count)]
     return [[*s.pose.position, *s.pose.rotation.ravel(), *s.twist, *s.acceleration] for s in samples]
 
@@ -120,7 +120,7 @@ def watched(count: int) -> list[list[float]]:
 
 def measurements(count: int) -> list[list[float]]:
     """What an arm makes of link, base, payload and wrist readings."""
-    chance, hand, found = np.random.default_rng(6), Hand(), []
+    chance, hand, found = np.random.default_rng(6), LastLink(), []
     for _ in range(count):
         hand.on_link[:] = chance.uniform(-1, 1, (8, 3))
         J, joints, wrench, readings = np.zeros((6, 7)), np.zeros((4, 7)), np.zeros(6), chance.uniform(-20, 20, 9)
@@ -136,9 +136,9 @@ def measurements(count: int) -> list[list[float]]:
         dose, tool, (place, origin) = np.zeros((20, 30)), np.array([0.1, 0.05]), chance.uniform(-0.1, 0.1, (2, 3))
         add_dose(dose, np.linspace(-0.2, 0.2, 30), np.linspace(-0.1, 0.1, 20), origin, base, place, link, tool, 0.01)
         mass, sines = np.eye(7), Lissajous(*chance.uniform(-1, 1, (3, 3))).at(chance.uniform(0, 5))
-        load_mass(mass, hand.lever, J, 0.3)
+        add_payload_mass(mass, hand.lever, J, 0.3)
         kept = np.zeros(7)
-        numbers = [take_over(kept, *joints[:3], also, position) for also in (wrench, wrench * np.nan)]
+        numbers = [update_holding(kept, *joints[:3], also, position) for also in (wrench, wrench * np.nan)]
         seen = (hand.in_base, J, joints, wrench, mass, dose, sines, kept)
         found.append([*np.concatenate([each.ravel() for each in seen]), *map(float, numbers)])
     return found

@@ -11,9 +11,9 @@ import skillc_ontology
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.gains import read_gains
 from skillc_runtime.control.setup import ArmSetup
-from skillc_runtime.control.virtual_arm import virtual_model
+from skillc_runtime.control.virtual_arm import load_virtual_model
 from skillc_runtime.devices.arm import ArmLimits, ArmState, JointPosition, Torque
-from skillc_runtime.motion.pose import Pose, exp, quaternion_of, skew
+from skillc_runtime.motion.pose import Pose, exp, quaternion_from_rotation, skew
 
 ROBOTS = Path(skillc_ontology.__file__).parent / "robots"
 COMMON = {"dampingRatio": 1.0, "commandTime": 0.1, "forceLimit": 50.0, "speedLimit": 0.5, "accelerationLimit": 0.5}
@@ -73,7 +73,7 @@ class Bench:
         ranges = self.model.jnt_range.copy()
         control = self.model.actuator_ctrlrange if self.interface == "torque" else self.model.actuator_forcerange
         self.limits = ArmLimits(ranges, np.full(self.nv, 2.0), control[:, 1].copy(), np.full(self.nv, np.inf))
-        virtual = virtual_model(ROBOTS / f"{robot}.xml")
+        virtual = load_virtual_model(ROBOTS / f"{robot}.xml")
         self.driver = CompliantArmDriver(ArmSetup(self, virtual, GAINS[robot], self.limits, lambda: self.base, period))
         self.log: dict[str, list] = {"time": [], "force": [], "tool": [], "torque": []}
 
@@ -162,7 +162,7 @@ def _model(robot: str, gap, tilt, friction, base: Pose) -> mujoco.MjModel:
     spec = mujoco.MjSpec.from_file(str(ROBOTS / f"{robot}.xml"))
     spec.option.timestep, spec.option.cone = 0.001, mujoco.mjtCone.mjCONE_ELLIPTIC
     root = spec.worldbody.first_body()
-    root.pos, root.quat = base.position, quaternion_of(base.rotation)
+    root.pos, root.quat = base.position, quaternion_from_rotation(base.rotation)
     if LAWS[robot] == "forward_dynamics":
         _give_servos(spec)
     flange = spec.site("flange")

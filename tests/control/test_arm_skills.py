@@ -5,7 +5,7 @@ import pytest
 from one_arm import ARM, BOARD, HOME, OneArm
 from rig import HOMES, moved_by
 
-from skillc_runtime.motion.pose import Pose, exp, log, quaternion_of
+from skillc_runtime.motion.pose import Pose, exp, log, quaternion_from_rotation
 from skillc_runtime.primitives.compliance import Align, Push, ReleaseAxis
 from skillc_runtime.primitives.move import MoveJoints, MoveLinear, TakePosture
 from skillc_runtime.primitives.overlay import OverlayCircle
@@ -226,7 +226,7 @@ def _facing(normal):
 
 
 def _write(world, pose):
-    values = zip(POSITION + ORIENTATION, (*pose.position, *quaternion_of(pose.rotation)), strict=True)
+    values = zip(POSITION + ORIENTATION, (*pose.position, *quaternion_from_rotation(pose.rotation)), strict=True)
     world.commit([SetProperty(BOARD, BASE_FRAME_ID, "map"), *(SetProperty(BOARD, k, float(v)) for k, v in values)])
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from rig import HOMES, Bench, moved_by
 
-from skillc_runtime.motion.path import path
+from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Pose, exp
 from skillc_runtime.motion.segments import MotionLimits
 
@@ -16,7 +16,7 @@ def test_a_line_ends_where_it_shall_without_overshoot(robot):
     driver = bench.driver
     start = driver.motion.stopping_pose()
     goal = moved_by(start, 0.08, 0.1, -0.05, turn=(0.0, 0.1, 0.3))
-    driver.motion.move_along(path([start, goal], LIMITS))
+    driver.motion.move_along(path_through([start, goal], LIMITS))
     assert not driver.motion.done
     bench.until_done()
     bench.run(0.3)
@@ -36,7 +36,7 @@ def test_the_tool_follows_closely_on_the_way(robot):
         worst = max(worst, float(np.abs(driver.measured.pose.position - driver.motion.reference.pose.position).max()))
 
     start = driver.motion.stopping_pose()
-    driver.motion.move_along(path([start, moved_by(start, 0.0, 0.2, 0.0)], LIMITS))
+    driver.motion.move_along(path_through([start, moved_by(start, 0.0, 0.2, 0.0)], LIMITS))
     bench.run(1.5, measure)
     assert 1e-6 < worst < 0.004
 
@@ -64,13 +64,13 @@ def test_a_motion_that_is_given_up_comes_to_rest_smoothly_and_the_next_goes_on_f
     bench = Bench(robot)
     driver, references = bench.driver, []
     start = driver.motion.stopping_pose()
-    driver.motion.move_along(path([start, moved_by(start, 0.0, 0.2, 0.0)], LIMITS))
+    driver.motion.move_along(path_through([start, moved_by(start, 0.0, 0.2, 0.0)], LIMITS))
     note = lambda: references.append(driver.motion.reference.twist)  # noqa: E731
     bench.run(0.8, note)
     driver.motion.stop()
     bench.run(0.05, note)
     anchor = driver.motion.stopping_pose()
-    driver.motion.move_along(path([anchor, moved_by(anchor, 0.05, 0.0, 0.0)], LIMITS))
+    driver.motion.move_along(path_through([anchor, moved_by(anchor, 0.05, 0.0, 0.0)], LIMITS))
     bench.run(2.0, note)
     assert driver.motion.done
     assert np.abs(driver.measured.pose.position - moved_by(anchor, 0.05, 0.0, 0.0).position).max() < 1e-3
@@ -81,7 +81,7 @@ def test_a_motion_must_start_where_the_last_one_ends(robot):
     driver = Bench(robot).driver
     start = driver.motion.stopping_pose()
     with pytest.raises(ValueError, match=r"starts 50\.0 mm beside"):
-        driver.motion.move_along(path([moved_by(start, 0.05, 0, 0), start], LIMITS))
+        driver.motion.move_along(path_through([moved_by(start, 0.05, 0, 0), start], LIMITS))
 
 
 @pytest.mark.sim
@@ -90,7 +90,7 @@ def test_a_pause_stands_still_on_the_way_and_goes_on(robot):
     driver = bench.driver
     start = driver.motion.stopping_pose()
     goal = moved_by(start, 0.0, 0.15, 0.0)
-    driver.motion.move_along(path([start, goal], LIMITS))
+    driver.motion.move_along(path_through([start, goal], LIMITS))
     bench.run(0.8)
     driver.motion.pause()
     bench.run(1.0)
@@ -112,11 +112,11 @@ def test_in_the_world_everything_is_the_same_wherever_the_arm_stands(robot):
         driver = bench.driver
         start = driver.motion.stopping_pose()
         driver.motion.move_along(
-            path([start, Pose(start.position + base.rotation @ [0.05, 0.1, -0.05], start.rotation)], LIMITS)
+            path_through([start, Pose(start.position + base.rotation @ [0.05, 0.1, -0.05], start.rotation)], LIMITS)
         )
         bench.run(1.0)
         back = base.inverse()
-        tools.append([back.at(driver.measured.pose.position), back.at(driver.motion.reference.pose.position)])
+        tools.append([back.apply(driver.measured.pose.position), back.apply(driver.motion.reference.pose.position)])
         tools[-1].append(base.rotation.T @ driver.measured.velocity[:3])
     assert np.allclose(tools[0], tools[1], atol=1e-6)
 
@@ -154,7 +154,7 @@ def test_a_motion_asked_for_right_after_taking_hold_is_made_with_the_tool(robot)
     bench.state_at_rest()
     start = driver.motion.stopping_pose()
     goal = moved_by(start, 0.0, 0.0, 0.05)
-    driver.motion.move_along(path([start, goal], LIMITS))
+    driver.motion.move_along(path_through([start, goal], LIMITS))
     bench.until_done()
     bench.run(0.3)
     assert np.linalg.norm(start.position - bench.log["tool"][0]) == pytest.approx(0.08, abs=1e-3)

@@ -10,10 +10,10 @@ import pytest
 
 import skillc_ontology
 from skillc_runtime.control.feasibility import slow_to_feasible
-from skillc_runtime.control.virtual_arm import VirtualArm, virtual_model
+from skillc_runtime.control.virtual_arm import VirtualArm, load_virtual_model
 from skillc_runtime.devices.arm import ArmLimits
 from skillc_runtime.devices.arm_driver import Infeasible
-from skillc_runtime.motion.path import path
+from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Array, Pose, exp
 from skillc_runtime.motion.reference import Trajectory
 from skillc_runtime.motion.segments import MotionLimits
@@ -30,16 +30,16 @@ FAST = MotionLimits(0.5, 0.5)
 
 @pytest.fixture(params=sorted(HOMES))
 def robot(request: pytest.FixtureRequest) -> tuple[VirtualArm, Array, ArmLimits]:
-    model = virtual_model(ROBOTS / f"{request.param}.xml")
+    model = load_virtual_model(ROBOTS / f"{request.param}.xml")
     arm, q = VirtualArm(model), np.array(HOMES[request.param])
-    arm.move(q)
+    arm.update_kinematics(q)
     many = np.ones(q.size)
     return arm, q, ArmLimits(model.jnt_range.copy(), 2.0 * many, 100.0 * many, np.inf * many)
 
 
 def line(arm: VirtualArm, *way: float, turn: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Trajectory:
     start = arm.tool
-    return path([start, Pose(start.position + np.array(way), exp(np.array(turn)) @ start.rotation)], FAST)
+    return path_through([start, Pose(start.position + np.array(way), exp(np.array(turn)) @ start.rotation)], FAST)
 
 
 def test_what_fits_stays_as_it_is(robot: tuple[VirtualArm, Array, ArmLimits]) -> None:

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from skillc_runtime.control.guarded_push import Pressed, advance, advance_pressed, begin_approach
+from skillc_runtime.control.guarded_push import Pressing, advance_approach, advance_pressing, begin_approach
 from skillc_runtime.devices.arm_driver import Contact, GuardedPush, Standstill, Travel
 
 PUSH = GuardedPush(np.array([0.0, 0.0, 1.0]), 10.0, approach_m_s=0.05, travel=Travel(0.12))
@@ -51,7 +51,7 @@ def test_course(name):
     samples, expected = COURSES[name]
     approach = begin_approach(PUSH)
     for speed, force in samples:
-        approach = advance(approach, speed, force, 0.001)
+        approach = advance_approach(approach, speed, force, 0.001)
     assert outcome(approach) == expected
 
 
@@ -59,7 +59,7 @@ def test_it_takes_as_long_at_every_rate():
     for period in (0.001, 0.002, 0.004):
         approach, time = replace(begin_approach(PUSH), steady=1.0), 0.0
         while approach.met is None:
-            approach, time = advance(approach, 0.0, 0.0, period), time + period
+            approach, time = advance_approach(approach, 0.0, 0.0, period), time + period
         assert time == pytest.approx(0.02, abs=period)
 
 
@@ -77,7 +77,7 @@ PRESSED = {
 @pytest.mark.parametrize("name", PRESSED)
 def test_a_pressed_tool(name):
     speeds, falling = PRESSED[name]
-    pressed = Pressed(speed=0.05)
+    pressed = Pressing(speed=0.05)
     for speed in speeds:
-        pressed = advance_pressed(pressed, speed, 0.001)
+        pressed = advance_pressing(pressed, speed, 0.001)
     assert pressed.falling == falling

@@ -6,7 +6,7 @@ import pytest
 from rig import HOMES, ROBOTS, Bench, moved_by
 
 from skillc_runtime.control.inverse_kinematics import solve_inverse_kinematics
-from skillc_runtime.control.virtual_arm import VirtualArm, virtual_model
+from skillc_runtime.control.virtual_arm import VirtualArm, load_virtual_model
 from skillc_runtime.motion.pose import Pose, exp, log
 
 
@@ -22,10 +22,10 @@ def postures(robot, count=25):
 
 
 def test_pose_and_jacobian_agree_with_pinocchio(robot):
-    arm, (model, data) = VirtualArm(virtual_model(ROBOTS / f"{robot}.xml")), peer(robot)
+    arm, (model, data) = VirtualArm(load_virtual_model(ROBOTS / f"{robot}.xml")), peer(robot)
     flange = model.getFrameId("flange")
     for q in postures(robot):
-        arm.move(q)
+        arm.update_kinematics(q)
         pinocchio.framesForwardKinematics(model, data, q)
         J = pinocchio.computeFrameJacobian(model, data, q, flange, pinocchio.LOCAL_WORLD_ALIGNED)
         assert np.allclose(arm.tool.position, data.oMf[flange].translation, atol=1e-12)
@@ -38,8 +38,8 @@ def test_mass_matrix_agrees_with_pinocchio(robot):
     q = np.array(HOMES[robot])
     pinocchio.crba(model, data, q)
     M = np.triu(data.M) + np.triu(data.M, 1).T
-    tool = VirtualArm(virtual_model(ROBOTS / f"{robot}.xml"))
-    tool.mount(q, Pose(bench.data.xipos[bench.model.body("eraser").id], np.eye(3)))
+    tool = VirtualArm(load_virtual_model(ROBOTS / f"{robot}.xml"))
+    tool.mount_tool(q, Pose(bench.data.xipos[bench.model.body("eraser").id], np.eye(3)))
     eraser = np.r_[np.full(3, 0.2), bench.model.body("eraser").inertia]
     R = bench.data.ximat[bench.model.body("eraser").id].reshape(3, 3)
     J = np.vstack([tool.jacobian[:3], R.T @ tool.jacobian[3:]])
@@ -47,11 +47,11 @@ def test_mass_matrix_agrees_with_pinocchio(robot):
 
 
 def test_virtual_inertia_is_that_of_the_stated_masses(robot):
-    model = virtual_model(ROBOTS / f"{robot}.xml")
+    model = load_virtual_model(ROBOTS / f"{robot}.xml")
     arm = VirtualArm(model)
     q = np.array(HOMES[robot])
-    arm.move(q)
-    arm.weigh(np.zeros_like(q))
+    arm.update_kinematics(q)
+    arm.update_dynamics(np.zeros_like(q))
     assert not arm.bias.any()
     assert np.allclose(arm.inertia, arm.inertia.T)
     mobility = arm.jacobian @ np.linalg.solve(arm.inertia, arm.jacobian.T)
@@ -61,12 +61,12 @@ def test_virtual_inertia_is_that_of_the_stated_masses(robot):
 
 def test_a_virtual_arm_left_alone_moves_its_tool_straight_on(robot):
     """Coriolis forces are accounted for: without a wrench the tool keeps its twist, but for what light links add."""
-    arm = VirtualArm(virtual_model(ROBOTS / f"{robot}.xml"))
+    arm = VirtualArm(load_virtual_model(ROBOTS / f"{robot}.xml"))
     q, dq, h = np.array(HOMES[robot]), np.random.default_rng(5).uniform(-1, 1, len(HOMES[robot])), 1e-6
-    arm.move(q + h * dq)
+    arm.update_kinematics(q + h * dq)
     ahead = arm.jacobian.copy()
-    arm.move(q)
-    arm.weigh(dq)
+    arm.update_kinematics(q)
+    arm.update_dynamics(dq)
     turning = (ahead - arm.jacobian) @ dq / h
     left = turning - arm.jacobian @ np.linalg.solve(arm.inertia, arm.bias)
     assert np.linalg.norm(turning) > 0.3
@@ -74,34 +74,34 @@ def test_a_virtual_arm_left_alone_moves_its_tool_straight_on(robot):
 
 
 def test_a_mounted_tool_is_where_it_was_put(robot):
-    arm = VirtualArm(virtual_model(ROBOTS / f"{robot}.xml"))
+    arm = VirtualArm(load_virtual_model(ROBOTS / f"{robot}.xml"))
     q, other = postures(robot, 2)
-    arm.move(q)
+    arm.update_kinematics(q)
     hand = arm.tool
     on_hand = Pose(np.array([0.01, 0.02, 0.15]), exp(np.array([0.1, -0.3, 0.8])))
-    arm.mount(q, hand @ on_hand)
-    arm.mount(q, hand @ on_hand)
+    arm.mount_tool(q, hand @ on_hand)
+    arm.mount_tool(q, hand @ on_hand)
     assert np.allclose(arm.tool.position, (hand @ on_hand).position)
-    bare = VirtualArm(virtual_model(ROBOTS / f"{robot}.xml"))
-    bare.move(other)
-    arm.move(other)
+    bare = VirtualArm(load_virtual_model(ROBOTS / f"{robot}.xml"))
+    bare.update_kinematics(other)
+    arm.update_kinematics(other)
     assert np.allclose(arm.tool.position, (bare.tool @ on_hand).position)
     assert np.allclose(arm.tool.rotation, (bare.tool @ on_hand).rotation)
 
 
 def test_inverse_kinematics_round_trip(robot):
     bench = Bench(robot)
-    arm = VirtualArm(virtual_model(ROBOTS / f"{robot}.xml"))
+    arm = VirtualArm(load_virtual_model(ROBOTS / f"{robot}.xml"))
     seed, found = np.array(HOMES[robot]), 0
     for q in postures(robot):
         q = np.clip(q, bench.limits.range[:, 0] + 0.1, bench.limits.range[:, 1] - 0.1)
-        arm.move(q)
+        arm.update_kinematics(q)
         target = arm.tool
         solution = solve_inverse_kinematics(arm, target, seed, bench.limits.range)
         if solution is None:
             continue
         found += 1
-        arm.move(solution)
+        arm.update_kinematics(solution)
         assert np.abs(arm.tool.position - target.position).max() < 1e-4
         assert np.abs(log(arm.tool.rotation @ target.rotation.T)).max() < 1e-4
         assert (solution >= bench.limits.range[:, 0]).all()
@@ -110,10 +110,10 @@ def test_inverse_kinematics_round_trip(robot):
 
 
 def test_inverse_kinematics_gives_up_out_of_reach_and_repeats_itself(robot):
-    bench, arm = Bench(robot), VirtualArm(virtual_model(ROBOTS / f"{robot}.xml"))
+    bench, arm = Bench(robot), VirtualArm(load_virtual_model(ROBOTS / f"{robot}.xml"))
     seed = np.array(HOMES[robot])
     assert solve_inverse_kinematics(arm, Pose.of((3.0, 0.0, 0.5)), seed, bench.limits.range) is None
-    arm.move(seed + 0.3)
+    arm.update_kinematics(seed + 0.3)
     target = arm.tool
     first, second = (solve_inverse_kinematics(arm, target, seed, bench.limits.range) for _ in range(2))
     assert first is not None

@@ -12,9 +12,9 @@ from skillc_runtime.control.controllers import make_controllers
 from skillc_runtime.control.damping import damping_rate
 from skillc_runtime.control.gains import CONTROLLERS, LawGains, UnknownController, read_gains
 from skillc_runtime.control.nullspace import REGULARISATION, Nullspace, regularisation
-from skillc_runtime.control.virtual_arm import virtual_model
+from skillc_runtime.control.virtual_arm import load_virtual_model
 from skillc_runtime.motion.pose import Pose, exp, log
-from skillc_runtime.motion.reference import Compliance, Reference, at_rest
+from skillc_runtime.motion.reference import Compliance, Reference, resting_reference
 
 
 def stiff(robot, frame=None, scale=1.0):
@@ -27,7 +27,7 @@ def fresh(robot):
     """A bench and a law that starts from its state."""
     bench = Bench(robot)
     state = replace(bench.state(), wrench=np.zeros(6))
-    model = virtual_model(ROBOTS / f"{robot}.xml")
+    model = load_virtual_model(ROBOTS / f"{robot}.xml")
     law = make_controllers(GAINS[robot], bench.limits, model, state, 0.001).tool
     law.reset(state, state.q, np.zeros_like(state.q))
     return bench, state, law
@@ -41,7 +41,7 @@ def output(robot, bench, command):
 def test_no_error_no_command(robot):
     bench, state, law = fresh(robot)
     for _ in range(5):
-        command = law.command(state, at_rest(state.tool), stiff(robot), 0.001)
+        command = law.command(state, resting_reference(state.tool), stiff(robot), 0.001)
     assert np.abs(output(robot, bench, command)).max() < 1e-9
 
 
@@ -66,7 +66,7 @@ def test_at_rest_the_frame_does_not_matter_at_all(robot):
     outputs = []
     for turn in ([0, 0, 0], [0.3, -1.0, 2.0]):
         bench, state, law = fresh(robot)
-        goal = at_rest(moved_by(state.tool, 0.001, -0.002, 0.0005))
+        goal = resting_reference(moved_by(state.tool, 0.001, -0.002, 0.0005))
         outputs.append(output(robot, bench, law.command(state, goal, stiff(robot, exp(np.array(turn))), 0.001)))
     assert np.abs(outputs[0]).max() > 0
     assert np.allclose(outputs[0], outputs[1], atol=1e-9)
@@ -81,7 +81,7 @@ def test_swapping_axes_and_frame_together_changes_nothing(robot):
     outputs = []
     for compliance in (Compliance(K, W, np.eye(3)), Compliance(K[order], W[order] * sign, swap)):
         bench, state, law = fresh(robot)
-        goal = at_rest(moved_by(state.tool, 0.001, -0.002, 0.0005))
+        goal = resting_reference(moved_by(state.tool, 0.001, -0.002, 0.0005))
         outputs.append(output(robot, bench, law.command(state, goal, compliance, 0.001)))
     assert np.allclose(outputs[0], outputs[1], atol=1e-9)
 
@@ -90,7 +90,7 @@ def test_a_push_is_exerted_by_the_springless_arm():
     bench, state, law = fresh("iiwa14")
     wrench = np.array([0.1, 0.2, -0.3, 0.0, 0.0, 0.05])
     compliance = Compliance(np.zeros(6), wrench, np.eye(3))
-    tau = output("iiwa14", bench, law.command(state, at_rest(state.tool), compliance, 0.001))
+    tau = output("iiwa14", bench, law.command(state, resting_reference(state.tool), compliance, 0.001))
     axes = state.tool.rotation
     in_base = np.concatenate([axes @ wrench[:3], axes @ wrench[3:]])
     assert np.allclose(tau, state.jacobian.T @ in_base, atol=1e-9)
@@ -99,7 +99,7 @@ def test_a_push_is_exerted_by_the_springless_arm():
 
 def test_a_wrong_goal_gives_a_bounded_force():
     _, state, law = fresh("iiwa14")
-    far = at_rest(moved_by(state.tool, 0, 0, 5.0))
+    far = resting_reference(moved_by(state.tool, 0, 0, 5.0))
     for _ in range(400):
         law.command(state, far, stiff("iiwa14"), 0.001)
     assert np.linalg.norm(law.contact_wrench[:3]) == pytest.approx(GAINS["iiwa14"].limits.force_n)
@@ -136,7 +136,7 @@ def test_damping_too_fast_for_the_period_is_refused():
     state = bench.state()
     rate = damping_rate(state, 60.0, 3.0)
     assert 0 < rate < 1000
-    gains, model = GAINS["iiwa14"], virtual_model(ROBOTS / "iiwa14.xml")
+    gains, model = GAINS["iiwa14"], load_virtual_model(ROBOTS / "iiwa14.xml")
     with pytest.raises(ValueError, match="too fast"):
         make_controllers(gains, bench.limits, model, state, 1.1 / rate)
 
@@ -144,7 +144,7 @@ def test_damping_too_fast_for_the_period_is_refused():
 def test_the_log_error_is_the_shortest_turn(robot):
     _, state, law = fresh(robot)
     turned = exp(np.array([0.0, 0.0, 0.2])) @ state.tool.rotation
-    law.command(state, at_rest(Pose(state.tool.position, turned)), stiff(robot), 0.001)
+    law.command(state, resting_reference(Pose(state.tool.position, turned)), stiff(robot), 0.001)
     axes = law._memory.task.axes
     assert np.allclose(axes @ law._memory.task.rows[0, 3:], log(state.tool.rotation @ turned.T))
 

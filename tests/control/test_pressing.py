@@ -6,7 +6,7 @@ from rig import GAINS, HOMES, Bench
 
 from skillc_runtime.devices.arm import Torque
 from skillc_runtime.motion.overlays import Circle
-from skillc_runtime.motion.path import path
+from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Pose, exp
 from skillc_runtime.motion.segments import MotionLimits
 
@@ -82,7 +82,7 @@ def test_it_presses_as_hard_while_wiping_with_a_circle(robot):
     start = driver.motion.stopping_pose()
     x = start.rotation[:, 0]
     handle = driver.motion.add_overlay(Circle(0.015, 1.0), np.column_stack([x, np.cross(normal, x), normal]), 0.5)
-    driver.motion.move_along(path([start, Pose(start.position + 0.1 * x, start.rotation)], LIMITS))
+    driver.motion.move_along(path_through([start, Pose(start.position + 0.1 * x, start.rotation)], LIMITS))
     began = len(bench.log["force"])
     bench.run(3.0)
     assert driver.motion.done
@@ -120,7 +120,7 @@ def test_restoring_holds_the_tool_where_it_is_without_a_jump(robot):
     assert np.abs(np.diff(force)).max() < 0.5
     assert abs((driver.measured.pose.position - before) @ normal) < 0.02
     start = driver.motion.stopping_pose()
-    driver.motion.move_along(path([start, Pose(start.position + 0.05 * normal, start.rotation)], LIMITS))
+    driver.motion.move_along(path_through([start, Pose(start.position + 0.05 * normal, start.rotation)], LIMITS))
     bench.until_done()
     bench.run(0.3)
     assert driver.motion.tracking_error_message is None
@@ -200,7 +200,7 @@ def test_an_arm_is_at_rest_once_it_neither_moves_nor_pushes(robot):
     bench.run(1.5)
     assert driver.at_rest
     start = driver.motion.stopping_pose()
-    driver.motion.move_along(path([start, Pose(start.position + 0.02 * normal, start.rotation)], LIMITS))
+    driver.motion.move_along(path_through([start, Pose(start.position + 0.02 * normal, start.rotation)], LIMITS))
     bench.run(0.1)
     assert not driver.at_rest
     bench.until_done()

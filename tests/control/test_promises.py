@@ -10,8 +10,8 @@ from skillc_runtime.control.controller import ControlError
 from skillc_runtime.control.controllers import make_controllers
 from skillc_runtime.control.limits import EFFORT
 from skillc_runtime.control.task_error import EXERTED
-from skillc_runtime.control.virtual_arm import virtual_model
-from skillc_runtime.motion.path import path
+from skillc_runtime.control.virtual_arm import load_virtual_model
+from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import exp
 from skillc_runtime.motion.reference import Compliance, Reference
 from skillc_runtime.motion.segments import MotionLimits
@@ -20,7 +20,7 @@ LIMITS = MotionLimits(speed=0.2, acceleration=0.4)
 
 
 def law_of(robot, bench, state):
-    law = make_controllers(GAINS[robot], bench.limits, virtual_model(ROBOTS / f"{robot}.xml"), state, 0.001)
+    law = make_controllers(GAINS[robot], bench.limits, load_virtual_model(ROBOTS / f"{robot}.xml"), state, 0.001)
     law.tool.reset(state, state.q, np.zeros_like(state.q))
     return law.tool
 
@@ -99,7 +99,7 @@ def test_whatever_is_changed_on_the_way_nothing_jumps(robot):
     driver, told, home = bench.driver, noted(bench), np.array(HOMES[robot])
     bench.run(0.05)
     start = driver.motion.stopping_pose()
-    driver.motion.move_along(path([start, moved_by(start, 0.0, 0.1, 0.0)], LIMITS))
+    driver.motion.move_along(path_through([start, moved_by(start, 0.0, 0.1, 0.0)], LIMITS))
     bench.run(0.3)
     driver.motion.move_joints(home + 0.1, 0.3)
     bench.run(0.2)
@@ -127,7 +127,9 @@ def test_a_line_is_followed_alike_at_every_rate(robot):
     for period in (0.001, 0.002, 0.004):
         bench = Bench(robot, period=period)
         start = bench.driver.motion.stopping_pose()
-        bench.driver.motion.move_along(path([start, moved_by(start, 0.0, 0.05, 0.0, turn=(0.0, 0.0, 0.2))], LIMITS))
+        bench.driver.motion.move_along(
+            path_through([start, moved_by(start, 0.0, 0.05, 0.0, turn=(0.0, 0.0, 0.2))], LIMITS)
+        )
         bench.run(0.8)
         places.append(np.array(bench.log["tool"])[round(0.1 / period) - 1 :: round(0.1 / period)])
     assert places[0].shape == (8, 3)
@@ -142,7 +144,7 @@ def test_a_control_loop_that_was_late_goes_on_where_it_was(robot, gap):
     bench = Bench(robot)
     driver, told = bench.driver, noted(bench)
     start = driver.motion.stopping_pose()
-    driver.motion.move_along(path([start, moved_by(start, 0.0, 0.1, 0.0)], LIMITS))
+    driver.motion.move_along(path_through([start, moved_by(start, 0.0, 0.1, 0.0)], LIMITS))
     bench.run(0.4)
     before = driver.motion.reference.pose.position
     bench.data.time += gap
@@ -159,7 +161,7 @@ def test_measurements_that_are_missing_leave_the_arm_holding(robot):
     bench = Bench(robot)
     driver, measure = bench.driver, bench.state
     start = driver.motion.stopping_pose()
-    driver.motion.move_along(path([start, moved_by(start, 0.0, 0.1, 0.0)], LIMITS))
+    driver.motion.move_along(path_through([start, moved_by(start, 0.0, 0.1, 0.0)], LIMITS))
     bench.run(0.3)
     last, held = measure(), noted(bench)
     bench.state = lambda: replace(last, dq=np.full(bench.nv, np.nan))

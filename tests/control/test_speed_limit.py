@@ -97,7 +97,7 @@ def test_joints_that_do_not_move_are_given_up() -> None:
 def test_holding_at_once_means_where_joints_come_to_rest() -> None:
     arm = Follower(0.001)
     arm.swing(0.5)
-    held = arm.limit.held(at(arm.like, arm.q, arm.dq)).copy()
+    held = arm.limit.holding_joints(at(arm.like, arm.q, arm.dq)).copy()
     for _ in range(1000):
         arm.step(held)
     assert np.abs(arm.q - held).max() < 1e-3

@@ -12,10 +12,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from skillc_runtime.motion.arc import arc_around, arc_through
-from skillc_runtime.motion.path import joined, path
+from skillc_runtime.motion.path import join_segments, path_through
 from skillc_runtime.motion.pose import Pose, exp, log
-from skillc_runtime.motion.profile import trapezoid
-from skillc_runtime.motion.segments import MotionLimits, segment
+from skillc_runtime.motion.profile import trapezoidal_profile
+from skillc_runtime.motion.segments import MotionLimits, segment_between
 from skillc_runtime.motion.smooth import SmoothProfile, window_for
 
 EXAMPLES = int(os.environ.get("SKILLC_MOTIONS", "15"))
@@ -40,7 +40,7 @@ def test_an_arc_goes_through_its_three_points_within_limits(via, end, rotation, 
     if not bent(via, end):
         return
     piece = arc_through(START, via, Pose(end, rotation), limits)
-    motion = joined([START, Pose(end, rotation)], [piece], limits)
+    motion = join_segments([START, Pose(end, rotation)], [piece], limits)
     samples = [motion.at(t) for t in np.linspace(0, motion.duration, 101)]
     places = np.array([s.pose.position for s in samples])
     assert np.abs(places[-1] - end).max() < 1e-9
@@ -60,11 +60,11 @@ def test_lines_and_arcs_join_smoothly_and_cut_corners_by_the_blend_at_most(via, 
         return
     corners = [Pose(np.array([-0.2, 0.0, 0.1]), np.eye(3)), START, Pose(end, rotation), Pose(end + 0.1, rotation)]
     pieces = [
-        segment(corners[0], START, limits),
+        segment_between(corners[0], START, limits),
         arc_through(START, via, corners[2], limits),
-        segment(corners[2], corners[3], limits),
+        segment_between(corners[2], corners[3], limits),
     ]
-    motion, h = joined(corners, pieces, limits, blend), 1e-6
+    motion, h = join_segments(corners, pieces, limits, blend), 1e-6
     before, now, after = (motion.at(share * motion.duration + d) for d in (-h, 0.0, h))
     angular = log(after.pose.rotation @ before.pose.rotation.T) / (2 * h)
     assert np.allclose(now.twist, [*(after.pose.position - before.pose.position) / (2 * h), *angular], atol=2e-4)
@@ -79,12 +79,12 @@ def test_lines_and_arcs_join_smoothly_and_cut_corners_by_the_blend_at_most(via, 
 
 def test_a_whole_circle_comes_back_and_its_frame_may_be_moved():
     piece = arc_around(START, np.array([0.1, 0.0, 0.0]), UP, 2 * pi, START, LIMITS)
-    motion = joined([START, START], [piece], LIMITS)
+    motion = join_segments([START, START], [piece], LIMITS)
     assert np.abs(motion.at(motion.duration).pose.position).max() < 1e-9
     assert np.abs(motion.at(motion.duration / 2).pose.position - [0.2, 0.0, 0.0]).max() < 1e-9
     frame = Pose(np.array([1.0, 2.0, 3.0]), exp(np.array([0.3, -0.2, 0.5])))
-    there = motion.moved(frame).at(0.7)
-    assert np.allclose(there.pose.position, frame.at(motion.at(0.7).pose.position))
+    there = motion.transform(frame).at(0.7)
+    assert np.allclose(there.pose.position, frame.apply(motion.at(0.7).pose.position))
     assert np.allclose(there.twist[:3], frame.rotation @ motion.at(0.7).twist[:3])
 
 
@@ -97,7 +97,7 @@ def test_points_on_a_line_are_refused(via):
 @settings(max_examples=4 * EXAMPLES, deadline=None)
 @given(st.floats(1e-3, 3.0), st.floats(0.05, 0.5), st.floats(0.1, 2.0), st.floats(1.0, 50.0), st.floats(0.01, 0.99))
 def test_a_smooth_profile_is_its_own_derivative_and_keeps_its_limits(length, speed, acceleration, jerk, share):
-    profile = SmoothProfile(trapezoid(length, speed, acceleration), window_for(acceleration, jerk))
+    profile = SmoothProfile(trapezoidal_profile(length, speed, acceleration), window_for(acceleration, jerk))
     time, h = share * profile.duration, 1e-6
     (s0, v0, a0), (_, v, a), (s1, v1, a1) = (profile.at(time + d) for d in (-h, 0.0, h))
     assert (s1 - s0) / (2 * h) == pytest.approx(v, abs=1e-5)
@@ -112,7 +112,7 @@ def test_a_smooth_profile_is_its_own_derivative_and_keeps_its_limits(length, spe
 
 def test_a_path_with_a_jerk_limit_never_jumps_in_acceleration():
     corners = [Pose(np.array(p), np.eye(3)) for p in ((0.0, 0, 0), (0.2, 0, 0), (0.2, 0.2, 0), (0.3, 0.2, 0.0))]
-    smooth, plain = path(corners, JERKY, 0.01), path(corners, LIMITS, 0.01)
+    smooth, plain = path_through(corners, JERKY, 0.01), path_through(corners, LIMITS, 0.01)
     h = smooth.duration / 2000
     jumps = [
         max(np.abs(np.diff([m.at(t).acceleration[:3] for t in np.arange(0, m.duration, h)], axis=0)).max() / h, 0.0)

@@ -7,14 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from skillc_runtime.motion.lanes import lanes
+from skillc_runtime.motion.lanes import plan_lanes
 
 size = st.floats(0.05, 1.0)
 
 
 @given(size, size, st.floats(0.07, 0.2), st.floats(0.04, 0.07), st.floats(0.1, 0.5))
 def test_every_cell_is_passed_by_the_tool(width, height, length, breadth, overlap):
-    ends = lanes(np.array([width, height]), np.array([length, breadth]), overlap)
+    ends = plan_lanes(np.array([width, height]), np.array([length, breadth]), overlap)
     longer = 0 if width >= height else 1
     extent = np.array([width, height])
     across = sorted({round(float(e.position[1 - longer]), 9) for e in ends})
@@ -26,7 +26,7 @@ def test_every_cell_is_passed_by_the_tool(width, height, length, breadth, overla
 
 @given(size, size)
 def test_to_and_fro_with_the_tool_into_the_surface(width, height):
-    ends = lanes(np.array([width, height]), np.array([0.1, 0.05]), 0.2)
+    ends = plan_lanes(np.array([width, height]), np.array([0.1, 0.05]), 0.2)
     for end in ends:
         assert np.allclose(end.rotation @ end.rotation.T, np.eye(3))
         assert np.linalg.det(end.rotation) == pytest.approx(1.0)
@@ -39,4 +39,4 @@ def test_to_and_fro_with_the_tool_into_the_surface(width, height):
 @pytest.mark.parametrize("surface, overlap", [((0.0, 0.1), 0.2), ((0.1, 0.1), 1.0), ((0.1, 0.1), -0.1)])
 def test_refuses_nonsense(surface, overlap):
     with pytest.raises(ValueError, match="lanes"):
-        lanes(np.array(surface), np.array([0.1, 0.05]), overlap)
+        plan_lanes(np.array(surface), np.array([0.1, 0.05]), overlap)

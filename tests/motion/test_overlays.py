@@ -34,12 +34,12 @@ def test_pure_in_time(name):
 
 
 def test_fading_starts_and_ends_with_nothing():
-    faded = FadedOverlay(CIRCLE, start=1.0, fade=0.5).ended(3.0)
+    faded = FadedOverlay(CIRCLE, start=1.0, fade=0.5).end_at(3.0)
     for time in (0.0, 1.0, 3.5, 9.0):
         assert not any(part.any() for part in faded.at(time))
     assert np.allclose(faded.at(2.0)[0], CIRCLE.at(1.0)[0])
-    assert faded.gone(3.5)
-    assert not faded.gone(3.4)
+    assert faded.is_over(3.5)
+    assert not faded.is_over(3.4)
 
 
 def test_the_spiral_runs_at_constant_speed_and_stays_within_its_radius():

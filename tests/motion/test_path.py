@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from skillc_runtime.motion.path import path
+from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Pose, exp, log
 from skillc_runtime.motion.segments import MotionLimits
 
@@ -31,7 +31,7 @@ def close(a: Pose, b: Pose, tolerance: float = 1e-9) -> bool:
 @settings(max_examples=40, deadline=None)
 @given(poses, st.floats(0.0, 0.05), st.floats(0.01, 0.99))
 def test_twist_is_the_derivative_of_the_pose(corners, blend, share):
-    motion, h = path(corners, LIMITS, blend), 1e-6
+    motion, h = path_through(corners, LIMITS, blend), 1e-6
     time = share * motion.duration
     before, now, after = (motion.at(time + d) for d in (-h, 0.0, h))
     linear = (after.pose.position - before.pose.position) / (2 * h)
@@ -42,7 +42,7 @@ def test_twist_is_the_derivative_of_the_pose(corners, blend, share):
 @settings(max_examples=40, deadline=None)
 @given(poses, st.floats(0.0, 0.05))
 def test_acceleration_is_the_derivative_of_the_twist_almost_everywhere(corners, blend):
-    motion, h = path(corners, LIMITS, blend), 1e-5
+    motion, h = path_through(corners, LIMITS, blend), 1e-5
     times = np.linspace(0, motion.duration, 101)[1:-1]
     wrong = 0
     for time in times:
@@ -55,7 +55,7 @@ def test_acceleration_is_the_derivative_of_the_twist_almost_everywhere(corners, 
 @settings(max_examples=40, deadline=None)
 @given(poses, st.floats(0.0, 0.05))
 def test_starts_at_the_first_and_ends_at_the_last_pose(corners, blend):
-    motion = path(corners, LIMITS, blend)
+    motion = path_through(corners, LIMITS, blend)
     assert close(motion.at(-1.0).pose, corners[0])
     assert close(motion.at(motion.duration + 1.0).pose, corners[-1], 1e-7)
     assert not motion.at(motion.duration + 1.0).twist.any()
@@ -64,7 +64,7 @@ def test_starts_at_the_first_and_ends_at_the_last_pose(corners, blend):
 @settings(max_examples=40, deadline=None)
 @given(poses, st.floats(0.001, 0.05))
 def test_corners_are_cut_by_the_blend_at_most_and_the_speed_stays_within_limits(corners, blend):
-    motion = path(corners, LIMITS, blend)
+    motion = path_through(corners, LIMITS, blend)
     samples = [motion.at(t) for t in np.linspace(0, motion.duration, 200)]
     for corner in corners:
         assert (
@@ -80,7 +80,7 @@ def test_corners_are_cut_by_the_blend_at_most_and_the_speed_stays_within_limits(
 def test_a_right_angle_never_slows_below_71_percent_and_saves_time():
     corners = [Pose.of(p) for p in ((0, 0, 0), (0.3, 0, 0), (0.3, 0.3, 0))]
     limits = MotionLimits(speed=0.1, acceleration=0.4)
-    stopping, blended = path(corners, limits), path(corners, limits, 0.05)
+    stopping, blended = path_through(corners, limits), path_through(corners, limits, 0.05)
     speeds = [np.linalg.norm(blended.at(t).twist[:3]) for t in np.linspace(0.5, blended.duration - 0.5, 1000)]
     assert min(speeds) == pytest.approx(0.0707, abs=1e-3)
     assert stopping.duration - blended.duration == pytest.approx(0.1 / 0.4)
@@ -92,7 +92,9 @@ def test_a_right_angle_never_slows_below_71_percent_and_saves_time():
 
 
 def test_time_may_run_in_any_order():
-    motion = path([Pose.of((0, 0, 0)), Pose.of((0.2, 0, 0)), Pose.of((0.2, 0.1, 0), (0, 1, 0, 0))], LIMITS, 0.01)
+    motion = path_through(
+        [Pose.of((0, 0, 0)), Pose.of((0.2, 0, 0)), Pose.of((0.2, 0.1, 0), (0, 1, 0, 0))], LIMITS, 0.01
+    )
     times = np.linspace(-0.1, motion.duration + 0.1, 50)
     forward = [motion.at(t) for t in times]
     backward = [motion.at(t) for t in reversed(times)][::-1]
@@ -101,6 +103,6 @@ def test_time_may_run_in_any_order():
 
 def test_no_way_takes_no_time_and_holds():
     here = Pose.of((0.1, 0.2, 0.3))
-    motion = path([here, here], LIMITS, 0.01)
+    motion = path_through([here, here], LIMITS, 0.01)
     assert motion.duration == 0.0
     assert close(motion.at(1.0).pose, here)

@@ -4,15 +4,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from skillc_runtime.motion.profile import trapezoid
+from skillc_runtime.motion.profile import trapezoidal_profile
 
 positive = st.floats(0.01, 5.0)
 
 
 @given(st.floats(1e-3, 3.0), positive, positive, positive, st.floats(0.0, 1.0), st.floats(1.0, 3.0))
 def test_derivatives_and_limits(length, speed, acceleration, deceleration, share, slower):
-    profile = trapezoid(length, speed, acceleration, deceleration)
-    profile = profile.stretched(profile.duration * slower)
+    profile = trapezoidal_profile(length, speed, acceleration, deceleration)
+    profile = profile.stretch_to(profile.duration * slower)
     time, h = share * profile.duration, 1e-6 * profile.duration
     place, rate, _ = profile.at(time)
     before, after = profile.at(time - h)[0], profile.at(time + h)[0]
@@ -23,18 +23,18 @@ def test_derivatives_and_limits(length, speed, acceleration, deceleration, share
 
 @given(st.floats(1e-3, 3.0), positive, positive)
 def test_starts_and_ends_at_rest(length, speed, acceleration):
-    profile = trapezoid(length, speed, acceleration)
+    profile = trapezoidal_profile(length, speed, acceleration)
     assert profile.at(-1.0) == (0.0, 0.0, 0.0)
     assert profile.at(profile.duration + 1.0) == (length, 0.0, 0.0)
     assert profile.at(profile.duration * (1 - 1e-9))[0] == pytest.approx(length)
 
 
 def test_nothing_to_do_takes_no_time():
-    assert trapezoid(0.0, 1.0, 1.0).duration == 0.0
-    assert trapezoid(0.0, 1.0, 1.0).stretched(2.0).at(1.0) == (0.0, 0.0, 0.0)
+    assert trapezoidal_profile(0.0, 1.0, 1.0).duration == 0.0
+    assert trapezoidal_profile(0.0, 1.0, 1.0).stretch_to(2.0).at(1.0) == (0.0, 0.0, 0.0)
 
 
 @pytest.mark.parametrize("length, speed, acceleration", [(-1.0, 1.0, 1.0), (1.0, 0.0, 1.0), (1.0, 1.0, -1.0)])
 def test_refuses_nonsense(length, speed, acceleration):
     with pytest.raises(ValueError, match="profile"):
-        trapezoid(length, speed, acceleration)
+        trapezoidal_profile(length, speed, acceleration)

@@ -8,9 +8,9 @@ import pytest
 from safety.test_faults import is_safe
 from simulation.cells import ARM, GRIPPER, LAB, SCENES, cell, run, world
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.mujoco.names import part
+from skillc_runtime.backends.mujoco.names import part_name
 from skillc_runtime.control.driver import CompliantArmDriver
-from skillc_runtime.control.safety import Box
+from skillc_runtime.control.safety import Workspace
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.move import MoveLinear
 from skillc_runtime.primitives.overlay import OverlayCircle
@@ -31,7 +31,7 @@ def moved(arm: CompliantArmDriver, *way: float) -> Pose:
 
 def pushed(there: SimulatedCell, scene: str, force: tuple[float, float, float], seconds: float) -> None:
     """Let something push the palm with a force in N in the world."""
-    body = there.data.body(part(there.facts.names[GRIPPER[scene]], "palm"))
+    body = there.data.body(part_name(there.scene.names[GRIPPER[scene]], "palm"))
     body.xfrc_applied[:3] = force
     there.advance(seconds)
     body.xfrc_applied[:3] = 0.0
@@ -131,5 +131,5 @@ def workspace(scene: str, middle: Pose) -> list[Change]:
 @pytest.mark.parametrize(("point", "outside"), [((0.9, 1.0, 3.0), 0.0), ((1.2, 1.0, 3.0), 0.1), ((1.4, 2.4, 3.0), 0.5)])
 def test_how_far_outside_a_box(point: tuple[float, float, float], outside: float) -> None:
     turned = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
-    box = Box(Pose(np.array([1.0, 1.0, 3.0]), turned), np.array([2.0, 0.2, 0.2]))
+    box = Workspace(Pose(np.array([1.0, 1.0, 3.0]), turned), np.array([2.0, 0.2, 0.2]))
     assert box.outside(np.array(point)) == pytest.approx(outside)

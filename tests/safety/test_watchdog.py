@@ -8,7 +8,7 @@ import pytest
 from safety import faults
 from safety.test_faults import is_safe
 from simulation.cells import ARM, SCENES, cell
-from skillc_runtime.control.watchdog import PATIENCE_S, HeartbeatWatchdog
+from skillc_runtime.control.watchdog import HEARTBEAT_TIMEOUT_S, HeartbeatWatchdog
 from skillc_runtime.execution import task_run
 from skillc_runtime.execution.assignment import NotStarted
 from skillc_runtime.execution.task_run import execute_task
@@ -33,7 +33,7 @@ def test_when_the_tree_falls_silent_everything_stops(scene: str) -> None:
     there, run, told = moving(scene)
     arm = there.arm(ARM[scene])
     assert np.abs(arm.measured.velocity[:3]).max() > 1e-3
-    there.advance(PATIENCE_S + 0.1)
+    there.advance(HEARTBEAT_TIMEOUT_S + 0.1)
     assert run.status is Status.RUNNING
     assert arm.fault == "the tree is not ticked any more"
     is_safe(there, scene)
@@ -45,13 +45,13 @@ def test_a_paused_run_gives_signs_of_life_and_one_that_has_ended_needs_none() ->
     there, run, _ = moving("iiwa_table")
     arm = there.arm(ARM["iiwa_table"])
     run.pause()
-    for _ in range(round(2 * PATIENCE_S / 0.01)):
+    for _ in range(round(2 * HEARTBEAT_TIMEOUT_S / 0.01)):
         run.tick()
         there.advance(0.01)
     run.resume()
     assert run.tick() is Status.RUNNING
     run.halt("enough")
-    there.advance(2 * PATIENCE_S)
+    there.advance(2 * HEARTBEAT_TIMEOUT_S)
     assert arm.fault is None
 
 

@@ -80,7 +80,7 @@ def run(
 
 def at_rest(cell: SimulatedCell) -> bool:
     """Whether no arm moves or is asked to push, and each is stiff along every axis."""
-    drivers = [cell.arm(arm.individual) for arm in cell.facts.arms]
+    drivers = [cell.arm(arm.individual) for arm in cell.scene.arms]
     stiff = all(bool((one.compliance.commanded_stiffness > 0).all()) for one in drivers)
     pushing = any(bool((abs(one.compliance.commanded_wrench) > 0.1).any()) for one in drivers)
     return bool(drivers) and cell.at_rest and stiff and not pushing
@@ -88,7 +88,7 @@ def at_rest(cell: SimulatedCell) -> bool:
 
 def vanish(cell: SimulatedCell, fixture: str) -> None:
     """Let everything pass through a fixture, as if it were not there."""
-    prefix = cell.facts.names[LAB + fixture] + "/"
+    prefix = cell.scene.names[LAB + fixture] + "/"
     geoms = [g for g in range(cell.model.ngeom) if cell.model.geom(g).name.startswith(prefix)]
     assert geoms
     cell.model.geom_contype[geoms] = cell.model.geom_conaffinity[geoms] = 0

@@ -15,7 +15,7 @@ from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.mujoco.scene_spec import SceneSpec
-from skillc_runtime.backends.mujoco.variation import Variation, draw, with_obstacles
+from skillc_runtime.backends.mujoco.variation import Variation, add_obstacles, draw_variation
 from skillc_runtime.evaluation.trials.disturbance import reality
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task
@@ -59,7 +59,7 @@ def scene(task: str) -> WorldState:
     return load_scene(catalogue.scene(file), library().vocabulary)
 
 
-def wiped(task: str, real: Reality = draw) -> Execution:
+def wiped(task: str, real: Reality = draw_variation) -> Execution:
     """Run the plan of a task once; it is not made again when it fails."""
     goal = library().tasks[task].goal
     assert goal is not None
@@ -72,7 +72,7 @@ def wiped(task: str, real: Reality = draw) -> Execution:
 
 def stiff(facts: SceneSpec, seed: int) -> Variation:
     """Return a reality in which every pad is eight times as stiff as its data sheet says."""
-    drawn = draw(facts, seed)
+    drawn = draw_variation(facts, seed)
     return replace(drawn, pad_share=dict.fromkeys(drawn.pad_share, 7.0))
 
 
@@ -93,13 +93,13 @@ def test_a_pad_as_it_should_be_keeps_its_contact() -> None:
 
 
 def test_an_obstacle_is_not_taken_for_the_surface() -> None:
-    execution = wiped("clean_desk", lambda facts, seed: with_obstacles(draw(facts, seed), facts))
+    execution = wiped("clean_desk", lambda facts, seed: add_obstacles(draw_variation(facts, seed), facts))
     assert execution.status is Status.FAILURE
     assert execution.failure is not None and "lab:Desk-1.isClean is false" in execution.failure.message
     after = execution.cell.world.snapshot()
     coverage = after.value(LAB + "Desk-1", COVERAGE)
     assert isinstance(coverage, float) and 0.5 < coverage < 1.0, "what the eraser reached is clean all the same"
-    assert reality("obstacle", execution.cell.facts, 1).surfaces[0].obstacle is not None
+    assert reality("obstacle", execution.cell.scene, 1).surfaces[0].obstacle is not None
 
 
 PLACING = {FRAME_ID: "placing", BASE_FRAME_ID: "map"}

@@ -91,10 +91,10 @@ def test_a_peg_finds_its_hole_and_stands_at_its_bottom(seed: int) -> None:
     done = run("insert_peg", seed, watch=watch)
     assert done.succeeded, done.why
     assert 0.03 < max(sinking) < 0.07
-    (socket,), (true,) = done.cell.facts.fixtures, done.cell.variation.fixtures
+    (socket,), (true,) = done.cell.scene.fixtures, done.cell.variation.fixtures
     block = done.cell.data.body("lab:Peg-1/block")
-    end = Pose(block.xpos, block.xmat.reshape(3, 3)).at(np.array([0.0, 0.0, -0.03]))
-    in_socket = true.true_pose(socket.pose).inverse().at(end)
+    end = Pose(block.xpos, block.xmat.reshape(3, 3)).apply(np.array([0.0, 0.0, -0.03]))
+    in_socket = true.true_pose(socket.pose).inverse().apply(end)
     assert in_socket[2] == pytest.approx(-0.030, abs=0.0005)
     assert abs(in_socket[:2]).max() < 0.0005
     measured = done.value("Peg-1", "insertedDepth")

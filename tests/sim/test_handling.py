@@ -62,7 +62,7 @@ def test_pick_and_place_moves_the_object_and_the_world_model_knows(tmp_path: Pat
     assert after.holds(LAB + "Cell", CONTAIN, LAB + "Eraser-1")
     assert not after.holds(LAB + "Robotiq-1", CONTAIN, LAB + "Eraser-1")
     believed = pose(after, LAB + "Eraser-1").position
-    tool = next(tool for tool in cell.facts.tools if tool.individual == LAB + "Eraser-1")
-    really = cell.data.body(f"{cell.facts.names[tool.individual]}/block").xpos
+    tool = next(tool for tool in cell.scene.tools if tool.individual == LAB + "Eraser-1")
+    really = cell.data.body(f"{cell.scene.names[tool.individual]}/block").xpos
     assert np.linalg.norm(believed - pose(state, LAB + "Eraser-1").position) > 0.05
     assert np.linalg.norm(believed - really) < 0.01

@@ -78,7 +78,7 @@ def test_all_that_is_to_be_wiped_is_wiped_and_no_hole_is_touched(changes: list[C
 
 def gaps(cell: SimulatedCell, along: int) -> Array:
     """How far from each hole the edge of the low tool is, m, at every step; its longer side is along an axis."""
-    (surface,) = cell.facts.surfaces
+    (surface,) = cell.scene.surfaces
     frame, recording = cell.ground_truth.surface_pose(surface.individual), cell.ground_truth.recording(LAB + "Eraser-1")
     places = (recording.position - frame.position) @ frame.rotation
     low = places[places[:, 2] < LOW_M, :2]

@@ -94,4 +94,4 @@ def lift(cell: SimulatedCell, scene: str) -> None:
 
 
 def eraser_height(cell: SimulatedCell) -> float:
-    return float(cell.data.body(cell.facts.names[ERASER] + "/block").xpos[2])
+    return float(cell.data.body(cell.scene.names[ERASER] + "/block").xpos[2])

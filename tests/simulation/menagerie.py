@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 
 from skillc_ontology import catalogue
-from skillc_runtime.motion.pose import Array, Pose, exp, quaternion_of
+from skillc_runtime.motion.pose import Array, Pose, exp, quaternion_from_rotation
 
 CORNERS = ((0.01, 0.02, 0.03), (0.11, 0.02, 0.03), (0.01, 0.22, 0.03), (0.01, 0.02, 0.33))
 FACES = ((1, 3, 2), (1, 2, 4), (2, 3, 4), (3, 1, 4))
@@ -79,7 +79,7 @@ def _place(data: mujoco.MjData, body: int) -> Pose:
 
 
 def _body(parent: Xml.Element, name: str, pose: Pose) -> Xml.Element:
-    quaternion = _text(quaternion_of(pose.rotation))
+    quaternion = _text(quaternion_from_rotation(pose.rotation))
     return Xml.SubElement(parent, "body", name=name, pos=_text(pose.position), quat=quaternion)
 
 

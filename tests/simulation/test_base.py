@@ -15,7 +15,7 @@ HERON = LAB + "Heron-1"
 
 
 def base_facts(there: SimulatedCell) -> BaseSpec:
-    return there.facts.bases[0]
+    return there.scene.bases[0]
 
 
 def driven(base: SimulatedBase, period: float = 0.001) -> np.ndarray:

@@ -12,9 +12,9 @@ from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco import noise
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.mujoco.model_builder import build_model
-from skillc_runtime.backends.mujoco.names import obstacle
+from skillc_runtime.backends.mujoco.names import obstacle_name
 from skillc_runtime.backends.mujoco.scene_spec import read_scene_spec
-from skillc_runtime.backends.mujoco.variation import OBSTACLE_M, deserted, draw, with_obstacles
+from skillc_runtime.backends.mujoco.variation import OBSTACLE_M, add_obstacles, draw_variation, make_all_absent
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.frames import pose
@@ -43,13 +43,13 @@ RANGES = (FRICTION_LOW, FRICTION_HIGH, OFFSET_RANGE, TILT_RANGE)
 @pytest.mark.parametrize("scene", SCENES)
 def test_everything_is_where_it_belongs(scene: str) -> None:
     built = cell(scene, seed=3)
-    state, names = world(scene), built.facts.names
+    state, names = world(scene), built.scene.names
     arm, root = ARM[scene], {"iiwa_table": "base", "ur5e_whiteboard": "base_link"}[scene]
     np.testing.assert_allclose(built.data.body(f"{names[arm]}/{root}").xpos, pose(state, arm).position, atol=1e-9)
-    for piece in built.facts.furniture:
+    for piece in built.scene.furniture:
         top = built.data.body(names[piece.individual])
         np.testing.assert_allclose(top.xpos, pose(state, piece.individual).position, atol=1e-9)
-    surface = built.facts.surfaces[0]
+    surface = built.scene.surfaces[0]
     true, body = built.ground_truth.surface_pose(surface.individual), built.data.body(names[surface.individual])
     np.testing.assert_allclose(body.xpos, true.position, atol=1e-9)
     np.testing.assert_allclose(body.xmat.reshape(3, 3), true.rotation, atol=1e-9)
@@ -63,20 +63,20 @@ def test_the_arm_holds_its_posture_and_the_eraser_lies_still(scene: str) -> None
     before = built.arm(ARM[scene]).measured.q
     built.advance(0.5)
     np.testing.assert_allclose(built.arm(ARM[scene]).measured.q, before, atol=1e-4)
-    block = built.data.body(built.facts.names[ERASER] + "/block")
+    block = built.data.body(built.scene.names[ERASER] + "/block")
     np.testing.assert_allclose(block.xpos, pose(world(scene), ERASER).position, atol=2e-3)
 
 
 def test_the_felt_yields_as_its_data_sheet_says() -> None:
     built = cell("iiwa_table")
-    joint = built.model.joint(built.facts.names[ERASER] + "/press")
-    (tool,) = built.facts.tools
+    joint = built.model.joint(built.scene.names[ERASER] + "/press")
+    (tool,) = built.scene.tools
     assert joint.stiffness[0] == built.variation.pad_stiffness(tool)
     assert abs(joint.stiffness[0] / tool.sheet.number("padStiffness") - 1) <= tool.stiffness_range
-    weight = 9.81 * built.facts.tools[0].mass_kg
+    weight = 9.81 * built.scene.tools[0].mass_kg
     built.advance(1.0)
     assert built.ground_truth.recording(ERASER).force.size == 0, "nothing is recorded of a tool that nobody holds"
-    touch = built.data.sensor(built.facts.names[ERASER] + "/face/touch").data[0]
+    touch = built.data.sensor(built.scene.names[ERASER] + "/face/touch").data[0]
     assert touch == pytest.approx(weight, rel=0.01)
 
 
@@ -122,7 +122,7 @@ def test_a_plain_surface_with_nothing_but_its_friction_is_simulated(tmp_path: Pa
     scene = tmp_path / "plain.ttl"
     scene.write_text(re.sub(r"wiping:isClean.*\n(.*\n)*", "skillc:friction 0.6 .\n", text), "utf-8")
     built = SimulatedCell(WorldModel(load_scene(scene, vocabulary())), seed=3)
-    (surface,) = built.facts.surfaces
+    (surface,) = built.scene.surfaces
     assert (surface.friction, surface.offset_range_m, surface.tilt_range_rad) == ((0.6, 0.6), 0.0, 0.0)
     np.testing.assert_allclose(built.ground_truth.surface_pose(surface.individual).position, surface.pose.position)
 
@@ -149,40 +149,43 @@ def test_a_range_of_friction_is_read_without_the_single_value_and_the_other_way_
 def test_facts_that_contradict_a_model_are_refused() -> None:
     facts = read_scene_spec(world("iiwa_table").with_changes([SetProperty(ERASER, SIZE[0], 0.2)]))
     with pytest.raises(SheetError, match=r"the face of .*Eraser-1 is"):
-        build_model(facts, draw(facts, 0))
+        build_model(facts, draw_variation(facts, 0))
 
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_reality_differs_within_the_ranges_of_the_facts(scene: str) -> None:
     facts = read_scene_spec(world(scene))
     (surface,) = facts.surfaces
-    drawn = [draw(facts, seed).of(SURFACE[scene]) for seed in range(100)]
+    drawn = [draw_variation(facts, seed).of(SURFACE[scene]) for seed in range(100)]
     offsets = np.array([one.offset_m for one in drawn])
     tilts = np.array([one.tilt_rad for one in drawn])
     frictions = np.array([one.friction for one in drawn])
     assert 0.9 * surface.offset_range_m < np.abs(offsets).max() <= surface.offset_range_m
     assert 0.9 * surface.tilt_range_rad < np.abs(tilts).max() <= surface.tilt_range_rad
     assert surface.friction[0] <= frictions.min() < frictions.max() <= surface.friction[1]
-    assert draw(facts, 7) == draw(facts, 7)
+    assert draw_variation(facts, 7) == draw_variation(facts, 7)
 
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_arms_start_and_pads_yield_within_the_ranges_of_the_facts(scene: str) -> None:
     facts = read_scene_spec(world(scene))
     (arm,), (tool,) = facts.arms, facts.tools
-    drawn = [draw(facts, seed) for seed in range(100)]
+    drawn = [draw_variation(facts, seed) for seed in range(100)]
     off = np.abs([one.start(arm) - arm.home for one in drawn])
     stiffer = np.array([one.pad_stiffness(tool) / tool.sheet.number("padStiffness") - 1 for one in drawn])
     assert (off.max(axis=0) > 0.9 * arm.posture_range_rad).all() and off.max() <= arm.posture_range_rad
     assert stiffer.min() < -0.9 * tool.stiffness_range and 0.9 * tool.stiffness_range < stiffer.max()
     assert np.abs(stiffer).max() <= tool.stiffness_range
-    np.testing.assert_array_equal(cell(scene, 5).arm(arm.individual).measured.q, draw(facts, 5).start(arm))
+    np.testing.assert_array_equal(cell(scene, 5).arm(arm.individual).measured.q, draw_variation(facts, 5).start(arm))
 
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_what_an_arm_measures_is_as_noisy_as_the_facts_say_and_the_same_for_the_same_seed(scene: str) -> None:
     (arm,) = read_scene_spec(world(scene)).arms
-    sources = (noise.of_joints(arm, 3), noise.of_wrist(arm, 3)), (noise.of_joints(arm, 3), noise.of_wrist(arm, 3))
+    sources = (
+        (noise.make_joint_noise(arm, 3), noise.make_wrist_noise(arm, 3)),
+        (noise.make_joint_noise(arm, 3), noise.make_wrist_noise(arm, 3)),
+    )
     wanted = {"iiwa_table": ([0.001] * 7, None), "ur5e_whiteboard": (None, [0.5] * 3 + [0.02] * 3 + [0.0] * 3)}[scene]
     for one, again, deviation in zip(*sources, wanted, strict=True):
         assert (one is None) == (deviation is None)
@@ -194,12 +197,14 @@ def test_what_an_arm_measures_is_as_noisy_as_the_facts_say_and_the_same_for_the_
 
 def test_surfaces_may_be_missing_and_may_carry_something() -> None:
     facts = read_scene_spec(world("iiwa_table"))
-    drawn, name = draw(facts, 2), facts.names[SURFACE["iiwa_table"]]
-    bodies = {model.body(each).name for model in (build_model(facts, deserted(drawn)),) for each in range(model.nbody)}
+    drawn, name = draw_variation(facts, 2), facts.names[SURFACE["iiwa_table"]]
+    bodies = {
+        model.body(each).name for model in (build_model(facts, make_all_absent(drawn)),) for each in range(model.nbody)
+    }
     assert name not in bodies
-    littered = build_model(facts, with_obstacles(drawn, facts))
-    here, top = littered.body(obstacle(name)).pos, littered.body(name)
-    away = pose_of(top).inverse().at(here)
+    littered = build_model(facts, add_obstacles(drawn, facts))
+    here, top = littered.body(obstacle_name(name)).pos, littered.body(name)
+    away = pose_of(top).inverse().apply(here)
     assert away[2] == pytest.approx(OBSTACLE_M[2])
     assert (np.abs(away[:2]) < facts.surfaces[0].size[:2] / 2).all()
 

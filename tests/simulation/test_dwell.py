@@ -8,8 +8,8 @@ import pytest
 from skillc_runtime.backends.mujoco.recorder import COLUMNS
 from skillc_runtime.devices.ground_truth import Recording
 from skillc_runtime.evaluation.metrics.lane_dwell import lane_dwell
-from skillc_runtime.motion.lanes import lanes
-from skillc_runtime.motion.path import path
+from skillc_runtime.motion.lanes import plan_lanes
+from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.segments import MotionLimits
 
@@ -27,7 +27,7 @@ def recording(path_velocity: Array, velocity: Array, overlay: Array | float = 0.
 
 def wiping(blend: float) -> Array:
     """Return the velocity (n, 3) along lanes whose corners are cut by `blend` m."""
-    motion = path(lanes(BOARD, ERASER, 0.2), MotionLimits(SPEED, ACCELERATION), blend)
+    motion = path_through(plan_lanes(BOARD, ERASER, 0.2), MotionLimits(SPEED, ACCELERATION), blend)
     times = np.arange(0.0, motion.duration, STEP_S)
     return np.array([motion.at(float(time)).twist[:3] for time in times])
 

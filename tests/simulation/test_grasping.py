@@ -123,7 +123,7 @@ def test_the_tool_centre_point_becomes_the_felt_and_the_weight_is_known(scene: s
     lift(there, scene)
     there.advance(0.5)
     arm = there.arm(ARM[scene])
-    felt = there.data.site(there.facts.names[ERASER] + "/face")
+    felt = there.data.site(there.scene.names[ERASER] + "/face")
     np.testing.assert_allclose(arm.measured.pose.position, felt.xpos, atol=0.002)
     np.testing.assert_allclose(arm.measured.pose.rotation, felt.xmat.reshape(3, 3), atol=0.01)
     assert np.linalg.norm(mean_force(there, arm)) < 0.3, "the weight of hand and eraser must not look like a contact"
@@ -132,7 +132,7 @@ def test_the_tool_centre_point_becomes_the_felt_and_the_weight_is_known(scene: s
 @pytest.mark.parametrize("scene", SCENES)
 def test_nothing_is_grasped_where_no_eraser_is(scene: str) -> None:
     there = at_the_eraser(scene)
-    joint = there.model.joint(there.facts.names[ERASER] + "/free").qposadr[0]
+    joint = there.model.joint(there.scene.names[ERASER] + "/free").qposadr[0]
     there.data.qpos[joint] += 0.2
     reach_for_eraser(there, scene)
     assert not there.gripper(GRIPPER[scene]).touches(ERASER)
@@ -160,7 +160,7 @@ def test_fingers_stop_with_the_force_they_were_given() -> None:
     reach_for_eraser(there, scene)
     move_fingers(there, scene, 0.0, force=12.0)
     there.advance(0.3)
-    name = there.facts.names[GRIPPER[scene]]
+    name = there.scene.names[GRIPPER[scene]]
     assert abs(there.data.actuator(f"{name}/opening").force[0]) == pytest.approx(12.0, rel=0.01)
 
 

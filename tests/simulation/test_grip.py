@@ -56,7 +56,7 @@ def test_a_thing_too_heavy_for_the_grip_slips_and_the_motion_fails(scene: str) -
 def test_slippery_fingers_do_not_hold() -> None:
     scene = "iiwa_table"
     there = at_the_eraser(scene, changes=[SetProperty(ERASER, WEIGHT, 0.5)])
-    handle = there.model.geom(there.facts.names[ERASER] + "/handle").id
+    handle = there.model.geom(there.scene.names[ERASER] + "/handle").id
     there.model.geom_friction[[*there.gripper(GRIPPER[scene]).pads, handle], 0] = 0.05
     reach_for_eraser(there, scene)
     grasp(there, scene)
@@ -69,7 +69,7 @@ def test_a_jolt_is_no_slip() -> None:
     scene = "iiwa_table"
     there = grasped(scene, 0.12, 30.0)
     lift(there, scene)
-    block = there.model.body(there.facts.names[ERASER] + "/block").id
+    block = there.model.body(there.scene.names[ERASER] + "/block").id
     for seconds, holds in ((0.02, True), (0.1, False)):
         there.data.xfrc_applied[block, :3] = (0.0, 0.0, -90.0)
         there.advance(seconds)

@@ -17,9 +17,9 @@ from skillc_dsl.cache import VARIABLE
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.model_builder import build_model, describe_model
 from skillc_runtime.backends.mujoco.scene_spec import SceneSpec, read_scene_spec
-from skillc_runtime.backends.mujoco.variation import draw
+from skillc_runtime.backends.mujoco.variation import draw_variation
 from skillc_runtime.film.look_cache import model_file
-from skillc_runtime.film.look_meshes import dressed
+from skillc_runtime.film.look_meshes import build_look_model
 from skillc_runtime.film.looks import Collection, Looks, LooksError, read_looks
 from skillc_runtime.motion.pose import Array, Pose, exp
 from skillc_runtime.scene.load import load_scene
@@ -46,7 +46,7 @@ def folder_of(cache: Path, collection: Collection) -> Path:
 
 
 def spec_of(facts: SceneSpec) -> mujoco.MjSpec:
-    return describe_model(facts, draw(facts, 3))
+    return describe_model(facts, draw_variation(facts, 3))
 
 
 def corners(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> Array:
@@ -61,7 +61,7 @@ def corners(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> Array:
 def test_meshes_are_where_the_collection_s_own_model_has_them(scene: str, cache: Path) -> None:
     facts, looks = seen(scene)
     write_collection(folder_of(cache, looks.collection))
-    model = dressed(spec_of(facts), looks)
+    model = build_look_model(spec_of(facts), looks)
     data, compared = mujoco.MjData(model), 0
     data.qpos[:] += np.random.default_rng(4).uniform(0.0, 0.04, model.nq)
     mujoco.mj_kinematics(model, data)
@@ -77,7 +77,7 @@ def test_meshes_are_where_the_collection_s_own_model_has_them(scene: str, cache:
         for geom in np.flatnonzero(theirs.geom_type == mujoco.mjtGeom.mjGEOM_MESH):
             name = theirs.mesh(theirs.geom_dataid[geom]).name
             (drawn,) = (g for g in range(model.ngeom) if _mesh_name(model, g) == f"{look.device}/look/{name}")
-            expected = np.array([mounted.at(corner) for corner in corners(theirs, posed, geom)])
+            expected = np.array([mounted.apply(corner) for corner in corners(theirs, posed, geom)])
             expected = expected[np.lexsort(expected.round(6).T)]
             np.testing.assert_allclose(corners(model, data, drawn), expected, atol=1e-6)
             assert np.ptp(expected, axis=0).max() > 0.2 * SCALE
@@ -105,7 +105,7 @@ def _turn(ours: str) -> Pose:
 def test_looks_weigh_nothing_and_touch_nothing(scene: str, cache: Path) -> None:
     facts, looks = seen(scene)
     write_collection(folder_of(cache, looks.collection))
-    plain, drawn = build_model(facts, draw(facts, 3)), dressed(spec_of(facts), looks)
+    plain, drawn = build_model(facts, draw_variation(facts, 3)), build_look_model(spec_of(facts), looks)
     for name in ("body_mass", "body_inertia", "body_ipos", "body_iquat", "jnt_axis", "dof_armature", "qpos0"):
         np.testing.assert_array_equal(getattr(plain, name), getattr(drawn, name))
     meshes = drawn.geom_type == mujoco.mjtGeom.mjGEOM_MESH
@@ -121,13 +121,13 @@ def test_a_model_that_moves_otherwise_is_refused(cache: Path) -> None:
     text = file.read_text("utf-8")
     file.write_text(text.replace('type="hinge"', 'type="slide"', 1), "utf-8")
     with pytest.raises(LooksError, match=r"kuka_iiwa_14/iiwa14.xml does not move as lab:Iiwa-1 does"):
-        dressed(spec_of(facts), looks)
+        build_look_model(spec_of(facts), looks)
     (foreign,) = (replace(look, model="universal_robots_ur5e/ur5e.xml") for look in looks.looks)
     with pytest.raises(LooksError, match=r"ur5e.xml has 6 joints and lab:Iiwa-1 has 7"):
-        dressed(spec_of(facts), replace(looks, looks=(foreign,)))
+        build_look_model(spec_of(facts), replace(looks, looks=(foreign,)))
     file.write_text("<mujoco", "utf-8")
     with pytest.raises(LooksError, match=r"iiwa14.xml cannot be read"):
-        dressed(spec_of(facts), looks)
+        build_look_model(spec_of(facts), looks)
 
 
 def test_a_missing_mesh_is_named(cache: Path) -> None:
@@ -136,7 +136,7 @@ def test_a_missing_mesh_is_named(cache: Path) -> None:
     write_collection(folder)
     (folder / "kuka_iiwa_14/assets/iiwa14_3.obj").unlink()
     with pytest.raises(LooksError, match=r"(?s)kuka_iiwa_14/iiwa14.xml cannot be used.*iiwa14_3.obj"):
-        dressed(spec_of(facts), looks)
+        build_look_model(spec_of(facts), looks)
 
 
 def test_looks_that_there_are_not_are_told_with_those_there_are() -> None:

@@ -9,7 +9,7 @@ from skillc_runtime.backends.mujoco.recorder import COLUMNS
 from skillc_runtime.devices.ground_truth import Recording
 from skillc_runtime.evaluation.metrics.wiping import WipingSetup, highpass, measure_wiping
 from skillc_runtime.motion.layout import Layout
-from skillc_runtime.motion.pose import Pose, exp, quaternion_of
+from skillc_runtime.motion.pose import Pose, exp, quaternion_from_rotation
 
 SURFACE = Pose.of((1.0, 2.0, 0.5), (0.5, 0.5, -0.5, -0.5))
 EXTENT, TOOL = np.array([0.40, 0.30]), np.array([0.10, 0.05])
@@ -25,7 +25,7 @@ def recording(local: np.ndarray, force: np.ndarray, tilt_rad: float = 0.0) -> Re
     placed = np.column_stack([local, np.zeros(len(local))])
     for first in (2, 12, 18):
         rows[:, first : first + 3] = placed @ SURFACE.rotation.T + SURFACE.position
-    rows[:, 5:9] = quaternion_of(SURFACE.rotation @ INTO @ exp(np.array([tilt_rad, 0.0, 0.0])))
+    rows[:, 5:9] = quaternion_from_rotation(SURFACE.rotation @ INTO @ exp(np.array([tilt_rad, 0.0, 0.0])))
     for first in (9, 15, 21):
         rows[:, first : first + 3] = np.gradient(rows[:, 2:5], STEP_S, axis=0)
     return Recording(rows)

@@ -12,8 +12,8 @@ from skillc_runtime.world.state.model import WorldModel
 @pytest.mark.parametrize("scene", ["iiwa_table", "ur5e_whiteboard"])
 def test_a_tool_that_lies_somewhere_feels_its_weight_and_what_pushes_it(scene: str) -> None:
     there = SimulatedCell(WorldModel(world(scene)))
-    tool = there.facts.tools[0]
-    name = there.facts.names[tool.individual]
+    tool = there.scene.tools[0]
+    name = there.scene.names[tool.individual]
     there.advance(1.0)
     felt = PeakForce(name, there.model, there.data)
     felt.sample()

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from skillc_runtime.film.rendering import Renderer, RenderingError, View
+from skillc_runtime.film.rendering import CameraView, Renderer, RenderingError
 
 BALL = '<mujoco><worldbody><{kind} type="sphere" size="0.5" rgba="1 0 0 1"/></worldbody></mujoco>'
 
@@ -23,7 +23,7 @@ def seen(request: pytest.FixtureRequest) -> Iterator[tuple[str, np.ndarray]]:
         renderer = Renderer(model, 32, 32)
     except RenderingError as missing:
         pytest.skip(str(missing))
-    yield request.param, renderer.picture(data, (View(np.zeros(3), 2.0, 0.0, 0.0),))
+    yield request.param, renderer.picture(data, (CameraView(np.zeros(3), 2.0, 0.0, 0.0),))
     renderer.close()
 
 

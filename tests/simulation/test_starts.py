@@ -11,20 +11,23 @@ from skillc_runtime.backends.mujoco import start_postures as starts
 from skillc_runtime.backends.mujoco.rng import rng_for
 from skillc_runtime.backends.mujoco.scene_spec import ArmSpec, read_scene_spec
 from skillc_runtime.backends.mujoco.start_postures import draw_start
-from skillc_runtime.collision.arm_assembly import outfit
-from skillc_runtime.collision.body import body
-from skillc_runtime.collision.contacts import Contacts
-from skillc_runtime.collision.scenery import scenery
+from skillc_runtime.collision.arm_assembly import read_arm_assembly
+from skillc_runtime.collision.collision_checker import CollisionChecker
+from skillc_runtime.collision.collision_model import build_collision_model
+from skillc_runtime.collision.scenery import read_scenery
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import load_documents, sheet_documents
 
 SEEDS = range(40)
 
 
-def looking(arm: ArmSpec) -> Contacts:
+def looking(arm: ArmSpec) -> CollisionChecker:
     assert arm.gripper is not None
     state, openings = arm.sheet.state, {arm.gripper.individual: arm.gripper.max_opening_m / 2}
-    return Contacts(body(outfit(state, arm.individual, openings), scenery(state, arm.base)), arm.home)
+    return CollisionChecker(
+        build_collision_model(read_arm_assembly(state, arm.individual, openings), read_scenery(state, arm.base)),
+        arm.home,
+    )
 
 
 def first_draw(arm: ArmSpec, seed: int) -> tuple[float, ...]:
@@ -45,9 +48,9 @@ def test_a_start_that_touches_something_is_drawn_again_and_no_other() -> None:
     contacts, again = looking(arm), 0
     for seed in SEEDS:
         first, start = first_draw(arm, seed), draw_start(arm, seed)
-        free = not contacts.overlaps(arm.home + first)
+        free = not contacts.overlapping_pairs(arm.home + first)
         assert (start == first) == free
-        assert not contacts.overlaps(arm.home + start)
+        assert not contacts.overlapping_pairs(arm.home + start)
         assert np.abs(start).max() <= arm.posture_range_rad
         assert start == draw_start(arm, seed)
         again += not free
@@ -57,7 +60,7 @@ def test_a_start_that_touches_something_is_drawn_again_and_no_other() -> None:
 def test_an_arm_that_touches_something_wherever_it_is_drawn_starts_at_home(monkeypatch: pytest.MonkeyPatch) -> None:
     (arm,) = read_scene_spec(world("iiwa_table")).arms
     contacts = looking(arm)
-    touching = next(seed for seed in SEEDS if contacts.overlaps(arm.home + first_draw(arm, seed)))
+    touching = next(seed for seed in SEEDS if contacts.overlapping_pairs(arm.home + first_draw(arm, seed)))
     monkeypatch.setattr(starts, "MOST_DRAWS", 1)
     assert draw_start(arm, touching) == (0.0,) * 7
 
@@ -68,7 +71,7 @@ def test_what_an_arm_touches_at_home_says_nothing_of_its_starts() -> None:
         '"cell" ; skiros:SizeX 6.0 ; skiros:SizeY 6.0 ; skiros:SizeZ 6.0 ; skiros:BaseFrameId',
     )
     contacts = looking(arm)
-    assert contacts.overlaps(arm.home)
+    assert contacts.overlapping_pairs(arm.home)
     assert draw_start(arm, SEEDS[0]) == first_draw(arm, SEEDS[0])
 
 

@@ -24,7 +24,7 @@ def silent() -> SimulatedCell:
 def loaded(force_n: tuple[float, float, float]) -> tuple[SimulatedCell, np.ndarray]:
     """Return a resting cell in which a force in world axes acts at the hand's centre of mass, and that point."""
     there = silent()
-    palm = there.model.body(there.facts.names[GRIPPER[SCENE]] + "/palm").id
+    palm = there.model.body(there.scene.names[GRIPPER[SCENE]] + "/palm").id
     there.data.xfrc_applied[palm, :3] = force_n
     there.advance(0.5)
     return there, there.data.xipos[palm].copy()
@@ -44,9 +44,9 @@ def test_a_hanging_mass_that_nobody_announced_pulls_down_and_an_announced_one_do
     there, _ = loaded((0.0, 0.0, -9.81 * 2.0))
     simulated, driver = there.arms[ARM[SCENE]], there.arm(ARM[SCENE])
     assert driver.measured.wrench[2] == pytest.approx(-19.62, abs=0.01)
-    name = there.facts.names[GRIPPER[SCENE]]
+    name = there.scene.names[GRIPPER[SCENE]]
     palm = there.model.body(f"{name}/palm")
-    in_link = Pose.of(there.model.body(f"{name}/palm").pos, there.model.body(f"{name}/palm").quat).at(palm.ipos)
+    in_link = Pose.of(there.model.body(f"{name}/palm").pos, there.model.body(f"{name}/palm").quat).apply(palm.ipos)
     simulated.carry(Payload(2.0, in_link), Pose(np.zeros(3), np.eye(3)))
     there.advance(0.3)
     np.testing.assert_allclose(driver.measured.wrench, 0.0, atol=0.02)

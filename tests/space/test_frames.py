@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from skillc_runtime.motion.pose import Array, Pose, quaternion_of, rotation_of
+from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation, rotation_from_quaternion
 from skillc_runtime.world.space.frame_tree import FrameError, MissingFact, Unplaced, frame_tree_of
 from skillc_runtime.world.space.frames import (
     attachment_changes,
@@ -51,7 +51,7 @@ def trees(draw: st.DrawFn) -> tuple[WorldState, dict[str, tuple[str, Pose]]]:
 def matrix(own: Pose) -> Array:
     """Return a pose as a homogeneous matrix (4, 4), through the quaternion that the world model holds."""
     result = np.eye(4)
-    result[:3, :3], result[:3, 3] = rotation_of(quaternion_of(own.rotation)), own.position
+    result[:3, :3], result[:3, 3] = rotation_from_quaternion(quaternion_from_rotation(own.rotation)), own.position
     return result
 
 

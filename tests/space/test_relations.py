@@ -98,7 +98,7 @@ def test_inside_means_that_every_point_is(
     near = Pose(other.position + 0.1 * one.position, one.rotation)
     state = world(thing("A", near, size=small), thing("B", other, size=large))
     sides = np.linspace(-0.5, 0.5, 5)
-    points = np.array([near.at(np.array([x, y, z]) * small) for x in sides for y in sides for z in sides])
+    points = np.array([near.apply(np.array([x, y, z]) * small) for x in sides for y in sides for z in sides])
     local = np.abs((points - other.position) @ other.rotation) - np.array(large) / 2
     margin = abs(local.max() - TOUCH_M)
     assert margin < 1e-9 or holds(state, INSIDE, "A", "B") == bool(local.max() <= TOUCH_M)

@@ -23,7 +23,7 @@ from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.evaluation.report.write import write_figure, write_report
 from skillc_runtime.execution.assignment import PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
-from skillc_runtime.film.film import Film, Filmed, Moment
+from skillc_runtime.film.film import Film, FilmFiles, Moment
 from skillc_runtime.film.picture_files import FilmError
 from skillc_runtime.film.rendering import RenderingError
 from skillc_runtime.planning.planners import Planners
@@ -185,17 +185,17 @@ def _run(
 def _model_with_meshes(cell: SimulatedCell, looks: str) -> Any:
     """Return the model of a cell with the meshes of that name, for films. ServiceError if there are none."""
     from skillc_runtime.backends.mujoco.model_builder import describe_model
-    from skillc_runtime.film.look_meshes import dressed
+    from skillc_runtime.film.look_meshes import build_look_model
     from skillc_runtime.film.looks import LooksError, read_looks
 
     try:
-        wanted = read_looks(cell.world.snapshot(), cell.facts, looks)
-        return dressed(describe_model(cell.facts, cell.variation), wanted)
+        wanted = read_looks(cell.world.snapshot(), cell.scene, looks)
+        return build_look_model(describe_model(cell.scene, cell.variation), wanted)
     except LooksError as error:
         raise ServiceError(str(error)) from error
 
 
-def _write_film(film: Film, folder: Path, wanted: Sequence[Moment], reporter: Reporter) -> Filmed | None:
+def _write_film(film: Film, folder: Path, wanted: Sequence[Moment], reporter: Reporter) -> FilmFiles | None:
     """Write the film and the stills that are wanted; report where there can be none."""
     try:
         return film.write(folder, wanted)

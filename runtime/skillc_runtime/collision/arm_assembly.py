@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from skillc_runtime.collision.scenery import Block, place_of
+from skillc_runtime.collision.scenery import BoxObstacle, pose_key
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.space.frames import size
 from skillc_runtime.world.state.data_sheet import number_of, sheet_of
@@ -30,7 +30,7 @@ class Hand:
     name: str
     model: str
     opening_m: float
-    held: tuple[Block, ...]
+    held: tuple[BoxObstacle, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +43,7 @@ class ArmAssembly:
     clearance_m: float
 
 
-def outfit(state: WorldState, arm: str, opening_m: dict[str, float]) -> ArmAssembly:
+def read_arm_assembly(state: WorldState, arm: str, opening_m: dict[str, float]) -> ArmAssembly:
     """Return an arm and what it carries; `opening_m` says how far the fingers of each gripper, by IRI, stand apart.
 
     SheetError when a data sheet lacks the model.
@@ -66,10 +66,10 @@ def _hand(state: WorldState, gripper: str, opening_m: float) -> Hand:
     return Hand(state.vocabulary.short(gripper), model, round(opening_m, 3), tuple(one for one in held if one))
 
 
-def _held(state: WorldState, thing: str) -> Block | None:
+def _held(state: WorldState, thing: str) -> BoxObstacle | None:
     """Return the box of what is in the hand, None when it has no extent."""
     numbers = [state.value(thing, name) for name in (*POSITION, *ORIENTATION)]
     if any(state.value(thing, name) is None for name in SIZE) or any(not isinstance(n, float) for n in numbers):
         return None
     at = Pose.of(np.array(numbers[:3], float), np.array(numbers[3:], float))
-    return Block(state.vocabulary.short(thing), place_of(at), tuple((size(state, thing) / 2).tolist()))
+    return BoxObstacle(state.vocabulary.short(thing), pose_key(at), tuple((size(state, thing) / 2).tolist()))

@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from skillc_runtime.motion.pose import Pose, quaternion_of
+from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
 from skillc_runtime.world.space.bounding_boxes import solid_box
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
@@ -24,7 +24,7 @@ Numbers: TypeAlias = tuple[float, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class PoseKey:
     """A pose as numbers that can be compared: position m, unit quaternion (w, x, y, z)."""
 
     position: Numbers
@@ -32,20 +32,20 @@ class Place:
 
 
 @dataclass(frozen=True, slots=True)
-class Block:
+class BoxObstacle:
     """A box: its short name, the place of its middle, half its extent in m."""
 
     name: str
-    place: Place
+    place: PoseKey
     half: Numbers
 
 
 @dataclass(frozen=True, slots=True)
-class Modelled:
+class ModelObstacle:
     """A thing with a model of its own: its short name, its place, the path of its MJCF."""
 
     name: str
-    place: Place
+    place: PoseKey
     model: str
 
 
@@ -53,27 +53,27 @@ class Modelled:
 class Scenery:
     """What stands around, in order of IRI, and the floor, on which the map's frame lies."""
 
-    floor: Place
-    blocks: tuple[Block, ...]
-    modelled: tuple[Modelled, ...]
+    floor: PoseKey
+    blocks: tuple[BoxObstacle, ...]
+    modelled: tuple[ModelObstacle, ...]
 
 
-def place_of(pose: Pose) -> Place:
+def pose_key(pose: Pose) -> PoseKey:
     """Return a pose as numbers, rounded so far that what is the same compares equal: 1 um, 1 urad."""
-    quaternion = quaternion_of(pose.rotation)
-    return Place(tuple(np.round(pose.position, 6).tolist()), tuple(np.round(quaternion, 6).tolist()))
+    quaternion = quaternion_from_rotation(pose.rotation)
+    return PoseKey(tuple(np.round(pose.position, 6).tolist()), tuple(np.round(quaternion, 6).tolist()))
 
 
-def scenery(state: WorldState, base: Pose) -> Scenery:
+def read_scenery(state: WorldState, base: Pose) -> Scenery:
     """Return everything with a place and an extent or a model around an arm that stands at `base` in the world.
 
     What is held by an arm has no place in the world; a workspace is nothing to touch.
     """
     inward = base.inverse()
-    return Scenery(place_of(inward), tuple(_blocks(state, inward)), tuple(_modelled(state, inward)))
+    return Scenery(pose_key(inward), tuple(_blocks(state, inward)), tuple(_modelled(state, inward)))
 
 
-def _blocks(state: WorldState, inward: Pose) -> Iterator[Block]:
+def _blocks(state: WorldState, inward: Pose) -> Iterator[BoxObstacle]:
     sized = state.stored.get(SIZE[0])
     for individual in sorted(each for each, _ in sized.items()) if sized else ():
         if state.is_a(individual, WORKSPACE) or state.is_a(individual, FIXTURE):
@@ -82,13 +82,13 @@ def _blocks(state: WorldState, inward: Pose) -> Iterator[Block]:
             box = solid_box(state, individual)
             middle = inward @ box.middle
             if np.linalg.norm(middle.position) - np.linalg.norm(box.half) < FAR_M:
-                yield Block(state.vocabulary.short(individual), place_of(middle), tuple(box.half.tolist()))
+                yield BoxObstacle(state.vocabulary.short(individual), pose_key(middle), tuple(box.half.tolist()))
 
 
-def _modelled(state: WorldState, inward: Pose) -> Iterator[Modelled]:
+def _modelled(state: WorldState, inward: Pose) -> Iterator[ModelObstacle]:
     for individual in sorted(state.instances(FIXTURE)):
         with suppress(FrameError, SheetError):
             path = sheet_of(state, individual).model
             middle = inward @ pose(state, individual)
             if np.linalg.norm(middle.position) < FAR_M:
-                yield Modelled(state.vocabulary.short(individual), place_of(middle), str(path))
+                yield ModelObstacle(state.vocabulary.short(individual), pose_key(middle), str(path))

@@ -48,7 +48,7 @@ class ArmTask:
             return self.controllers.joints.command(state, self.joints.sample(self.now), self.period)
         return self.tool.command(state, self.now, self.period)
 
-    def take_in(self, state: ArmState) -> None:
+    def update_state(self, state: ArmState) -> None:
         """Remember a state; a tool centre point that jumps was moved on the hand, say by grasping a tool."""
         before, self._tool_position = self._tool_position, state.tool.position.tolist()
         self.measured.state = state
@@ -57,7 +57,7 @@ class ArmTask:
 
     def move_tool(self) -> ToolTask:
         """Hand over from joint to tool control: the tool goes on as the joints moved it."""
-        self.take_in(self._arm.state())
+        self.update_state(self._arm.state())
         if self.joints is not None:
             state, reference = self.measured.state, self.joints.sample(self.now)
             tool, jacobian = self.kinematics.tool_at(reference.q, state)
@@ -68,10 +68,10 @@ class ArmTask:
     def move_joints(self) -> JointReferenceGenerator:
         """Hand over from tool to joint control: the joints go on as the tool moved them."""
         if self.joints is None:
-            self.joints = self.joints_as_they_move()
+            self.joints = self.stopping_joint_reference()
         return self.joints
 
-    def joints_as_they_move(self) -> JointReferenceGenerator:
+    def stopping_joint_reference(self) -> JointReferenceGenerator:
         """Return a reference that comes to rest from how the joints move now; nothing changes."""
         state = self.measured.state
         return self._joint_reference(self.controllers.joints_now(state), self.controllers.speeds_now(state))

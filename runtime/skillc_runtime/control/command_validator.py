@@ -36,7 +36,7 @@ class CommandValidator:
 
     def check(self, state: ArmState) -> None:
         """Take in what the arm measures. ControlError when some of it is not a number; the arm is commanded to hold."""
-        if not take_over(self._holding, self._rest(state), state.q, state.dq, state.wrench, state.tool.position):
+        if not update_holding(self._holding, self._rest(state), state.q, state.dq, state.wrench, state.tool.position):
             self._give_up("the arm reports something that is not a number")
 
     def command(self, command: Command, period: float) -> None:
@@ -71,7 +71,7 @@ class CommandValidator:
 
 
 @compiled
-def take_over(holding: OutVector, rest: Vector, q: Vector, dq: Vector, wrench: Vector, position: Vector) -> bool:
+def update_holding(holding: OutVector, rest: Vector, q: Vector, dq: Vector, wrench: Vector, position: Vector) -> bool:
     """Hold what is `rest` (nv,) from now on, if all of the others is finite; else return False.
 
     Whatever is not makes its sum of squares infinite or no number.

@@ -60,12 +60,12 @@ class ComplianceControl:
 
     def release_rotation(self) -> None:
         """Let the tool turn about the two axes across the released one."""
-        self._task.move_tool().compliance.turn_freely(True)
+        self._task.move_tool().compliance.set_rotation_free(True)
 
     def restore_rotation(self) -> None:
         """Hold the tool in the rotation that it has now. Gives up a motion."""
         if self._task.joints is not None:
-            self._task.tool.compliance.turn_freely(False)
+            self._task.tool.compliance.set_rotation_free(False)
         else:
             self._task.tool.restore_rotation(self._task.now)
 

@@ -14,7 +14,7 @@ import numpy as np
 from skillc_runtime.control.filters import Lag
 from skillc_runtime.control.gains import Gains
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.motion.reference import ANY_SPEED, Compliance
+from skillc_runtime.motion.reference import UNLIMITED_SPEED, Compliance
 
 PARALLEL = 0.99
 """Cosine above which two directions count as one: about 8 degrees."""
@@ -46,7 +46,7 @@ class ComplianceState:
     def __init__(self, gains: Gains) -> None:
         stiffness = np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3)
         self._unasked = stiffness.copy()
-        self._setpoints = [ComplianceSetpoint(stiffness, np.zeros(3), np.eye(3), ANY_SPEED)]
+        self._setpoints = [ComplianceSetpoint(stiffness, np.zeros(3), np.eye(3), UNLIMITED_SPEED)]
         self._stiffness = Lag(stiffness, gains.command_time, grain=1e-2)
         self._wrench = Lag(np.zeros(6), gains.command_time, grain=1e-3)
         self._target, self._arrived_at = np.zeros(6), self.wanted
@@ -119,13 +119,13 @@ class ComplianceState:
         axis = _axis(self.wanted.frame, direction)
         if not self.yields(direction):
             raise ValueError("the arm does not yield along the direction in which it shall push")
-        force, fastest, sign = np.zeros(3), ANY_SPEED.copy(), np.sign(self.wanted.frame[:, axis] @ direction)
+        force, fastest, sign = np.zeros(3), UNLIMITED_SPEED.copy(), np.sign(self.wanted.frame[:, axis] @ direction)
         force[axis], fastest[axis] = sign * force_n, sign * fastest_m_s
         self._push_as(replace(self.wanted, force=force, fastest=fastest))
 
     def push_off(self) -> None:
         """Stop pushing."""
-        self._push_as(replace(self.wanted, force=np.zeros(3), fastest=ANY_SPEED))
+        self._push_as(replace(self.wanted, force=np.zeros(3), fastest=UNLIMITED_SPEED))
 
     def yields(self, direction: Array) -> bool:
         """Tell whether the tool yields along a direction (3,) of the tool frame."""
@@ -133,7 +133,7 @@ class ComplianceState:
         axis = int(cosines.argmax())
         return bool(cosines[axis] > PARALLEL and self.wanted.stiffness[axis] != self._setpoints[0].stiffness[axis])
 
-    def turn_freely(self, free: bool) -> None:
+    def set_rotation_free(self, free: bool) -> None:
         """Release, or restore, the two rotations about C's x and y."""
         stiffness = self.wanted.stiffness.copy()
         stiffness[3:5] = 0.0 if free else self._setpoints[0].stiffness[3:5]

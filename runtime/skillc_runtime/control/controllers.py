@@ -33,7 +33,7 @@ class ControllerPair:
 
     def joints_held(self, state: ArmState) -> Array:
         """Return the joints (nv,) rad at which the arm holds still when it is to do so at once."""
-        return (self.limit.held(state) if isinstance(self.limit, JointLimit) else state.q).copy()
+        return (self.limit.holding_joints(state) if isinstance(self.limit, JointLimit) else state.q).copy()
 
     def speeds_now(self, state: ArmState) -> Array:
         """Return the joint speeds (nv,) rad/s with which a motion goes on: those commanded last, else measured."""

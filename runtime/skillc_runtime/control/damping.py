@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from skillc_runtime.devices.arm import ArmState
-from skillc_runtime.motion.numerics.compiled import part
+from skillc_runtime.motion.numerics.compiled import inlined
 from skillc_runtime.motion.numerics.linear import cholesky, cholesky_solve, product, times
 from skillc_runtime.motion.pose import Array
 
@@ -16,7 +16,7 @@ LEAST_MOBILITY = 1e-3
 """Added to the tool's inverse inertia, 1/kg and 1/(kg m^2): at a singularity the tool seems heavy, not immovable."""
 
 
-@part
+@inlined
 def tool_inertia(inertia: Array, mobility: Array, J: Array, mass_matrix: Array, rotation: Array, frame: Array) -> None:
     """mobility (6, 6) = J_C M^-1 J_C^T in 1/kg and 1/(kg m^2), inertia its inverse but for the least mobility.
 

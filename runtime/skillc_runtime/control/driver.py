@@ -48,7 +48,7 @@ class CompliantArmDriver:
         state = self._arm.state()
         try:
             self._validator.check(state)
-            task.take_in(state)
+            task.update_state(state)
             if (violation := self._safety.violation(state, task.period)) is not None:
                 self.hold_still(violation)
             try:

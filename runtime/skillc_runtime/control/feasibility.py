@@ -12,19 +12,19 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Trajectory
 from skillc_runtime.motion.slowed_trajectory import slow_down
 
-SAMPLE_S, MOST_SAMPLES = 0.05, 150
+SAMPLE_S, MAX_SAMPLES = 0.05, 150
 """How closely a motion is looked at."""
 
 STEPS = 3
 """Steps of inverse kinematics at each sample; the one before is near."""
 
-FAR_M, FAR_RAD = 0.003, 0.03
+MAX_POSITION_ERROR_M, MAX_ROTATION_ERROR_RAD = 0.003, 0.03
 """A tool that stays farther than this from where it shall be cannot get there."""
 
 OVERLAY_S, OVERLAY_SAMPLES = 10.0, 400
 """For how long, and how closely, an overlay is looked at."""
 
-OUTSIDE_RAD = 0.01
+RANGE_TOLERANCE_RAD = 0.01
 """How far beyond its range a joint may seem to go: the law holds it back."""
 
 PULL = 0.05
@@ -37,7 +37,7 @@ def slow_to_feasible(arm: VirtualArm, trajectory: Trajectory, q: Array, limits: 
     q (nv,) rad: where the joints are at its start. Infeasible where a joint would leave its range or the tool falls
     behind.
     """
-    count = int(np.clip(np.ceil(trajectory.duration / SAMPLE_S), 1, MOST_SAMPLES))
+    count = int(np.clip(np.ceil(trajectory.duration / SAMPLE_S), 1, MAX_SAMPLES))
     times, first, fastest = np.linspace(0.0, trajectory.duration, count + 1), q, 1.0
     for time, step in zip(times[1:], np.diff(times), strict=True):
         target, before = trajectory.at(float(time)).pose, q
@@ -66,14 +66,14 @@ def check_overlay_feasible(arm: VirtualArm, overlay: Overlay, axes: Array, limit
 def _followed(arm: VirtualArm, target: Pose, q: Array, first: Array) -> Array:
     """Return joints near q (nv,) that put the tool as near to its target as a few steps lead."""
     for _ in range(STEPS):
-        arm.move(q)
+        arm.update_kinematics(q)
         q = q + step_towards(arm.jacobian, pose_error(arm.tool, target), PULL * (first - q))
     return q
 
 
 def _check(arm: VirtualArm, target: Pose, q: Array, limits: ArmLimits) -> None:
     outside = np.maximum(limits.range[:, 0] - q, q - limits.range[:, 1])
-    if outside.max() > OUTSIDE_RAD:
+    if outside.max() > RANGE_TOLERANCE_RAD:
         joint = int(outside.argmax())
         low, high = limits.range[joint]
         raise Infeasible(
@@ -81,10 +81,10 @@ def _check(arm: VirtualArm, target: Pose, q: Array, limits: ArmLimits) -> None:
             f"outside its range from {low:.2f} to {high:.2f} rad",
             target.position,
         )
-    arm.move(q)
+    arm.update_kinematics(q)
     error = pose_error(arm.tool, target)
     away, turned = float(np.linalg.norm(error[:3])), float(np.linalg.norm(error[3:]))
-    if away > FAR_M or turned > FAR_RAD:
+    if away > MAX_POSITION_ERROR_M or turned > MAX_ROTATION_ERROR_RAD:
         raise Infeasible(
             f"its tool would be {1000 * away:.0f} mm and {np.degrees(turned):.0f} deg away from where it shall be",
             target.position,

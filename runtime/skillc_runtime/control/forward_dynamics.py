@@ -21,9 +21,9 @@ from skillc_runtime.control.task_error import (
     MEASURED,
     TWIST,
     TaskError,
+    compute_task_error,
+    make_task_error,
     speed_excess,
-    task_error,
-    task_error_of,
 )
 from skillc_runtime.control.virtual_arm import VirtualArm, VirtualState
 from skillc_runtime.devices.arm import ArmState, Command
@@ -59,7 +59,7 @@ class ForwardDynamics:
         self._limit, self._arm = limit, arm
         self._memory = ForwardDynamicsMemory(
             dq=np.zeros(arm.joints),
-            task=task_error_of(np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3)),
+            task=make_task_error(np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3)),
             limits=limit.rows,
             rate=np.repeat([law.admittance, law.rotational_admittance], 3) / law.admittance_time,
             lag=law.admittance_time,
@@ -78,18 +78,18 @@ class ForwardDynamics:
 
     def reset(self, state: ArmState, q: Array, dq: Array) -> None:
         """Start from q (nv,) in rad and dq (nv,) in rad/s."""
-        self._arm.mount(state.q, state.tool)
-        self._arm.move(q)
+        self._arm.mount_tool(state.q, state.tool)
+        self._arm.update_kinematics(q)
         self._memory.dq[:] = dq
 
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Command:
         """Return where the joints shall be, or how fast, as the limit makes it."""
         self._felt[:] = state.wrench
         arm, limit = self._arm, self._limit
-        arm.move(limit.q)
-        arm.weigh(self._memory.dq)
+        arm.update_kinematics(limit.q)
+        arm.update_dynamics(self._memory.dq)
         followed = virtual_motion(self._memory, arm.state, state.q, state.wrench, reference, compliance, period)
-        return limit.followed(followed, state)
+        return limit.command_if_followed(followed, state)
 
 
 @compiled
@@ -108,7 +108,7 @@ def virtual_motion(
     does not follow.
     """
     dq, rows, axes, lag = memory.dq, memory.task.rows, memory.task.axes, memory.lag
-    task_error(memory.task, virtual.tool, reference, compliance, felt)
+    compute_task_error(memory.task, virtual.tool, reference, compliance, felt)
     push, in_base, torque, ddq = np.empty(6), np.empty(6), np.empty(dq.size), np.empty(dq.size)
     for i in range(6):
         force = rows[MEASURED, i] + compliance.wrench[i] - compliance.stiffness[i] * rows[ERROR, i]

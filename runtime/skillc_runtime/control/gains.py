@@ -10,7 +10,7 @@ from typing import TypeAlias
 from skillc_runtime.devices.arm import Mode
 from skillc_runtime.devices.arm_driver import TaskLimits
 
-Number: TypeAlias = Callable[[str], float]
+NumberReader: TypeAlias = Callable[[str], float]
 """Returns a number of a data sheet by its name there; raises an error that names it where the sheet lacks it."""
 
 
@@ -125,7 +125,7 @@ class Gains:
     limits: TaskLimits
 
 
-def read_gains(controller: str, number: Number) -> Gains:
+def read_gains(controller: str, number: NumberReader) -> Gains:
     """Return the gains that a data sheet states for the controller of that name; UnknownController if there is none."""
     if controller not in CONTROLLERS:
         raise UnknownController(f"there is no controller {controller!r}; there are: {', '.join(CONTROLLERS)}")
@@ -139,20 +139,20 @@ def read_gains(controller: str, number: Number) -> Gains:
     )
 
 
-def _read_forward_dynamics(number: Number) -> ForwardDynamicsGains:
+def _read_forward_dynamics(number: NumberReader) -> ForwardDynamicsGains:
     return ForwardDynamicsGains(number("admittance"), number("rotationalAdmittance"), number("admittanceTime"))
 
 
-def _read_velocity(number: Number) -> VelocityGains:
+def _read_velocity(number: NumberReader) -> VelocityGains:
     return VelocityGains(_read_forward_dynamics(number), number("trackingRate"), number("trackingTime"))
 
 
-def _read_impedance(number: Number) -> ImpedanceGains:
+def _read_impedance(number: NumberReader) -> ImpedanceGains:
     floors = number("dampingFloor"), number("rotationalDampingFloor")
     return ImpedanceGains(*floors, number("nullspaceStiffness"), number("torqueRate"))
 
 
-CONTROLLERS: Mapping[str, Callable[[Number], LawGains]] = MappingProxyType(
+CONTROLLERS: Mapping[str, Callable[[NumberReader], LawGains]] = MappingProxyType(
     {
         "forward_dynamics": _read_forward_dynamics,
         "forward_dynamics_velocity": _read_velocity,

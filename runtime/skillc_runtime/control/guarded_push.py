@@ -26,29 +26,29 @@ brakes it."""
 class Approach:
     """An approach with `speed` m/s until one of some conditions is met.
 
-    steady: s for which it has gone steadily; held: s for which each condition has held; depth: m gone so far.
+    steady_s: s for which it has gone steadily; held_s: s for which each condition has held; depth: m gone so far.
     """
 
     speed: float
     conditions: tuple[StopCondition, ...]
-    held: tuple[float, ...]
+    held_s: tuple[float, ...]
     steady: float = 0.0
     depth: float = 0.0
 
     @property
-    def moved(self) -> bool:
+    def has_moved(self) -> bool:
         """Whether the tool has approached steadily."""
         return self.steady >= STEADY_S
 
     @property
     def met(self) -> StopCondition | None:
         """The first of the conditions that is met."""
-        return next((each for each, s in zip(self.conditions, self.held, strict=True) if self._is_met(each, s)), None)
+        return next((each for each, s in zip(self.conditions, self.held_s, strict=True) if self._is_met(each, s)), None)
 
     def _is_met(self, condition: StopCondition, held_s: float) -> bool:
         match condition:
             case Standstill(for_s=for_s, from_start_s=from_start_s):
-                return held_s >= (for_s if self.moved else from_start_s)
+                return held_s >= (for_s if self.has_moved else from_start_s)
             case Contact(for_s=for_s):
                 return held_s >= for_s
             case Travel(distance_m=distance_m):
@@ -59,15 +59,15 @@ class Approach:
 
 def begin_approach(push: GuardedPush) -> Approach:
     """Return the approach of a push before it has moved."""
-    conditions = (*push.touched_when, push.travel)
+    conditions = (*push.touch_conditions, push.travel)
     return Approach(push.approach_m_s, conditions, (0.0,) * len(conditions))
 
 
-def advance(approach: Approach, speed: float, force_n: float, period: float) -> Approach:
+def advance_approach(approach: Approach, speed: float, force_n: float, period: float) -> Approach:
     """Go on by `period` s: `speed` m/s towards the surface, `force_n` N with which something pushes back."""
     least, most = (share * approach.speed for share in STEADY_SHARE)
     steady = approach.steady + period if least < speed < most else 0.0
-    moved = approach.moved or steady >= STEADY_S
+    moved = approach.has_moved or steady >= STEADY_S
 
     def holds(condition: StopCondition) -> bool:
         match condition:
@@ -80,17 +80,17 @@ def advance(approach: Approach, speed: float, force_n: float, period: float) -> 
             case _:
                 assert_never(condition)
 
-    conditions = zip(approach.conditions, approach.held, strict=True)
+    conditions = zip(approach.conditions, approach.held_s, strict=True)
     return replace(
         approach,
         steady=max(approach.steady, STEADY_S) if moved else steady,
-        held=tuple(held + period if holds(condition) else 0.0 for condition, held in conditions),
+        held_s=tuple(held + period if holds(condition) else 0.0 for condition, held in conditions),
         depth=approach.depth + speed * period,
     )
 
 
 @dataclass(frozen=True, slots=True)
-class Pressed:
+class Pressing:
     """A tool that is pressed on what it approached with `speed` m/s; it has gone too fast for that for `fast` s."""
 
     speed: float
@@ -102,7 +102,7 @@ class Pressed:
         return self.fast >= FALL_S
 
 
-def advance_pressed(pressed: Pressed, speed: float, period: float) -> Pressed:
+def advance_pressing(pressed: Pressing, speed: float, period: float) -> Pressing:
     """Go on by `period` s with `speed` m/s in the direction of the press."""
     return replace(pressed, fast=pressed.fast + period if speed > FALL_SHARE * pressed.speed else 0.0)
 
@@ -114,7 +114,7 @@ class GivenUp:
     reason: str
 
 
-Next: TypeAlias = Literal["go on", "approach", "press"] | GivenUp
+PushAction: TypeAlias = Literal["go on", "approach", "press"] | GivenUp
 """What to do with the push: leave it, push gently, push with the full force, or end it."""
 
 
@@ -123,15 +123,15 @@ class ActivePush:
 
     def __init__(self, push: GuardedPush, axis: Array) -> None:
         self.push, self._axis = push, axis
-        self._phase: Approach | Pressed = begin_approach(push)
+        self._phase: Approach | Pressing = begin_approach(push)
         self._surface_m: float | None = None
 
     @property
-    def touched(self) -> bool:
+    def has_touched(self) -> bool:
         """Whether something has been met."""
         return self._surface_m is not None
 
-    def step(self, state: ArmState, contact_wrench: Callable[[], Array], period: float) -> Next:
+    def step(self, state: ArmState, contact_wrench: Callable[[], Array], period: float) -> PushAction:
         """Go on by `period` s; `contact_wrench` returns what the environment does to the tool (6,), N, base axes."""
         height = float(self._axis @ state.tool.position)
         speed = -float(self._axis @ (state.jacobian[:3] @ state.dq))
@@ -141,8 +141,8 @@ class ActivePush:
         match self._phase:
             case Approach():
                 return self._go_nearer(self._phase, speed, height, float(self._axis @ contact_wrench()[:3]), period)
-            case Pressed():
-                self._phase = advance_pressed(self._phase, speed, period)
+            case Pressing():
+                self._phase = advance_pressing(self._phase, speed, period)
                 if not self._phase.falling:
                     return "go on"
                 self._phase = begin_approach(self.push)
@@ -150,14 +150,14 @@ class ActivePush:
             case _:
                 assert_never(self._phase)
 
-    def _go_nearer(self, approach: Approach, speed: float, height: float, force_n: float, period: float) -> Next:
-        self._phase = approach = advance(approach, speed, force_n, period)
+    def _go_nearer(self, approach: Approach, speed: float, height: float, force_n: float, period: float) -> PushAction:
+        self._phase = approach = advance_approach(approach, speed, force_n, period)
         match approach.met:
             case None:
                 return "go on"
             case Travel(distance_m=distance_m):
                 return GivenUp(f"nothing to push against within {distance_m * 100:.0f} cm")
             case Contact() | Standstill():
-                self._phase = Pressed(self.push.approach_m_s)
+                self._phase = Pressing(self.push.approach_m_s)
                 self._surface_m = height if self._surface_m is None else self._surface_m
                 return "press"

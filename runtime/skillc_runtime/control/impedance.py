@@ -27,14 +27,14 @@ from skillc_runtime.control.task_error import (
     MEASURED,
     TWIST,
     TaskError,
-    shorten,
+    clamp_length,
+    compute_task_error,
+    make_task_error,
     speed_excess,
-    task_error,
-    task_error_of,
 )
 from skillc_runtime.devices.arm import ArmState, Torque
 from skillc_runtime.motion.arrays import OutMatrix, OutVector, Vector
-from skillc_runtime.motion.numerics.compiled import compiled, part
+from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import times, transposed_times
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
@@ -76,7 +76,7 @@ class Impedance:
         stiffness = np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3)
         self._posture = Nullspace(law.nullspace_stiffness, joints)
         self._memory = ImpedanceMemory(
-            task=task_error_of(stiffness),
+            task=make_task_error(stiffness),
             tool=np.zeros((4, 3)),
             limits=limit.rows,
             inertia=np.zeros((6, 6)),
@@ -162,7 +162,7 @@ def design_damping(
         braking[i] = BRAKE_RATE / mobility[i, i]
 
 
-@part
+@inlined
 def tool_torque(tau: Array, memory: ImpedanceMemory, state: ArmState, compliance: Compliance) -> None:
     """exerted (6,) = W - K sat(e) - D (J_C dq - nu_d) - B over, along C; tau (nv,) = J_C^T (exerted + Lam_C a_d).
 
@@ -176,7 +176,7 @@ def tool_torque(tau: Array, memory: ImpedanceMemory, state: ArmState, compliance
         exerted[i] = spring - rows[DAMPING, i] * (rows[MEASURED, i] - rows[TWIST, i])
     for i in range(3):
         exerted[i] -= rows[BRAKING, i] * speed_excess(rows[MEASURED, i], compliance.fastest[i])
-    shorten(exerted[:3], memory.force_n)
+    clamp_length(exerted[:3], memory.force_n)
     times(memory.inertia, rows[ACCELERATION], force)
     for i in range(6):
         exerted[i] += compliance.wrench[i]
@@ -213,7 +213,7 @@ def impedance_torque(
     q, dq, J = state.q, state.dq, state.jacobian
     tau, velocity = np.empty(q.size), np.empty(6)
     times(J, dq, velocity)
-    task_error(memory.task, state.tool, reference, compliance, velocity)
+    compute_task_error(memory.task, state.tool, reference, compliance, velocity)
     tool_torque(tau, memory, state, compliance)
     if q.size > 6:
         keeping = np.empty(q.size)

@@ -34,7 +34,7 @@ def solve_inverse_kinematics(arm: VirtualArm, target: Pose, seed: Array, limits:
 def _descend(arm: VirtualArm, target: Pose, start: Array, seed: Array, limits: Array) -> Array | None:
     q = np.clip(start, limits[:, 0], limits[:, 1])
     for _ in range(STEPS):
-        arm.move(q)
+        arm.update_kinematics(q)
         error = pose_error(arm.tool, target)
         if np.abs(error[:3]).max() < CLOSE_M and np.abs(error[3:]).max() < CLOSE_RAD:
             return _unwound(q, seed, limits)

@@ -20,7 +20,7 @@ from skillc_runtime.motion.reference import Overlay, Trajectory
 JOINT_RAMP_S = 0.5
 """Seconds in which a joint motion reaches its full speed."""
 
-LOOKS, CALM = 20, 0.85
+SPEED_SAMPLES, SPEED_MARGIN = 20, 0.85
 """How often a joint motion is looked at for its tool's speed, and which share of the limit that may be."""
 
 
@@ -32,21 +32,21 @@ class Kinematics:
 
     def tool_at(self, q: Array, state: ArmState) -> tuple[Pose, Array]:
         """Return the tool in base and its Jacobian (6, nv), [linear m; angular rad] per rad, at joints q (nv,) rad."""
-        self._arm.mount(state.q, state.tool)
-        self._arm.move(q)
+        self._arm.mount_tool(state.q, state.tool)
+        self._arm.update_kinematics(q)
         return self._arm.tool, self._arm.jacobian.copy()
 
-    def feasible(self, trajectory: Trajectory, q: Array, limits: ArmLimits, state: ArmState) -> Trajectory:
+    def slow_to_feasible(self, trajectory: Trajectory, q: Array, limits: ArmLimits, state: ArmState) -> Trajectory:
         """Return a motion in base from joints q (nv,) rad, slowed where a joint would be too fast.
 
         Infeasible where the arm cannot follow it.
         """
-        self._arm.mount(state.q, state.tool)
+        self._arm.mount_tool(state.q, state.tool)
         return slow_to_feasible(self._arm, trajectory, q, limits)
 
     def check_overlay_feasible(self, overlay: Overlay, axes: Array, limits: ArmLimits, state: ArmState) -> None:
         """Refuse an overlay along `axes` (3, 3) for which a joint would be too fast where the arm is: Infeasible."""
-        self._arm.mount(state.q, state.tool)
+        self._arm.mount_tool(state.q, state.tool)
         check_overlay_feasible(self._arm, overlay, axes, limits)
 
     def limit_tool_speed(self, start: Array, goal: Array, speed: Array, most_m_s: float, state: ArmState) -> Array:
@@ -56,11 +56,11 @@ class Kinematics:
         """
         change, fastest = goal - start, 0.0
         way = np.maximum(np.abs(change), 1e-12)
-        self._arm.mount(state.q, state.tool)
-        for share in np.linspace(0.0, 1.0, LOOKS):
-            self._arm.move(start + share * change)
+        self._arm.mount_tool(state.q, state.tool)
+        for share in np.linspace(0.0, 1.0, SPEED_SAMPLES):
+            self._arm.update_kinematics(start + share * change)
             fastest = max(fastest, float(np.linalg.norm(self._arm.jacobian[:3] @ change)))
-        return speed * min(1.0, CALM * most_m_s / max(fastest * float((speed / way).min()), 1e-12))
+        return speed * min(1.0, SPEED_MARGIN * most_m_s / max(fastest * float((speed / way).min()), 1e-12))
 
     def joint_path(
         self, postures: Sequence[Array], limits: ArmLimits, share: float, most_m_s: float, blend: float, state: ArmState
@@ -85,7 +85,7 @@ class Kinematics:
             return None
         return f"{self._arm.joint_name(joint)} is {far[joint]:.3f} rad away from where it shall be"
 
-    def joints_for(self, target: Pose, seed: Array, limits: Array, state: ArmState) -> Array | None:
+    def inverse_kinematics(self, target: Pose, seed: Array, limits: Array, state: ArmState) -> Array | None:
         """Return joints (nv,) rad within limits (nv, 2) that put the tool at `target` in base, near `seed`; or None."""
-        self._arm.mount(state.q, state.tool)
+        self._arm.mount_tool(state.q, state.tool)
         return solve_inverse_kinematics(self._arm, target, seed, limits)

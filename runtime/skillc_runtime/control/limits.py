@@ -9,13 +9,13 @@ import numpy as np
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.devices.arm import ArmLimits, ArmState, JointPosition, JointVelocity
 from skillc_runtime.motion.arrays import OutMatrix, OutVector, Vector
-from skillc_runtime.motion.numerics.compiled import compiled, part
+from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.pose import Array
 
 RANGE_MARGIN_RAD = 0.05
 """Within this distance of the end of its range a joint is pushed back, at the end with a quarter of its effort."""
 
-GREATEST_LAG_RAD = 0.2
+MAX_LAG_RAD = 0.2
 """An arm with servos of its own that lags behind its command by more, over all joints, is stuck."""
 
 RAMP, LOW, HIGH, SPRING, EFFORT = range(5)
@@ -70,9 +70,9 @@ class JointLimit:
 
         ControlError when the arm does not follow; it is then commanded to stay where it is.
         """
-        return self.followed(limit_joints(self.rows, q, state.q, period), state)
+        return self.command_if_followed(limit_joints(self.rows, q, state.q, period), state)
 
-    def followed(self, followed: bool, state: ArmState) -> JointPosition | JointVelocity:
+    def command_if_followed(self, followed: bool, state: ArmState) -> JointPosition | JointVelocity:
         """Return what `limit_joints` left to command if it found the arm to follow; else as `step`."""
         if followed:
             return self._command()
@@ -80,7 +80,7 @@ class JointLimit:
         self._stay(state)
         raise ControlError(f"a joint is {lag:.2f} rad away from where it was commanded to be; is the arm blocked?")
 
-    def held(self, state: ArmState) -> Array:
+    def holding_joints(self, state: ArmState) -> Array:
         """Return the joints (nv,) in rad at which the arm holds still when it is to do so at once."""
         return self.q
 
@@ -102,7 +102,7 @@ class SpeedLimit(JointLimit):
         super().__init__(limits, q)
         self.rows[PULL], self.rows[LAG] = pull, lag
 
-    def held(self, state: ArmState) -> Array:
+    def holding_joints(self, state: ArmState) -> Array:
         """Return where the joints come to rest, (nv,) in rad: a pull to others would press ever harder."""
         self._stay(state)
         return self.q
@@ -115,7 +115,7 @@ class SpeedLimit(JointLimit):
         self.rows[EXPECTED] = state.q
 
 
-@part
+@inlined
 def _within(x: float, least: float, most: float) -> float:
     """Return what is nearest to x between two limits; what is no number stays none."""
     if x < least:
@@ -145,7 +145,7 @@ def limit_joints(rows: OutMatrix, q: Vector, measured: Vector, period: float) ->
     for j in range(q.size):
         lag = rows[COMMANDED, j] - measured[j]
         square += lag * lag
-    if square > GREATEST_LAG_RAD * GREATEST_LAG_RAD:
+    if square > MAX_LAG_RAD * MAX_LAG_RAD:
         return False
     for j in range(q.size):
         before, longest = rows[COMMANDED, j], rows[FASTEST, j] * period
@@ -157,7 +157,7 @@ def limit_joints(rows: OutMatrix, q: Vector, measured: Vector, period: float) ->
     return True
 
 
-@part
+@inlined
 def _drive(rows: Array, measured: Array, period: float) -> None:
     """Compute the speeds that lead joints along what is commanded until the end of the period."""
     for j in range(measured.size):

@@ -58,7 +58,7 @@ class MeasuredArm:
 
     def in_world(self, point: Array) -> Array:
         """Return a point (3,) in m of the arm's base frame in the world."""
-        return self.base().at(point)
+        return self.base().apply(point)
 
     def in_base(self, direction: Array) -> Array:
         """Return a direction (3,) of the world in the arm's base axes."""

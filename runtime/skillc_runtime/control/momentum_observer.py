@@ -37,31 +37,33 @@ class MomentumObserver:
 
     def add_command(self, tau: Array, bias: Array, period: float) -> None:
         """Take in the joint torques (nv,) in N m, bias included, that hold for the next `period` s, and the bias."""
-        gather(self._impulse, tau, bias, period)
+        add_impulse(self._impulse, tau, bias, period)
 
     def step(self, state: ArmState, period: float) -> None:
         """Take in what was measured at the end of a period of `period` s."""
         self._elapsed += period
         if self._elapsed > WINDOW_S - period / 2:
             share = 1 - exp(-self._elapsed / LAG_S)
-            compare(self._torque, self._impulse, self._dq, state.dq, state.mass_matrix, self._elapsed, share)
+            update_external_torque(
+                self._torque, self._impulse, self._dq, state.dq, state.mass_matrix, self._elapsed, share
+            )
             self._elapsed = 0.0
 
     def wrench(self, state: ArmState) -> Array:
         """Return the wrench (6,) in N and N m, base axes, at the tool; the array is reused."""
-        felt_wrench(self._wrench, self._torque, state.jacobian)
+        estimate_wrench(self._wrench, self._torque, state.jacobian)
         return self._wrench
 
 
 @compiled
-def gather(impulse: OutVector, tau: Vector, bias: Vector, period: float) -> None:
+def add_impulse(impulse: OutVector, tau: Vector, bias: Vector, period: float) -> None:
     """Add to the impulse (nv,) what tau gives beside the bias of the period's start."""
     for j in range(impulse.size):
         impulse[j] += (tau[j] - bias[j]) * period
 
 
 @compiled
-def compare(
+def update_external_torque(
     torque: OutVector, impulse: OutVector, dq: OutVector, dq_now: Vector, mass: Matrix, elapsed: float, share: float
 ) -> None:
     """Let the torque (nv,) of the surroundings follow M (dq_now - dq) - impulse per s; begin a new window."""
@@ -75,7 +77,7 @@ def compare(
 
 
 @compiled
-def felt_wrench(wrench: OutVector, torque: Vector, J: Matrix) -> None:
+def estimate_wrench(wrench: OutVector, torque: Vector, J: Matrix) -> None:
     """wrench (6,) = (J J^T + lam^2 I)^-1 J torque."""
     gram, force = np.empty((6, 6)), np.empty(6)
     product(J, J.T, gram)

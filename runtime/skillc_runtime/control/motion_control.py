@@ -24,16 +24,16 @@ class MotionControl:
         """Where the tool shall be, in the world, as of the last control period."""
         task = self._task
         if task.joints is None:
-            return task.tool.reference.moved(task.base())
+            return task.tool.reference.transform(task.base())
         reference = task.joints.sample(task.now)
         tool, jacobian = task.kinematics.tool_at(reference.q, task.measured.state)
-        return Reference.of(tool, jacobian @ reference.dq, jacobian @ reference.ddq).moved(task.base())
+        return Reference.of(tool, jacobian @ reference.dq, jacobian @ reference.ddq).transform(task.base())
 
     @property
     def path(self) -> Reference:
         """The same without overlays."""
         task = self._task
-        return task.tool.reference_generator.path.moved(task.base()) if task.joints is None else self.reference
+        return task.tool.reference_generator.path.transform(task.base()) if task.joints is None else self.reference
 
     @property
     def done(self) -> bool:
@@ -65,7 +65,7 @@ class MotionControl:
 
     def stopping_joints(self) -> Array:
         """Return where a new motion of the joints starts, (nv,) in rad; asking changes nothing."""
-        return (self._task.joints or self._task.joints_as_they_move()).stopping_joints(self._task.now)
+        return (self._task.joints or self._task.stopping_joint_reference()).stopping_joints(self._task.now)
 
     def move_along(self, trajectory: Trajectory) -> None:
         """Move the tool along a trajectory in the world, more slowly where a joint would be too fast.
@@ -74,8 +74,8 @@ class MotionControl:
         """
         task, tool = self._task, self._task.move_tool()
         state = task.measured.state
-        q, local = task.controllers.joints_now(state), trajectory.moved(task.base().inverse())
-        tool.reference_generator.follow(task.kinematics.feasible(local, q, task.limits, state), task.now)
+        q, local = task.controllers.joints_now(state), trajectory.transform(task.base().inverse())
+        tool.reference_generator.follow(task.kinematics.slow_to_feasible(local, q, task.limits, state), task.now)
 
     def joint_motion(self, way: Sequence[Array], share: float, blend: float = 0.0) -> JointTrajectory:
         """Return the motion of the joints from where they come to rest through all of `way`, each (nv,) in rad.
@@ -131,4 +131,6 @@ class MotionControl:
         They are near `seed` (nv,).
         """
         task = self._task
-        return task.kinematics.joints_for(task.base().inverse() @ target, seed, task.limits.range, task.measured.state)
+        return task.kinematics.inverse_kinematics(
+            task.base().inverse() @ target, seed, task.limits.range, task.measured.state
+        )

@@ -13,7 +13,7 @@ import numpy as np
 
 from skillc_runtime.devices.arm import ArmState
 from skillc_runtime.motion.arrays import Matrix, OutVector, Vector
-from skillc_runtime.motion.numerics.compiled import compiled, part
+from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import cholesky, cholesky_solve, product, times, transposed_times
 from skillc_runtime.motion.pose import Array
 
@@ -41,7 +41,7 @@ class Nullspace:
         return tau
 
 
-@part
+@inlined
 def regularisation(manipulability: float) -> float:
     """Return lam^2 for the manipulability seen last."""
     near = max(0.0, 1 - manipulability / SINGULAR_BELOW)

@@ -14,12 +14,12 @@ from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.numerics.linear import times, transposed_times
 from skillc_runtime.motion.pose import Array, Pose
 
-LOOK_S = 0.005
+CHECK_PERIOD_S = 0.005
 """How often the limits are looked at."""
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
+class Workspace:
     """A box: its middle and axes in the arm's base frame, its size (3,) in m."""
 
     middle: Pose
@@ -40,7 +40,7 @@ class SafetyLimits:
 
     contact_force_n: float = inf
     tool_speed_m_s: float = inf
-    workspace: Box | None = None
+    workspace: Workspace | None = None
 
 
 class SafetyMonitor:
@@ -61,7 +61,7 @@ class SafetyMonitor:
         if self.momentum_observer is not None:
             self.momentum_observer.step(state, period)
         self._age += period
-        if self._age < LOOK_S:
+        if self._age < CHECK_PERIOD_S:
             return None
         self._age = 0.0
         found = self._violated_limit(state)

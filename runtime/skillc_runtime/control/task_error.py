@@ -8,7 +8,7 @@ from math import sqrt
 import numpy as np
 
 from skillc_runtime.motion.arrays import OutMatrix
-from skillc_runtime.motion.numerics.compiled import part
+from skillc_runtime.motion.numerics.compiled import inlined
 from skillc_runtime.motion.numerics.linear import product, rotation_between
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
@@ -37,15 +37,17 @@ class TaskError:
     rows: OutMatrix
 
 
-def task_error_of(stiffness: Array) -> TaskError:
+def make_task_error(stiffness: Array) -> TaskError:
     """Return room for the errors of an arm whose axes have `stiffness` (6,), N/m and N m/rad, when unreleased."""
     task = TaskError(np.eye(3), np.zeros((9, 6)))
     task.rows[SOFTNESS] = 10 / stiffness
     return task
 
 
-@part
-def task_error(task: TaskError, tool: Pose, reference: Reference, compliance: Compliance, measured: Array) -> None:
+@inlined
+def compute_task_error(
+    task: TaskError, tool: Pose, reference: Reference, compliance: Compliance, measured: Array
+) -> None:
     """Compute axes and the first five rows of `task`; measured (6,) and tool in base.
 
     HELD scales the first three rows, since a released axis follows no reference.
@@ -63,19 +65,19 @@ def task_error(task: TaskError, tool: Pose, reference: Reference, compliance: Co
         rows[HELD, i] = min(compliance.stiffness[i] * rows[SOFTNESS, i], 1.0)
         for row in range(3):
             rows[row, i] *= rows[HELD, i]
-    shorten(rows[ERROR, :3], CLAMP_M)
-    shorten(rows[ERROR, 3:], CLAMP_RAD)
+    clamp_length(rows[ERROR, :3], CLAMP_M)
+    clamp_length(rows[ERROR, 3:], CLAMP_RAD)
 
 
-@part
-def shorten(vector: Array, longest: float) -> None:
+@inlined
+def clamp_length(vector: Array, longest: float) -> None:
     """Shorten a vector (3,) in place to a length."""
     square = vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]
     if square > longest * longest:
         vector *= longest / sqrt(square)
 
 
-@part
+@inlined
 def speed_excess(velocity: float, fastest: float) -> float:
     """Return by how much a velocity is over the greatest one, both in m/s, whose sign says which way that holds."""
     excess = velocity - fastest

@@ -83,7 +83,7 @@ class ToolTask:
 
     def restore_rotation(self, now: float) -> None:
         """Hold the tool in the rotation that it has. Gives up a motion."""
-        self.compliance.turn_freely(False)
+        self.compliance.set_rotation_free(False)
         resting = self.reference_generator.path_pose(now)
         self.reference_generator.jump_to(Pose(resting.position, self._law.tool.rotation), np.eye(3), now)
 

@@ -16,13 +16,13 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.motion.arrays import Matrix, OutMatrix, Vector
-from skillc_runtime.motion.pose import Array, Pose, quaternion_of
+from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 
 LINK_MASS_KG, LINK_INERTIA = 0.01, 1e-6
 TOOL_MASS_KG, TOOL_INERTIA = 1.0, 1.0
 
 
-def virtual_model(path: Path) -> mujoco.MjModel:
+def load_virtual_model(path: Path) -> mujoco.MjModel:
     """Load an arm's MJCF, which has a site `flange`, with virtual masses; its root stands for the arm's base frame."""
     spec = mujoco.MjSpec.from_file(str(path))
     for part in (*spec.geoms, *spec.actuators, *spec.sensors, *spec.keys):
@@ -90,25 +90,25 @@ class VirtualArm:
         name = self._model.joint(index).name
         return f"the joint {name}" if name else f"joint {index + 1}"
 
-    def mount(self, q: Array, tool: Pose) -> None:
+    def mount_tool(self, q: Array, tool: Pose) -> None:
         """Place the tool centre point on the hand so that it is at `tool`, in base, for q (nv,) rad and move there."""
         self._hang(self._flange)
-        self.move(q)
+        self.update_kinematics(q)
         self._hang(self._flange @ self.tool.inverse() @ tool)
-        self.move(q)
+        self.update_kinematics(q)
 
     def _hang(self, mount: Pose) -> None:
         self._model.body_pos[self._body] = mount.position
-        self._model.body_quat[self._body] = quaternion_of(mount.rotation)
+        self._model.body_quat[self._body] = quaternion_from_rotation(mount.rotation)
 
-    def move(self, q: Array) -> None:
+    def update_kinematics(self, q: Array) -> None:
         """Take joint positions q (nv,) in rad and update `tool` and `jacobian` (6, nv)."""
         self._qpos[:] = q
         mujoco.mj_kinematics(self._model, self._data)
         mujoco.mj_comPos(self._model, self._data)
         mujoco.mj_jacBody(self._model, self._data, self._jacp, self._jacr, self._body)
 
-    def weigh(self, dq: Array) -> None:
+    def update_dynamics(self, dq: Array) -> None:
         """Update `inertia` (nv, nv) and, at dq (nv,) rad/s, `bias` (nv,): N m of Coriolis and centrifugal forces."""
         self._data.qvel[:] = dq
         mujoco.mj_comVel(self._model, self._data)

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from math import inf
 
-PATIENCE_S = 0.25
+HEARTBEAT_TIMEOUT_S = 0.25
 """Silence after which everything is stopped; a tree ticks at 50 to 100 Hz."""
 
 
 class HeartbeatWatchdog:
     """Implements `Watchdog`: whoever has beaten once must go on until it retires. Times: s of the cell's clock."""
 
-    def __init__(self, patience_s: float = PATIENCE_S) -> None:
+    def __init__(self, patience_s: float = HEARTBEAT_TIMEOUT_S) -> None:
         self._patience = patience_s
         self._last: dict[object, float] = {}
         self._late: set[object] = set()

@@ -72,14 +72,14 @@ class GuardedPush:
     force_n: float
     approach_m_s: float
     travel: Travel
-    touched_when: tuple[Contact | Standstill, ...] = (Standstill(), Contact())
+    touch_conditions: tuple[Contact | Standstill, ...] = (Standstill(), Contact())
 
 
 class PushProgress(Protocol):
     """A guarded push under way."""
 
     @property
-    def touched(self) -> bool:
+    def has_touched(self) -> bool:
         """Whether something has been met."""
         ...
 

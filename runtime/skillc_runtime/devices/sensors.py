@@ -12,7 +12,7 @@ class Camera(Protocol):
         """Return the share of a surface, given by IRI, that is clean; KeyError for a surface that is not there."""
         ...
 
-    def rubbed(self, surface: str, seconds: float) -> float:
+    def rubbed_share(self, surface: str, seconds: float) -> float:
         """Return the share that was rubbed for so long at least; KeyError for a surface that is not there."""
         ...
 

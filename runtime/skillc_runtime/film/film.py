@@ -13,11 +13,11 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.mujoco.names import part
+from skillc_runtime.backends.mujoco.names import part_name
 from skillc_runtime.backends.mujoco.scene_spec import ArmSpec
 from skillc_runtime.film.picture_files import FilmError, write_film, write_picture
-from skillc_runtime.film.props import props
-from skillc_runtime.film.rendering import Picture, Quality, Renderer, View
+from skillc_runtime.film.props import make_props
+from skillc_runtime.film.rendering import CameraView, Picture, Quality, Renderer
 from skillc_runtime.motion.pose import Array
 
 FILM = "film.mp4"
@@ -43,7 +43,7 @@ REACH_M = 0.15
 
 
 @dataclass(frozen=True, slots=True)
-class Watched:
+class CameraTarget:
     """An arm that cameras stay with: the bodies of its base and its hand, and where the base points, in its axes."""
 
     body: int
@@ -69,7 +69,7 @@ class Still:
 
 
 @dataclass(frozen=True, slots=True)
-class Filmed:
+class FilmFiles:
     """The names of the files that were made: a film, and stills of some of its moments."""
 
     film: str
@@ -86,10 +86,10 @@ class Film:
         """Watch a cell; `drawn` is what it looks like, a model with the same joints, if not its own."""
         self._cell, self._drawn = cell, cell.model if drawn is None else drawn
         self._frames: list[tuple[Array, Array, Array]] = []
-        self._arms = {arm.individual: _watched(cell, arm) for arm in cell.facts.arms}
-        places = ((cell.ground_truth.surface_pose(each.individual), each) for each in cell.facts.surfaces)
+        self._arms = {arm.individual: _watched(cell, arm) for arm in cell.scene.arms}
+        places = ((cell.ground_truth.surface_pose(each.individual), each) for each in cell.scene.surfaces)
         present = ((pose, each) for pose, each in places if cell.variation.of(each.individual).present)
-        self._props = tuple(prop for pose, each in present for prop in props(pose, each.size))
+        self._props = tuple(prop for pose, each in present for prop in make_props(pose, each.size))
 
     def sample(self) -> None:
         """Take a frame if it is time for one."""
@@ -97,7 +97,7 @@ class Film:
             data = self._cell.data
             self._frames.append((data.qpos.copy(), data.mocap_pos.copy(), data.mocap_quat.copy()))
 
-    def write(self, directory: Path, moments: Sequence[Moment] = ()) -> Filmed:
+    def write(self, directory: Path, moments: Sequence[Moment] = ()) -> FilmFiles:
         """Draw all frames as film.mp4, and stills of some moments as PNG; each file is written whole or not at all.
 
         FilmError or RenderingError where that is not possible, OSError where the folder cannot be written to.
@@ -110,7 +110,7 @@ class Film:
         stills = tuple(Still(each.title, f"{number}-{_slug(each.title)}.png") for number, each in enumerate(moments, 1))
         for still, picture in zip(stills, self.stills(moments), strict=True):
             write_picture(directory / still.file, picture)
-        return Filmed(FILM, stills)
+        return FilmFiles(FILM, stills)
 
     def pictures(self) -> Iterator[Picture]:
         """Draw the frames, one after the other, each (HEIGHT, WIDTH times the number of arms, 3)."""
@@ -145,30 +145,30 @@ class Film:
         mujoco.mj_forward(self._drawn, data)
 
 
-def _watched(cell: SimulatedCell, arm: ArmSpec) -> Watched:
-    model, own = cell.model, part(cell.facts.names[arm.individual], "")
+def _watched(cell: SimulatedCell, arm: ArmSpec) -> CameraTarget:
+    model, own = cell.model, part_name(cell.scene.names[arm.individual], "")
     joint = next(each for each in range(model.njnt) if model.joint(each).name.startswith(own))
     body = int(model.body_parentid[model.jnt_bodyid[joint]])
-    hand = int(model.site(part(cell.facts.names[arm.individual], "flange")).bodyid[0])
+    hand = int(model.site(part_name(cell.scene.names[arm.individual], "flange")).bodyid[0])
     if arm.gripper is not None:
-        hand = int(model.body(part(cell.facts.names[arm.gripper.individual], "palm")).id)
-    return Watched(body, hand, cell.data.xmat[body].reshape(3, 3).T @ arm.base.rotation[:, 0])
+        hand = int(model.body(part_name(cell.scene.names[arm.gripper.individual], "palm")).id)
+    return CameraTarget(body, hand, cell.data.xmat[body].reshape(3, 3).T @ arm.base.rotation[:, 0])
 
 
-def _whole(data: Any, arm: Watched) -> View:
+def _whole(data: Any, arm: CameraTarget) -> CameraView:
     """Look at an arm."""
     forward = _forward(data, arm)
     focus = data.xpos[arm.body] + AHEAD_M * forward + np.array([0.0, 0.0, ABOVE_M])
-    return View(focus, DISTANCE_M, _heading_deg(forward) + AZIMUTH_DEG, ELEVATION_DEG)
+    return CameraView(focus, DISTANCE_M, _heading_deg(forward) + AZIMUTH_DEG, ELEVATION_DEG)
 
 
-def _close(data: Any, arm: Watched, distance: float = CLOSE_M) -> View:
+def _close(data: Any, arm: CameraTarget, distance: float = CLOSE_M) -> CameraView:
     """Look at what an arm has in its hand."""
     focus = data.xpos[arm.hand] + REACH_M * data.xmat[arm.hand].reshape(3, 3)[:, 2]
-    return View(focus, distance, _heading_deg(_forward(data, arm)) + AZIMUTH_DEG, CLOSE_DEG)
+    return CameraView(focus, distance, _heading_deg(_forward(data, arm)) + AZIMUTH_DEG, CLOSE_DEG)
 
 
-def _forward(data: Any, arm: Watched) -> Array:
+def _forward(data: Any, arm: CameraTarget) -> Array:
     return np.asarray(data.xmat[arm.body].reshape(3, 3) @ arm.forward)
 
 

@@ -11,10 +11,10 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from skillc_runtime.backends.mujoco.names import part
+from skillc_runtime.backends.mujoco.names import part_name
 from skillc_runtime.film.look_cache import model_file
 from skillc_runtime.film.looks import Look, Looks, LooksError
-from skillc_runtime.motion.pose import Pose, exp, log, quaternion_of
+from skillc_runtime.motion.pose import Pose, exp, log, quaternion_from_rotation
 
 FAR_M, FAR_RAD = 0.005, 0.02
 """How differently from the device's own links those of a look may move: models are rounded."""
@@ -23,7 +23,7 @@ HINGE_RAD, SLIDE_M = 0.4, 0.01
 """How far joints are moved to compare two models."""
 
 
-def dressed(spec: Any, looks: Looks) -> mujoco.MjModel:
+def build_look_model(spec: Any, looks: Looks) -> mujoco.MjModel:
     """Return the model that a scene's description, which is used up, makes with the meshes of its devices' looks.
 
     LooksError where meshes cannot be had, or move otherwise than the device.
@@ -39,13 +39,13 @@ def _dress(spec: Any, look: Look, file: Path) -> None:
     model = _compiled(theirs, look.model)
     ours = mujoco.MjModel.from_xml_path(str(look.own))
     turn = _turn(ours, model, look)
-    own = part(look.device, "")
+    own = part_name(look.device, "")
     for geom in [geom for geom in spec.geoms if geom.parent.name.startswith(own)]:
         spec.delete(geom)
     links, data = _links(ours, at_rest=True), _placed(model, at_rest=True)
     for geom in _meshes_of(model):
         link = _link_of(model, int(model.geom_bodyid[geom]))
-        body = spec.body(part(look.device, ours.body(_bodies(ours)[link]).name))
+        body = spec.body(part_name(look.device, ours.body(_bodies(ours)[link]).name))
         _add_mesh(spec, body, look, theirs, model, geom, links[link].inverse() @ turn @ _authored(model, data, geom))
 
 
@@ -128,12 +128,12 @@ def _authored(model: Any, data: Any, geom: int) -> Pose:
 def _add_mesh(spec: Any, body: Any, look: Look, theirs: Any, model: Any, geom: int, pose: Pose) -> None:
     """Add a mesh of a look to a body of the scene, without mass and touching nothing, in its colour."""
     mesh = theirs.mesh(model.mesh(int(model.geom_dataid[geom])).name)
-    name = part(look.device, f"look/{mesh.name or Path(mesh.file).stem}")
+    name = part_name(look.device, f"look/{mesh.name or Path(mesh.file).stem}")
     if spec.mesh(name) is None:
         file = Path(theirs.modelfiledir, theirs.meshdir, mesh.file)
         added = spec.add_mesh(name=name, file=str(file), scale=mesh.scale, refpos=mesh.refpos, refquat=mesh.refquat)
         added.inertia, added.smoothnormal = mesh.inertia, mesh.smoothnormal
     shown = body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, contype=0, conaffinity=0, group=1, mass=0)
-    shown.pos, shown.quat = pose.position, quaternion_of(pose.rotation)
+    shown.pos, shown.quat = pose.position, quaternion_from_rotation(pose.rotation)
     material = int(model.geom_matid[geom])
     shown.rgba = model.mat_rgba[material] if material >= 0 else model.geom_rgba[geom]

@@ -28,7 +28,7 @@ class Prop:
     rgba: tuple[float, float, float, float]
 
 
-def props(surface: Pose, size: Array) -> tuple[Prop, ...]:
+def make_props(surface: Pose, size: Array) -> tuple[Prop, ...]:
     """Return what holds up a surface: its frame in the middle of its face, z the normal; size (3,) m."""
     lying = surface.rotation[2, 2] > UPRIGHT
     return tuple(_legs(surface, size) if lying else _wall(surface, size))
@@ -37,7 +37,7 @@ def props(surface: Pose, size: Array) -> tuple[Prop, ...]:
 def _legs(surface: Pose, size: Array) -> Iterator[Prop]:
     """Yield a leg under each corner, down to the floor."""
     for side in product((-1, 1), (-1, 1)):
-        corner = surface.at(np.array([*(np.array(side) * (size[:2] - LEG_M) / 2), -size[2]]))
+        corner = surface.apply(np.array([*(np.array(side) * (size[:2] - LEG_M) / 2), -size[2]]))
         if corner[2] > 0:
             middle = np.array([corner[0], corner[1], corner[2] / 2])
             yield Prop(Pose(middle, np.eye(3)), np.array([LEG_M, LEG_M, corner[2]]), LEG_RGBA)
@@ -48,7 +48,7 @@ def _wall(surface: Pose, size: Array) -> Iterator[Prop]:
     out = surface.rotation[:, 2] * (1.0, 1.0, 0.0)
     out /= np.linalg.norm(out)
     along = np.cross([0.0, 0.0, 1.0], out)
-    corners = np.array([surface.at(np.array([x, y, 0.0]) * size / 2) for x, y in product((-1, 1), (-1, 1))])
+    corners = np.array([surface.apply(np.array([x, y, 0.0]) * size / 2) for x, y in product((-1, 1), (-1, 1))])
     wide = float(np.ptp(corners @ along)) + 2 * AROUND_M
     high = float(corners[:, 2].max()) + AROUND_M
     middle = surface.position - (size[2] + BEHIND_M + WALL_M / 2) * out

@@ -41,7 +41,7 @@ class RenderingError(RuntimeError):
 
 
 @dataclass(frozen=True, slots=True)
-class View:
+class CameraView:
     """A camera that looks at a point (3,) of the world from `distance` m."""
 
     point: Array
@@ -82,7 +82,7 @@ class Renderer:
         self._camera, self._option = mujoco.MjvCamera(), mujoco.MjvOption()
         self._option.sitegroup[:] = 0  # places that only programs need
 
-    def picture(self, data: Any, views: Sequence[View]) -> Picture:
+    def picture(self, data: Any, views: Sequence[CameraView]) -> Picture:
         """Return the picture (height, width, 3) of a state: views side by side, equally wide."""
         height, width = self._size
         each = width // len(views)
@@ -97,7 +97,7 @@ class Renderer:
         self._gl.free()
         self._context.free()
 
-    def _draw(self, data: Any, view: View, where: Any) -> None:
+    def _draw(self, data: Any, view: CameraView, where: Any) -> None:
         self._camera.lookat[:] = view.point
         self._camera.distance = view.distance
         self._camera.azimuth, self._camera.elevation = view.azimuth_deg, view.elevation_deg

@@ -7,9 +7,9 @@ from math import atan2, cos, pi, sin, sqrt
 
 import numpy as np
 
-from skillc_runtime.motion import piece
+from skillc_runtime.motion import segment_sampling as piece
 from skillc_runtime.motion.pose import Array, Pose, log
-from skillc_runtime.motion.profile import Profile, trapezoid
+from skillc_runtime.motion.profile import Profile, trapezoidal_profile
 from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.motion.smooth import SmoothProfile, smooth_profile
 
@@ -52,26 +52,26 @@ class Arc:
         return min(part.fall for part in (self.way, self.turn) if part.length > 0)
 
     @property
-    def leaving(self) -> Array:
+    def start_direction(self) -> Array:
         """The unit vector (3,) in which it starts."""
         return self.across / self.radius
 
     @property
-    def arriving(self) -> Array:
+    def end_direction(self) -> Array:
         """The unit vector (3,) in which it ends."""
         angle = self.way.length / self.radius
         return (cos(angle) * self.across - sin(angle) * self.spoke) / self.radius
 
     def at(self, time: float) -> Array:
         """Return way, twist and acceleration (3, 6), [linear; angular], `time` s after the start."""
-        return piece.place(self.row, time)
+        return piece.sample_segment(self.row, time)
 
     @property
     def row(self) -> Array:
         """What `piece.motion_at` takes."""
-        return np.array([*self.way.numbers, *self.turn.numbers, *self.axis, *self.spoke, *self.across])
+        return np.array([*self.way.coefficients, *self.turn.coefficients, *self.axis, *self.spoke, *self.across])
 
-    def moved(self, frame: Pose) -> Arc:
+    def transform(self, frame: Pose) -> Arc:
         """Return the same motion, given in `frame`, in the frame's parent."""
         R = frame.rotation
         return Arc(self.way, self.turn, R @ self.spoke, R @ self.across, R @ self.axis)
@@ -106,11 +106,14 @@ def arc_around(start: Pose, centre: Array, normal: Array, angle: float, end: Pos
     rotation = log(end.rotation @ start.rotation.T)
     turned = float(np.linalg.norm(rotation))
     acceleration = limits.acceleration / sqrt(2)
-    way = trapezoid(radius * angle, min(limits.speed, sqrt(acceleration * radius)), acceleration)
-    turn = trapezoid(turned, limits.turn_speed, limits.turn_acceleration)
+    way = trapezoidal_profile(radius * angle, min(limits.speed, sqrt(acceleration * radius)), acceleration)
+    turn = trapezoidal_profile(turned, limits.turn_speed, limits.turn_acceleration)
     duration, window = max(way.duration, turn.duration), limits.window
     axis = rotation / turned if turned > 1e-9 else np.zeros(3)
-    moving, turning = smooth_profile(way.stretched(duration), window), smooth_profile(turn.stretched(duration), window)
+    moving, turning = (
+        smooth_profile(way.stretch_to(duration), window),
+        smooth_profile(turn.stretch_to(duration), window),
+    )
     return Arc(moving, turning, spoke, np.cross(normal, spoke), axis)
 
 

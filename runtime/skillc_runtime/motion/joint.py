@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.motion.profile import Profile, trapezoid
+from skillc_runtime.motion.profile import Profile, trapezoidal_profile
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,5 +74,5 @@ def joint_motion(start: Array, goal: Array, speed: Array, acceleration: Array) -
         return JointMotion(start.copy(), change, Profile(0.0, 0.0, 1.0, 1.0))
     way = np.maximum(np.abs(change), 1e-12)
     return JointMotion(
-        start.copy(), change, trapezoid(1.0, float((speed / way).min()), float((acceleration / way).min()))
+        start.copy(), change, trapezoidal_profile(1.0, float((speed / way).min()), float((acceleration / way).min()))
     )

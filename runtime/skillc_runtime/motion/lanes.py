@@ -21,7 +21,7 @@ Direction: TypeAlias = Literal["longer", "x", "y"]
 """Along which side of a surface lanes run."""
 
 
-def lanes(
+def plan_lanes(
     surface: Array,
     tool: Array,
     overlap: float,
@@ -36,7 +36,7 @@ def lanes(
     """
     if min(*surface[:2], *tool[:2]) <= 0 or not 0 <= overlap <= 0.9:
         raise ValueError(f"lanes need positive sizes and an overlap of 0 to 0.9: {surface}, {tool}, {overlap}")
-    first = side(surface, direction)
+    first = lane_axis(surface, direction)
     half_length = max(float(surface[first]) / 2 - (float(tool[0]) / 2 - overhang[0]), 0.0)
     half_width = max(float(surface[1 - first]) / 2 - (float(tool[1]) / 2 - overhang[1]), 0.0)
     pitch = float(tool[1]) * (1 - overlap)
@@ -50,7 +50,7 @@ def lanes(
     return ends
 
 
-def side(surface: Array, direction: Direction) -> int:
+def lane_axis(surface: Array, direction: Direction) -> int:
     """Return the axis of a surface of a size (2,) in m along which lanes run: 0 for x, 1 for y."""
     match direction:
         case "longer":

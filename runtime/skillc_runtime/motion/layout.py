@@ -23,11 +23,11 @@ class Hole:
     margin: float = 0.0
     height: float = 0.0
 
-    def grown(self, by: float) -> Hole:
+    def grow(self, by: float) -> Hole:
         """Return the hole with a rim of `by` m around it, and no margin."""
         return Hole(self.middle, self.size + 2 * by, 0.0, self.height)
 
-    def seen_from(self, frame: Pose) -> Hole:
+    def in_frame(self, frame: Pose) -> Hole:
         """Return the least rectangle along the axes of `frame`, a frame in the surface, that has the hole in it."""
         axes = frame.rotation[:2, :2]
         away = axes.T @ (self.middle - frame.position[:2])
@@ -60,7 +60,7 @@ class Layout:
         """How far anything stands out of the surface, in m."""
         return max((hole.height for hole in self.holes), default=0.0)
 
-    def counts(self, x: Array, y: Array) -> NDArray[np.bool_]:
+    def work_mask(self, x: Array, y: Array) -> NDArray[np.bool_]:
         """Tell which points of a grid, x (n,) and y (m,) in m, are to be worked on: (m, n)."""
         points = np.stack(np.meshgrid(x, y), axis=-1)
         wanted = np.zeros(points.shape[:2], dtype=bool)

@@ -129,11 +129,11 @@ class FadedOverlay:
     fade: float
     end: float | None = None
 
-    def ended(self, time: float) -> FadedOverlay:
+    def end_at(self, time: float) -> FadedOverlay:
         """Return this overlay with its end at `time`; an end that is set already stays."""
         return self if self.end is not None else replace(self, end=time)
 
-    def gone(self, time: float) -> bool:
+    def is_over(self, time: float) -> bool:
         """Tell whether nothing is left of it."""
         return self.end is not None and time >= self.end + self.fade
 

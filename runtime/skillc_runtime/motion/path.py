@@ -16,12 +16,12 @@ import numpy as np
 
 from skillc_runtime.motion.arc import Arc
 from skillc_runtime.motion.arrays import Matrix, OutMatrix
-from skillc_runtime.motion.numerics.compiled import compiled, part
+from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import cross, product, rotation_by, times
-from skillc_runtime.motion.piece import COLUMNS, motion_at
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.motion.reference import Reference, at_rest
-from skillc_runtime.motion.segments import MotionLimits, Segment, segment
+from skillc_runtime.motion.reference import Reference, resting_reference
+from skillc_runtime.motion.segment_sampling import COLUMNS, motion_at
+from skillc_runtime.motion.segments import MotionLimits, Segment, segment_between
 
 START, END = COLUMNS, COLUMNS + 1
 """When a piece starts and ends; the columns after those of the piece itself."""
@@ -55,18 +55,18 @@ class Path:
     def at(self, time: float) -> Reference:
         """Return the reference at `time` s, in the frame of the poses."""
         if not self.segments:
-            return at_rest(self.corners[0])
+            return resting_reference(self.corners[0])
         rows = np.empty((8, 3))
         path_at(rows, self.table, time)
         return Reference(rows)
 
-    def moved(self, frame: Pose) -> Path:
+    def transform(self, frame: Pose) -> Path:
         """Return the same motion, given in `frame`, in the frame's parent."""
         corners = tuple(frame @ corner for corner in self.corners)
-        return Path(corners, tuple(piece.moved(frame) for piece in self.segments), self.starts)
+        return Path(corners, tuple(piece.transform(frame) for piece in self.segments), self.starts)
 
 
-@part
+@inlined
 def _start_from(position: Array, rotation: Array, row: Array) -> None:
     """Start from the corner of a row."""
     for i in range(3):
@@ -75,7 +75,7 @@ def _start_from(position: Array, rotation: Array, row: Array) -> None:
             rotation[i, j] = row[AXES + 3 * i + j]
 
 
-@part
+@inlined
 def _move(position: Array, rotation: Array, way: Array) -> None:
     """Go on from a pose by a way (6,): rotation <- exp(way[3:]) rotation."""
     for i in range(3):
@@ -86,7 +86,7 @@ def _move(position: Array, rotation: Array, way: Array) -> None:
         product(turned, before, rotation)
 
 
-@part
+@inlined
 def _add(motion: Array, before: Array) -> None:
     """Add to a motion (3, 6) the twist and acceleration of one that is turned by it; ways stay as they are."""
     turned, velocity, change, spun = np.empty((3, 3)), np.empty(3), np.empty(3), np.empty(3)
@@ -101,7 +101,7 @@ def _add(motion: Array, before: Array) -> None:
         motion[2, 3 + i] += change[i] + spun[i]
 
 
-@part
+@inlined
 def _started_last(table: Array, time: float) -> int:
     """Return the row that starts last of those that have started by `time` s, the first before any has."""
     last, later = 0, table.shape[0]
@@ -134,15 +134,17 @@ def path_at(rows: OutMatrix, table: Matrix, time: float) -> None:
         rows[6, i], rows[7, i] = motion[2, i], motion[2, 3 + i]
 
 
-def path(poses: Sequence[Pose], limits: MotionLimits, blend_m: float = 0.0) -> Path:
+def path_through(poses: Sequence[Pose], limits: MotionLimits, blend_m: float = 0.0) -> Path:
     """Return the motion through `poses`, the first being the start; corners are cut by at most `blend_m`."""
     if not poses or blend_m < 0:
         raise ValueError("a path needs a start and a blend of at least 0 m")
     corners = _without_repetition(poses)
-    return joined(corners, [segment(start, end, limits) for start, end in pairwise(corners)], limits, blend_m)
+    return join_segments(
+        corners, [segment_between(start, end, limits) for start, end in pairwise(corners)], limits, blend_m
+    )
 
 
-def joined(
+def join_segments(
     corners: Sequence[Pose], pieces: Sequence[Segment | Arc], limits: MotionLimits, blend_m: float = 0.0
 ) -> Path:
     """Return lines and arcs, one from each corner to the next, as one path; corners are cut by at most `blend_m`."""
@@ -169,7 +171,7 @@ def _overlap(before: Segment | Arc, after: Segment | Arc, acceleration: float, b
 
     Where one of them bends, the corner is cut by no more than half an overlap leads away from it: a (t/2)^2 / 2.
     """
-    turn = float(np.linalg.norm(after.leaving - before.arriving))
+    turn = float(np.linalg.norm(after.start_direction - before.end_direction))
     if isinstance(before, Arc) or isinstance(after, Arc):
         turn = max(turn, 1.0)
     longest = min(before.fall, after.rise)

@@ -28,17 +28,17 @@ class Pose:
         """Return the parent in this frame."""
         return Pose(-self.rotation.T @ self.position, self.rotation.T.copy())
 
-    def at(self, point: Array) -> Array:
+    def apply(self, point: Array) -> Array:
         """Return a point (3,) of this frame in the parent."""
         return self.rotation @ point + self.position
 
     @staticmethod
     def of(position: Array | tuple[float, ...], quaternion: Array | tuple[float, ...] = (1.0, 0.0, 0.0, 0.0)) -> Pose:
         """Make a pose from a position in m and a quaternion (w, x, y, z) of any norm but zero."""
-        return Pose(np.array(position, dtype=float), rotation_of(np.array(quaternion, dtype=float)))
+        return Pose(np.array(position, dtype=float), rotation_from_quaternion(np.array(quaternion, dtype=float)))
 
 
-def rotation_of(quaternion: Array) -> Array:
+def rotation_from_quaternion(quaternion: Array) -> Array:
     """Return the rotation (3, 3) of a quaternion (w, x, y, z); it need not be normalised."""
     w, x, y, z = quaternion.tolist()
     s = 2 / (w * w + x * x + y * y + z * z)
@@ -51,7 +51,7 @@ def rotation_of(quaternion: Array) -> Array:
     )
 
 
-def quaternion_of(rotation: Array) -> Array:
+def quaternion_from_rotation(rotation: Array) -> Array:
     """Return the quaternion (w, x, y, z) of a rotation (3, 3), with w >= 0. Shepperd's method."""
     (a, b, c), (d, e, f), (g, h, i) = rotation.tolist()
     rows = (
@@ -83,7 +83,7 @@ def exp(rotation_vector: Array) -> Array:
 
 def log(rotation: Array) -> Array:
     """Return the shortest rotation vector (3,) in rad, |angle| <= pi, of a rotation (3, 3)."""
-    q = quaternion_of(rotation)
+    q = quaternion_from_rotation(rotation)
     sine = float(np.linalg.norm(q[1:]))
     if sine < 1e-12:
         return 2 * q[1:]

@@ -40,11 +40,11 @@ class Profile:
         return trapezoid_at(self.length, self.peak, self.acceleration, self.deceleration, self.rate, time)
 
     @property
-    def numbers(self) -> tuple[float, float, float, float, float, float]:
+    def coefficients(self) -> tuple[float, float, float, float, float, float]:
         """Length, peak, acceleration, deceleration, rate, and no window to average over."""
         return self.length, self.peak, self.acceleration, self.deceleration, self.rate, 0.0
 
-    def stretched(self, duration: float) -> Profile:
+    def stretch_to(self, duration: float) -> Profile:
         """Return this profile slowed down to take `duration` s, which must not be less than its own."""
         return self if self.length <= 0 else replace(self, rate=self.rate * self.duration / duration)
 
@@ -67,7 +67,7 @@ def trapezoid_at(
     return peak * (k * time - peak / a / 2), k * peak, 0.0
 
 
-def trapezoid(length: float, speed: float, acceleration: float, deceleration: float | None = None) -> Profile:
+def trapezoidal_profile(length: float, speed: float, acceleration: float, deceleration: float | None = None) -> Profile:
     """Return the fastest profile over `length` >= 0; it cruises at `speed`, or below on too short a way.
 
     Speed in m/s or rad/s, acceleration and deceleration > 0 in m/s^2 or rad/s^2, alike when only one is given.

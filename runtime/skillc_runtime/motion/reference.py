@@ -47,7 +47,7 @@ class Reference:
         """Its acceleration (6,): [linear m/s^2, angular rad/s^2]."""
         return self.rows[ACCELERATION].ravel()
 
-    def moved(self, frame: Pose) -> Reference:
+    def transform(self, frame: Pose) -> Reference:
         """Return the same, given in `frame`, in the frame's parent; `frame` itself rests."""
         rows = self.rows @ frame.rotation.T
         rows[POSITION] += frame.position
@@ -55,13 +55,13 @@ class Reference:
         return Reference(rows)
 
 
-def at_rest(pose: Pose) -> Reference:
+def resting_reference(pose: Pose) -> Reference:
     """Return the reference that holds a pose."""
     return Reference.of(pose, np.zeros(6), np.zeros(6))
 
 
-ANY_SPEED: Array = np.full(3, np.inf)
-ANY_SPEED.flags.writeable = False
+UNLIMITED_SPEED: Array = np.full(3, np.inf)
+UNLIMITED_SPEED.flags.writeable = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +77,7 @@ class Compliance:
     wrench: Vector
     frame: Matrix
     damping_ratio: float = 1.0
-    fastest: Vector = field(default_factory=lambda: ANY_SPEED)
+    fastest: Vector = field(default_factory=lambda: UNLIMITED_SPEED)
 
 
 class Trajectory(Protocol):
@@ -92,7 +92,7 @@ class Trajectory(Protocol):
         """Return the reference `time` seconds after the start; before it the start, after the end the end."""
         ...
 
-    def moved(self, frame: Pose) -> Trajectory:
+    def transform(self, frame: Pose) -> Trajectory:
         """Return the same motion, given in `frame`, in the frame's parent; `frame` itself rests."""
         ...
 

@@ -9,7 +9,7 @@ from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.numerics.linear import product
 from skillc_runtime.motion.overlays import FadedOverlay
 from skillc_runtime.motion.pose import Array, Pose, exp, skew
-from skillc_runtime.motion.reference import Overlay, Reference, Trajectory, at_rest
+from skillc_runtime.motion.reference import Overlay, Reference, Trajectory, resting_reference
 from skillc_runtime.motion.stopping_motion import stopping_motion
 from skillc_runtime.motion.time_scaling import TimeScaling
 
@@ -39,7 +39,7 @@ class ReferenceGenerator:
             stopping_motion(twist[:3], self._deceleration),
             stopping_motion(twist[3:], TURN_DECELERATION),
         )
-        self._rest = at_rest(Pose(pose.position + self._way.way, exp(self._turn.way) @ pose.rotation))
+        self._rest = resting_reference(Pose(pose.position + self._way.way, exp(self._turn.way) @ pose.rotation))
         self._trajectory: Trajectory | None = None
         self._ends = max(self._way.duration, self._turn.duration)
         self.path = self._rest
@@ -55,7 +55,7 @@ class ReferenceGenerator:
         self.stop(now)
         self._trajectory = trajectory
         self._ends = max(self._ends, trajectory.duration)
-        self._rest = at_rest(trajectory.at(trajectory.duration).pose)
+        self._rest = resting_reference(trajectory.at(trajectory.duration).pose)
 
     def stop(self, now: float) -> None:
         """Give up the trajectory and come to rest."""
@@ -108,7 +108,7 @@ class ReferenceGenerator:
         """Let an overlay shrink to nothing; one that is gone already stays so."""
         if handle in self._overlays:
             faded, axes = self._overlays[handle]
-            self._overlays[handle] = (faded.ended(self._overlay_time.at(now)[0]), axes)
+            self._overlays[handle] = (faded.end_at(self._overlay_time.at(now)[0]), axes)
 
     def drop_overlays(self) -> None:
         """Forget all overlays at once, for who then takes up a pose anew."""
@@ -154,8 +154,8 @@ class ReferenceGenerator:
         rows = motion.rows.copy()
         for faded, axes in self._overlays.values():
             add_overlay(rows, faded.at(time), axes, rate, slope)
-        if any(faded.gone(time) for faded, _ in self._overlays.values()):
-            self._overlays = {h: entry for h, entry in self._overlays.items() if not entry[0].gone(time)}
+        if any(faded.is_over(time) for faded, _ in self._overlays.values()):
+            self._overlays = {h: entry for h, entry in self._overlays.items() if not entry[0].is_over(time)}
         return Reference(rows)
 
 

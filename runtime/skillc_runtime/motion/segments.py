@@ -7,9 +7,9 @@ from math import inf
 
 import numpy as np
 
-from skillc_runtime.motion import piece
+from skillc_runtime.motion import segment_sampling as piece
 from skillc_runtime.motion.pose import Array, Pose, log
-from skillc_runtime.motion.profile import Profile, trapezoid
+from skillc_runtime.motion.profile import Profile, trapezoidal_profile
 from skillc_runtime.motion.smooth import SmoothProfile, smooth_profile, window_for
 
 
@@ -60,40 +60,42 @@ class Segment:
         return min((part.fall for part in (self.way, self.turn) if part.length > 0), default=0.0)
 
     @property
-    def leaving(self) -> Array:
+    def start_direction(self) -> Array:
         """The unit vector (3,) in which it starts; zero for a turn on the spot."""
         return self.axes[0, :3]
 
     @property
-    def arriving(self) -> Array:
+    def end_direction(self) -> Array:
         """The unit vector (3,) in which it ends."""
         return self.axes[0, :3]
 
     def at(self, time: float) -> Array:
         """Return way, twist and acceleration (3, 6), [linear; angular], `time` s after the start."""
-        return piece.place(self.row, time)
+        return piece.sample_segment(self.row, time)
 
     @property
     def row(self) -> Array:
         """What `piece.motion_at` takes."""
-        return np.array([*self.way.numbers, *self.turn.numbers, *self.axes[1, 3:], 0.0, 0.0, 0.0, *self.axes[0, :3]])
+        return np.array(
+            [*self.way.coefficients, *self.turn.coefficients, *self.axes[1, 3:], 0.0, 0.0, 0.0, *self.axes[0, :3]]
+        )
 
-    def moved(self, frame: Pose) -> Segment:
+    def transform(self, frame: Pose) -> Segment:
         """Return the same motion, given in `frame`, in the frame's parent."""
         return Segment(self.way, self.turn, (self.axes.reshape(4, 3) @ frame.rotation.T).reshape(2, 6))
 
 
-def segment(start: Pose, end: Pose, limits: MotionLimits) -> Segment:
+def segment_between(start: Pose, end: Pose, limits: MotionLimits) -> Segment:
     """Return the straight motion between two poses of one frame; the shorter part is slowed down to the longer."""
     direction, length = _unit(end.position - start.position)
     axis, angle = _unit(log(end.rotation @ start.rotation.T))
-    way = trapezoid(length, limits.speed, limits.acceleration)
-    turn = trapezoid(angle, limits.turn_speed, limits.turn_acceleration)
+    way = trapezoidal_profile(length, limits.speed, limits.acceleration)
+    turn = trapezoidal_profile(angle, limits.turn_speed, limits.turn_acceleration)
     duration = max(way.duration, turn.duration)
     axes = np.array([[*direction, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, *axis]])
     window = limits.window
     return Segment(
-        smooth_profile(way.stretched(duration), window), smooth_profile(turn.stretched(duration), window), axes
+        smooth_profile(way.stretch_to(duration), window), smooth_profile(turn.stretch_to(duration), window), axes
     )
 
 

@@ -25,9 +25,9 @@ class SlowedTrajectory:
         fast = self.trajectory.at(time / self.factor)
         return Reference.of(fast.pose, fast.twist / self.factor, fast.acceleration / self.factor**2)
 
-    def moved(self, frame: Pose) -> SlowedTrajectory:
+    def transform(self, frame: Pose) -> SlowedTrajectory:
         """Return the same motion, given in `frame`, in the frame's parent."""
-        return SlowedTrajectory(self.trajectory.moved(frame), self.factor)
+        return SlowedTrajectory(self.trajectory.transform(frame), self.factor)
 
 
 def slow_down(trajectory: Trajectory, factor: float) -> Trajectory:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import isinf
 
-from skillc_runtime.motion.numerics.compiled import compiled, part
+from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.profile import Profile, trapezoid_at
 
 
@@ -44,15 +44,15 @@ class SmoothProfile:
 
     def at(self, time: float) -> tuple[float, float, float]:
         """Return place, speed and acceleration at `time` s."""
-        return smooth_at(*self.numbers, time)
+        return smooth_at(*self.coefficients, time)
 
     @property
-    def numbers(self) -> tuple[float, float, float, float, float, float]:
+    def coefficients(self) -> tuple[float, float, float, float, float, float]:
         """What `smooth_at` takes."""
-        return (*self.profile.numbers[:5], self.window)
+        return (*self.profile.coefficients[:5], self.window)
 
 
-@part
+@inlined
 def _area(speed: float, rise: float, fall: float, length: float, end: float, time: float) -> float:
     """Return the integral of the way until `time` s, for a trapezoid that cruises with `speed` and lasts until `end`.
 

@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from skillc_runtime.motion.lanes import OVERHANG_M, Direction, lanes
+from skillc_runtime.motion.lanes import OVERHANG_M, Direction, plan_lanes
 from skillc_runtime.motion.layout import Hole, Layout
 from skillc_runtime.motion.pose import Array, Pose
 
@@ -26,7 +26,7 @@ SAME_M = 1e-6
 """Nearer than this, two lanes are one."""
 
 
-def strokes(
+def plan_strokes(
     surface: Array, tool: Array, overlap: float, holes: Sequence[Hole] = (), direction: Direction = "longer"
 ) -> list[Stroke]:
     """Return lanes, as `lanes` has them, that touch no hole nor the half of its margin; in the surface frame.
@@ -34,8 +34,8 @@ def strokes(
     surface (2,), tool (2,): sizes in m. One stroke goes on from lane to lane as long as the way there touches no hole,
     each time to the nearest that is left. ValueError as for `lanes`.
     """
-    ends = lanes(surface, tool, overlap, OVERHANG_M, direction)
-    kept = [hole.grown(hole.margin / 2) for hole in holes]
+    ends = plan_lanes(surface, tool, overlap, OVERHANG_M, direction)
+    kept = [hole.grow(hole.margin / 2) for hole in holes]
     if not kept:
         return [ends]
     whole = list(zip(ends[::2], ends[1::2], strict=True))
@@ -44,7 +44,7 @@ def strokes(
     return _joined(pieces + beside, tool, kept) if pieces or beside else []
 
 
-def strokes_over(
+def plan_layout_strokes(
     layout: Layout, tool: Array, overlap: float, start: Pose, direction: Direction = "longer"
 ) -> list[Stroke]:
     """Return the strokes over all parts of a surface, in its frame, each time those of the part that begins nearest.
@@ -54,7 +54,9 @@ def strokes_over(
     left = [
         [
             [part.pose @ pose for pose in stroke]
-            for stroke in strokes(part.size, tool, overlap, [h.seen_from(part.pose) for h in layout.holes], direction)
+            for stroke in plan_strokes(
+                part.size, tool, overlap, [h.in_frame(part.pose) for h in layout.holes], direction
+            )
         ]
         for part in layout.parts
     ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from skillc_runtime.motion.arc import arc_through
-from skillc_runtime.motion.path import joined
+from skillc_runtime.motion.path import join_segments
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.place_description import describe_place
@@ -31,4 +31,4 @@ class MoveArc(ArmMotion):
             state = self.cell.world.snapshot()
             places = (describe_place(state, pose.position) for pose in (start, self._via, self._target))
             raise SkillFailure("{}: start at {}; via at {}; target at {}".format(why, *places)) from why
-        self.arm.motion.move_along(joined([start, self._target], [piece], limits))
+        self.arm.motion.move_along(join_segments([start, self._target], [piece], limits))

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from skillc_runtime.collision.arm_assembly import outfit
-from skillc_runtime.collision.body import body
-from skillc_runtime.collision.contacts import Contacts
-from skillc_runtime.collision.path_planning import Known, NoWay, plan_joint_path, touch_on
-from skillc_runtime.collision.scenery import scenery
+from skillc_runtime.collision.arm_assembly import read_arm_assembly
+from skillc_runtime.collision.collision_checker import CollisionChecker
+from skillc_runtime.collision.collision_model import build_collision_model
+from skillc_runtime.collision.path_planning import JointSpace, NoPath, find_motion_collision, plan_joint_path
+from skillc_runtime.collision.scenery import read_scenery
 from skillc_runtime.motion.joint import JointTrajectory
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.primitives.primitive import SkillFailure
@@ -41,21 +41,21 @@ def move_collision_free(cell: Cell, arm: str, goals: Iterable[Array], pace: floa
         return
     try:
         driver.motion.follow_joints(_plan_motion(driver, contacts, known, goals, pace))
-    except NoWay as why:
+    except NoPath as why:
         raise SkillFailure(str(why)) from why
 
 
-def _make_collision_model(cell: Cell, state: WorldState, arm: str) -> tuple[Contacts, Known]:
+def _make_collision_model(cell: Cell, state: WorldState, arm: str) -> tuple[CollisionChecker, JointSpace]:
     """Return what an arm can collide with, and its limits; SheetError without a model, FrameError without a pose."""
     openings = {each: cell.gripper(each).opening_m for each in state.objects(arm, HAS_GRIPPER)}
-    shape = body(outfit(state, arm, openings), scenery(state, pose(state, arm)))
+    shape = build_collision_model(read_arm_assembly(state, arm, openings), read_scenery(state, pose(state, arm)))
     sheet = sheet_of(state, arm)
-    contacts = Contacts(shape, sheet.posture("home"))
-    return contacts, Known(cell.arm(arm).limits.range, tuple(sheet.posture(name) for name in sheet.posture_names))
+    contacts = CollisionChecker(shape, sheet.posture("home"))
+    return contacts, JointSpace(cell.arm(arm).limits.range, tuple(sheet.posture(name) for name in sheet.posture_names))
 
 
 def _plan_motion(
-    driver: ArmDriver, contacts: Contacts, known: Known, goals: Iterable[Array], pace: float
+    driver: ArmDriver, contacts: CollisionChecker, known: JointSpace, goals: Iterable[Array], pace: float
 ) -> JointTrajectory:
     """Return a collision-free motion whose corners are blended as far as possible; NoWay if there is no path.
 
@@ -65,6 +65,6 @@ def _plan_motion(
     if len(postures) > 1:
         for blend in BLEND_SHARES:
             motion = driver.motion.joint_motion(postures, pace, blend)
-            if touch_on(contacts, motion) is None:
+            if find_motion_collision(contacts, motion) is None:
                 return motion
     return driver.motion.joint_motion(postures, pace)

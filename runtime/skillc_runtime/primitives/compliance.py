@@ -96,7 +96,7 @@ class Push(Primitive):
     def tick(self) -> Status:
         """Return SUCCESS once the tool presses with the force."""
         raise_fault(self.arm)
-        if self._progress is None or not self._progress.touched:
+        if self._progress is None or not self._progress.has_touched:
             return Status.RUNNING
         self._touched_at = self._touched_at or self.cell.now
         return Status.SUCCESS if self.cell.now - self._touched_at >= RAMP_S else Status.RUNNING

@@ -90,7 +90,7 @@ class Seat(Primitive):
         resting = self.cell.now - self._came_at >= REST_TIME_S
         if not resting and self.cell.now - self._began <= self._patience:
             return Status.RUNNING
-        depth = -float(self._opening.inverse().at(self.arm.measured.pose.position)[2])
+        depth = -float(self._opening.inverse().apply(self.arm.measured.pose.position)[2])
         seated = resting and abs(depth - self._bottom) <= (1 - SEATED_SHARE) * self._bottom
         noted = [SetProperty(self._peg, INSERTED_DEPTH, depth), SetProperty(self._peg, IS_SEATED, seated)]
         self.cell.world.commit(noted, "Seat", "sensed")

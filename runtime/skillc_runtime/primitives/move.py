@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from skillc_runtime.motion.path import path
+from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.collision_free_motion import move_collision_free
@@ -87,7 +87,7 @@ class MoveLinear(ArmMotion):
     def start_motion(self) -> None:
         """Start the line from the stopping pose."""
         limits = self.limits(self._speed)
-        self.arm.motion.move_along(path([self.arm.motion.stopping_pose(), self._target], limits))
+        self.arm.motion.move_along(path_through([self.arm.motion.stopping_pose(), self._target], limits))
 
 
 def _find_posture(state: WorldState, arm: str, name: str) -> Array:

@@ -33,7 +33,7 @@ def _nearby_surfaces(state: WorldState, place: Array) -> Iterator[tuple[str, Arr
     """Yield the surfaces that a position is close to, each with the position (3,) in its frame."""
     for surface in sorted(state.instances(SURFACE)):
         try:
-            seen, half = pose(state, surface).inverse().at(place), size(state, surface)[:2] / 2
+            seen, half = pose(state, surface).inverse().apply(place), size(state, surface)[:2] / 2
         except FrameError:
             continue
         if (np.abs(seen[:2]) <= half + NEAR_M).all() and abs(seen[2]) <= ABOVE_M:

@@ -26,7 +26,7 @@ class InspectPolish(Primitive):
 
     def tick(self) -> Status:
         """Measure, write the results, and return SUCCESS."""
-        seen = self.cell.camera().rubbed(self._surface, self._time)
+        seen = self.cell.camera().rubbed_share(self._surface, self._time)
         polished = SetProperty(self._surface, IS_POLISHED, seen >= self._threshold)
         self.cell.world.commit([SetProperty(self._surface, POLISHED_SHARE, seen), polished], "Inspect", "sensed")
         return Status.SUCCESS

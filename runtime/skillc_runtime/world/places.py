@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from skillc_runtime.motion.lanes import Direction, side
-from skillc_runtime.motion.lanes import lanes as lane_pattern
+from skillc_runtime.motion.lanes import Direction, lane_axis
+from skillc_runtime.motion.lanes import plan_lanes as lane_pattern
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.motion.strokes import strokes_over
+from skillc_runtime.motion.strokes import plan_layout_strokes
 from skillc_runtime.world.space.frames import normal, pose, size
 from skillc_runtime.world.space.surfaces import lane_direction, surface_layout
 
@@ -80,7 +80,7 @@ def strokes(state: WorldState, surface: str, tool: str, overlap: float) -> list[
     tool fits nowhere.
     """
     frame, along = pose(state, surface), lane_direction(state, surface)
-    found = strokes_over(
+    found = plan_layout_strokes(
         surface_layout(state, surface), size(state, tool)[:2], overlap, Pose(np.zeros(3), np.eye(3)), along
     )
     if not found:
@@ -106,12 +106,12 @@ def landing(state: WorldState, surface: str, paths: list[list[Pose]]) -> Pose:
 
 def across(state: WorldState, surface: str) -> Array:
     """Return the direction (3,), unitless, across the lanes of a surface, in the world."""
-    along = side(size(state, surface), lane_direction(state, surface))
+    along = lane_axis(size(state, surface), lane_direction(state, surface))
     return pose(state, surface).rotation[:, 1 - along].copy()
 
 
 def _tool_axes(extent: Array, along: Direction) -> Array:
     """Return the axes (3, 3) of the tool, unitless, in the surface frame: z into the surface, x along the lanes."""
-    if side(extent, along) == 0:
+    if lane_axis(extent, along) == 0:
         return np.diag([1.0, -1.0, -1.0])
     return np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])

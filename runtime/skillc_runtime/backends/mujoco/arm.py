@@ -9,9 +9,18 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.backends.mujoco import noise
-from skillc_runtime.backends.mujoco.hand import BIAS, CARRYING, SPEED, ArmSensing, Hand, Q, load_mass, measure
+from skillc_runtime.backends.mujoco.arm_sensing import (
+    BIAS,
+    CARRYING,
+    SPEED,
+    ArmSensing,
+    LastLink,
+    Q,
+    add_payload_mass,
+    measure,
+)
 from skillc_runtime.backends.mujoco.motors import Joints, Motors, ServoGains, Servos, TorqueMotors
-from skillc_runtime.backends.mujoco.names import part
+from skillc_runtime.backends.mujoco.names import part_name
 from skillc_runtime.backends.mujoco.scene_spec import ArmSpec
 from skillc_runtime.backends.mujoco.variation import Variation
 from skillc_runtime.backends.mujoco.wrist import Wrist
@@ -51,27 +60,27 @@ class SimulatedArm:
         steps_per_command: int = 1,
     ) -> None:
         self._model, self._data = model, data
-        joints = [j for j in range(model.njnt) if model.joint(j).name.startswith(part(name, ""))]
+        joints = [j for j in range(model.njnt) if model.joint(j).name.startswith(part_name(name, ""))]
         first, count = int(model.jnt_dofadr[joints[0]]), len(joints)
         q_first = int(model.jnt_qposadr[joints[0]])
         actuator = _actuator_of(joints[0], model)
         self._dofs = slice(first, first + count)
         self._q, self._dq = data.qpos[q_first : q_first + count], data.qvel[self._dofs]
         self._bias = data.qfrc_bias[self._dofs]
-        self._base = _root_body(model, model.jnt_bodyid[joints[0]], part(name, ""))
-        self._link = int(model.site_bodyid[model.site(part(name, "flange")).id])
+        self._base = _root_body(model, model.jnt_bodyid[joints[0]], part_name(name, ""))
+        self._link = int(model.site_bodyid[model.site(part_name(name, "flange")).id])
         self.limits = _limits(model, joints, actuator, facts)
         self.fixed_tool = _fixed_tool(model, name, gripper)
-        self._hand = Hand()
+        self._hand = LastLink()
         self._joints = np.zeros((4, count))
         self._here = _blank(self._joints, self._hand.tool)
         self._state = _read_only(self._here)
         self._full_mass, self._next_mass_time = np.zeros((model.nv, model.nv)), 0.0
         self._weight, self._carrying, self._quiet = np.zeros(3), self._joints[CARRYING], np.zeros(count)
-        self._flange = _in_body(model.site(part(name, "flange")))
+        self._flange = _in_body(model.site(part_name(name, "flange")))
         self._wrist = _wrist(facts, gripper, model, data, reality.seed)
         self._sensing = self._make_sensing()
-        self._speed_noise = noise.of_joints(facts, reality.seed)
+        self._speed_noise = noise.make_joint_noise(facts, reality.seed)
         self._configure(NO_PAYLOAD, self.fixed_tool)
         self._q[:] = reality.start(facts)
         self._motors = self._make_motors(facts, slice(actuator, actuator + count), steps_per_command)
@@ -160,17 +169,17 @@ class SimulatedArm:
 
     def _configure(self, payload: Payload, tool: Pose) -> None:
         self.payload, self._next_mass_time = payload, 0.0
-        self._hand.hold(tool, self._flange.rotation, payload.centre)
+        self._hand.configure(tool, self._flange.rotation, payload.centre)
         np.multiply(self._model.opt.gravity, -payload.mass_kg, out=self._weight)
         if self._wrist is not None:
             to_sensor = self._flange.inverse()
-            self._wrist.configure(to_sensor @ tool, payload.mass_kg, to_sensor.at(payload.centre))
+            self._wrist.configure(to_sensor @ tool, payload.mass_kg, to_sensor.apply(payload.centre))
 
     def _update_mass_matrix(self) -> None:
         mujoco.mj_fullM(self._model, self._data, self._full_mass)
         self._here.mass_matrix[:] = self._full_mass[self._dofs, self._dofs]
         if self.payload.mass_kg > 0.0:
-            load_mass(self._here.mass_matrix, self._hand.lever, self._here.jacobian, self.payload.mass_kg)
+            add_payload_mass(self._here.mass_matrix, self._hand.lever, self._here.jacobian, self.payload.mass_kg)
         self._next_mass_time = self._data.time + MASS_MATRIX_PERIOD_S - 1e-9
 
 
@@ -204,7 +213,7 @@ def _view(array: Array) -> Array:
 def _wrist(facts: ArmSpec, gripper: str | None, model: Any, data: Any, seed: int) -> Wrist | None:
     if not facts.force_torque or gripper is None:
         return None
-    return Wrist(model, data, gripper, facts.sheet.number("forceTorqueTime"), noise.of_wrist(facts, seed))
+    return Wrist(model, data, gripper, facts.sheet.number("forceTorqueTime"), noise.make_wrist_noise(facts, seed))
 
 
 def _actuator_of(joint: int, model: Any) -> int:
@@ -222,8 +231,8 @@ def _root_body(model: Any, body: int, prefix: str) -> int:
 
 def _fixed_tool(model: Any, name: str, gripper: str | None) -> Pose:
     """Return the gripper's own tool centre point, or the flange of an arm without gripper, in the last link's frame."""
-    flange = _in_body(model.site(part(name, "flange")))
-    return flange if gripper is None else flange @ _in_body(model.site(part(gripper, "tcp")))
+    flange = _in_body(model.site(part_name(name, "flange")))
+    return flange if gripper is None else flange @ _in_body(model.site(part_name(gripper, "tcp")))
 
 
 def _in_body(site: Any) -> Pose:

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from skillc_runtime.backends.mujoco.names import base_body
+from skillc_runtime.backends.mujoco.names import base_body_name
 from skillc_runtime.backends.mujoco.scene_spec import BaseSpec
-from skillc_runtime.motion.pose import Array, Pose, exp, quaternion_of
-from skillc_runtime.motion.profile import Profile, trapezoid
+from skillc_runtime.motion.pose import Array, Pose, exp, quaternion_from_rotation
+from skillc_runtime.motion.profile import Profile, trapezoidal_profile
 
 NEAR_M = 1e-3
 """Shorter ways, in m or rad, are not driven."""
@@ -47,7 +47,7 @@ class SimulatedBase:
 
     def __init__(self, facts: BaseSpec, name: str, model: Any, data: Any) -> None:
         self._facts, self._data = facts, data
-        self._mocap = int(model.body_mocapid[model.body(base_body(name)).id])
+        self._mocap = int(model.body_mocapid[model.body(base_body_name(name)).id])
         self._pose, self._time = facts.pose, 0.0
         self._done, self._stopped = True, False
         self._legs: list[Leg] = []
@@ -87,7 +87,7 @@ class SimulatedBase:
             leg = self._legs[0]
             way, speed, _ = leg.profile.at(self._time)
             peak, brake = leg.profile.peak, leg.profile.deceleration
-            self._legs = [replace(leg, profile=trapezoid(way + speed * speed / (2 * brake), peak, brake))]
+            self._legs = [replace(leg, profile=trapezoidal_profile(way + speed * speed / (2 * brake), peak, brake))]
 
     def step(self, period_s: float) -> Pose | None:
         """Advance by one step; return the motion in the world (new = motion @ old), None when at rest."""
@@ -100,16 +100,16 @@ class SimulatedBase:
             self._legs, self._time = self._legs[1:], 0.0
             self._done = not self._legs and not self._stopped
         self._data.mocap_pos[self._mocap] = self._pose.position
-        self._data.mocap_quat[self._mocap] = quaternion_of(self._pose.rotation)
+        self._data.mocap_quat[self._mocap] = quaternion_from_rotation(self._pose.rotation)
         return self._pose @ before.inverse()
 
     def _turn(self, start: Pose, heading: float) -> Leg:
         angle = math.remainder(heading - _heading(start), math.tau)
-        profile = trapezoid(abs(angle), self._facts.turn_speed, self._facts.turn_acceleration)
+        profile = trapezoidal_profile(abs(angle), self._facts.turn_speed, self._facts.turn_acceleration)
         return Leg(start, profile, np.zeros(3), math.copysign(1.0, angle))
 
     def _straight(self, start: Pose, way: Array, distance: float) -> Leg:
-        profile = trapezoid(distance, self._facts.speed, self._facts.acceleration)
+        profile = trapezoidal_profile(distance, self._facts.speed, self._facts.acceleration)
         return Leg(start, profile, way / max(distance, NEAR_M), 0.0)
 
 

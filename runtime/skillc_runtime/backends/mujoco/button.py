@@ -9,7 +9,7 @@ import numpy as np
 
 from skillc_runtime.backends.mujoco.fixture_spec import FixtureSpec
 from skillc_runtime.backends.mujoco.fixture_variation import FixtureVariation
-from skillc_runtime.backends.mujoco.names import part
+from skillc_runtime.backends.mujoco.names import part_name
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.data_sheet import SheetError
 
@@ -19,7 +19,7 @@ class SimulatedButton:
 
     def __init__(self, name: str, switches_at_m: float, data: Any) -> None:
         try:
-            self._travel, self._force = (data.sensor(part(name, what)).data for what in ("travel", "force"))
+            self._travel, self._force = (data.sensor(part_name(name, what)).data for what in ("travel", "force"))
         except KeyError as error:
             raise SheetError(f"the model of {name}, a button, needs the sensors `travel` and `force`") from error
         self._switches_at, self._pressed = switches_at_m, list[tuple[float, float, float]]()
@@ -41,7 +41,7 @@ class SimulatedButton:
             self._pressed.append((now, force, float(self.switched)))
 
 
-def buttons(
+def make_buttons(
     fixtures: Sequence[FixtureSpec], variations: Sequence[FixtureVariation], names: Mapping[str, str], data: Any
 ) -> dict[str, SimulatedButton]:
     """Return those of the fixtures that are buttons, by IRI."""

@@ -9,9 +9,9 @@ import mujoco
 
 from skillc_runtime.backends.mujoco.arm import SimulatedArm
 from skillc_runtime.backends.mujoco.base import SimulatedBase
-from skillc_runtime.backends.mujoco.button import SimulatedButton, buttons
+from skillc_runtime.backends.mujoco.button import SimulatedButton, make_buttons
 from skillc_runtime.backends.mujoco.coverage import CoverageMap
-from skillc_runtime.backends.mujoco.driver_factory import driver
+from skillc_runtime.backends.mujoco.driver_factory import make_driver
 from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
 from skillc_runtime.backends.mujoco.ground_truth import SimulatedTruth
 from skillc_runtime.backends.mujoco.inspection import SimulatedCamera
@@ -20,7 +20,7 @@ from skillc_runtime.backends.mujoco.observer import ToolObserver
 from skillc_runtime.backends.mujoco.person import make_people
 from skillc_runtime.backends.mujoco.physics_warnings import print_warnings
 from skillc_runtime.backends.mujoco.scene_spec import SceneSpec, read_scene_spec
-from skillc_runtime.backends.mujoco.variation import Variation, draw
+from skillc_runtime.backends.mujoco.variation import Variation, draw_variation
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.devices.gripper import working_face
@@ -46,7 +46,7 @@ class SimulatedCell:
         seed: int = 0,
         timestep_s: float = 0.001,
         steps_per_command: int = 1,
-        reality: Callable[[SceneSpec, int], Variation] = draw,
+        reality: Callable[[SceneSpec, int], Variation] = draw_variation,
     ) -> None:
         """Build the cell; controllers run every `steps_per_command` steps, `reality` draws how it differs from facts.
 
@@ -54,17 +54,17 @@ class SimulatedCell:
         """
         print_warnings()
         self._world = world
-        self.facts: SceneSpec = read_scene_spec(world.snapshot())
-        self.variation: Variation = reality(self.facts, seed)
-        self.model: Any = build_model(self.facts, self.variation, timestep_s)
+        self.scene: SceneSpec = read_scene_spec(world.snapshot())
+        self.variation: Variation = reality(self.scene, seed)
+        self.model: Any = build_model(self.scene, self.variation, timestep_s)
         self.data: Any = mujoco.MjData(self.model)
         self._timestep, self._steps_per_command, self._step = timestep_s, steps_per_command, 0
         self.arms, self._hands = self._make_arms()
-        self._grippers = {a.gripper.individual: self._hands[a.individual] for a in self.facts.arms if a.gripper}
-        names, facts = self.facts.names, self.facts
+        self._grippers = {a.gripper.individual: self._hands[a.individual] for a in self.scene.arms if a.gripper}
+        names, facts = self.scene.names, self.scene
         self._bases = {b.individual: SimulatedBase(b, names[b.individual], self.model, self.data) for b in facts.bases}
         mujoco.mj_forward(self.model, self.data)
-        self._drivers = {a.individual: driver(a, self.arms[a.individual], self.period_s) for a in facts.arms}
+        self._drivers = {a.individual: make_driver(a, self.arms[a.individual], self.period_s) for a in facts.arms}
         poses = {s.individual: self.variation.of(s.individual).true_pose(s.pose) for s in facts.surfaces}
         self.coverage = {s.individual: CoverageMap(poses[s.individual], s.layout, s.least_n) for s in facts.surfaces}
         self._observers = {
@@ -73,7 +73,7 @@ class SimulatedCell:
         self.ground_truth: GroundTruth = SimulatedTruth(self._observers, poses)
         self._camera = SimulatedCamera(self.coverage)
         self.watchdog = HeartbeatWatchdog()
-        self._buttons = buttons(facts.fixtures, self.variation.fixtures, names, self.data)
+        self._buttons = make_buttons(facts.fixtures, self.variation.fixtures, names, self.data)
         self.people = make_people(facts, self.variation, self._drivers, self.data)
         idle = [SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(self._drivers)]
         world.commit(idle, "start of the cell", "reported")
@@ -129,7 +129,7 @@ class SimulatedCell:
 
         For the end of a run, however it ended; where all went well nothing is left to do.
         """
-        names, found = self.facts.names, []
+        names, found = self.scene.names, []
         for individual, arm in self._drivers.items():
             if (fault := arm.take_fault()) is not None:
                 found.append(f"{names[individual]} had stopped: {fault}")
@@ -191,7 +191,7 @@ class SimulatedCell:
         for arm, gripper in self._hands.items():
             if gripper.holding is not None:
                 self._observers[gripper.holding].sample(now, self._drivers[arm])
-                why = gripper.slips(now)
+                why = gripper.slip_message(now)
                 if why is not None:
                     self._lose(arm, gripper, gripper.holding, why)
 
@@ -205,19 +205,19 @@ class SimulatedCell:
 
     def _carry_along(self, robot: str, motion: Pose) -> None:
         """Move what the arms of a driving robot hold along with it."""
-        for arm in self.facts.arms:
+        for arm in self.scene.arms:
             if arm.robot == robot and arm.individual in self._hands:
-                self._hands[arm.individual].follow(motion)
+                self._hands[arm.individual].move_with_base(motion)
 
     def _make_arms(self) -> tuple[dict[str, SimulatedArm], dict[str, SimulatedGripper]]:
         """Return the arms, and the grippers by the arms that carry them."""
-        names, arms, hands = self.facts.names, {}, {}
-        for facts in self.facts.arms:
+        names, arms, hands = self.scene.names, {}, {}
+        for facts in self.scene.arms:
             gripper = facts.gripper
             palm = None if gripper is None else names[gripper.individual]
             name, steps = names[facts.individual], self._steps_per_command
             arm = SimulatedArm(facts, name, palm, self.model, self.data, self.variation, steps)
             arms[facts.individual] = arm
             if gripper is not None:
-                hands[facts.individual] = SimulatedGripper(gripper, names, self.facts.tools, arm, self.model, self.data)
+                hands[facts.individual] = SimulatedGripper(gripper, names, self.scene.tools, arm, self.model, self.data)
         return arms, hands

@@ -32,17 +32,17 @@ class CoverageMap:
         self.least_n, self.normal = least_n, surface.rotation[:, 2]
         self._in_surface = surface.inverse()
         self.x, self.y = _centres(float(layout.size[0])), _centres(float(layout.size[1]))
-        self.counts = layout.counts(self.x, self.y)
+        self.mask = layout.work_mask(self.x, self.y)
         self.dose: NDArray[np.float64] = np.zeros((self.y.size, self.x.size))
 
     @property
-    def fraction(self) -> float:
+    def wiped_share(self) -> float:
         """The share of the cells that count that were wiped."""
-        return self.rubbed(0.0)
+        return self.rubbed_share(0.0)
 
-    def rubbed(self, seconds: float) -> float:
+    def rubbed_share(self, seconds: float) -> float:
         """Return the share of the cells that count that were wiped, and for so long at least; 1 where none counts."""
-        dose = self.dose[self.counts]
+        dose = self.dose[self.mask]
         return float(((dose > 0) & (dose >= seconds)).mean()) if dose.size else 1.0
 
     def add(self, position: Array, rotation: Array, tool: Array, seconds: float) -> None:
@@ -56,7 +56,7 @@ class CoverageMap:
 
     def near(self, position: Array, reach_m: float) -> bool:
         """Whether a point of the world is close to this surface's plane, over it or within `reach_m` of its edge."""
-        point = self._in_surface.at(position)
+        point = self._in_surface.apply(position)
         over = abs(point[0]) <= self.x[-1] + reach_m and abs(point[1]) <= self.y[-1] + reach_m
         return bool(over and abs(point[2]) <= NEAR_PLANE_M)
 

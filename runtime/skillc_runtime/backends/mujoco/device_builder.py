@@ -9,16 +9,16 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.backends.mujoco.names import (
-    box_geom,
-    contact_sensor,
-    face_sensor,
-    part,
-    pressing_sensor,
-    wrist_sensor,
+    box_geom_name,
+    contact_sensor_name,
+    face_sensor_name,
+    part_name,
+    pressing_sensor_name,
+    wrist_sensor_name,
 )
 from skillc_runtime.backends.mujoco.scene_spec import ArmSpec, GripperSpec, ToolSpec
 from skillc_runtime.devices.gripper import working_face
-from skillc_runtime.motion.pose import Pose, quaternion_of
+from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
 from skillc_runtime.world.state.data_sheet import SheetError
 
 WRIST_SENSORS = (
@@ -43,8 +43,8 @@ def add_arm(spec: Any, names: Mapping[str, str], arm: ArmSpec, mount: Any, base:
         joint.armature = arm.sheet.number("armature")
     if arm.has_servos:
         _set_servos(model, arm)
-    frame = mount.add_frame(pos=base.position, quat=quaternion_of(base.rotation))
-    spec.attach(model, prefix=part(names[arm.individual], ""), frame=frame)
+    frame = mount.add_frame(pos=base.position, quat=quaternion_from_rotation(base.rotation))
+    spec.attach(model, prefix=part_name(names[arm.individual], ""), frame=frame)
     if arm.gripper is not None:
         _add_gripper(spec, names, arm, arm.gripper)
 
@@ -64,13 +64,13 @@ def add_tool(spec: Any, names: Mapping[str, str], tool: ToolSpec, pad_stiffness:
     root = model.worldbody.first_body()
     root.add_freejoint(name="free")
     face = working_face(tool.size)
-    root.add_site(name="face", pos=face.position, quat=quaternion_of(face.rotation))
+    root.add_site(name="face", pos=face.position, quat=quaternion_from_rotation(face.rotation))
     felt = model.geom("face")
     felt.parent.add_site(
         name="touch", type=mujoco.mjtGeom.mjGEOM_BOX, pos=felt.pos, size=felt.size + TOUCH_MARGIN_M, rgba=[0, 0, 0, 0]
     )
-    frame = spec.worldbody.add_frame(pos=tool.pose.position, quat=quaternion_of(tool.pose.rotation))
-    spec.attach(model, prefix=part(name, ""), frame=frame)
+    frame = spec.worldbody.add_frame(pos=tool.pose.position, quat=quaternion_from_rotation(tool.pose.rotation))
+    spec.attach(model, prefix=part_name(name, ""), frame=frame)
     _add_face_sensors(spec, name)
     _add_contact_sensor(spec, name, root)
 
@@ -93,10 +93,10 @@ def _add_gripper(spec: Any, names: Mapping[str, str], arm: ArmSpec, gripper: Gri
     actuator.ctrlrange = [0.0, gripper.max_opening_m]
     actuator.forcerange = [-gripper.max_force_n, gripper.max_force_n]
     model.body("palm").add_site(name="wrist")
-    spec.attach(model, prefix=part(name, ""), site=spec.site(part(names[arm.individual], "flange")))
+    spec.attach(model, prefix=part_name(name, ""), site=spec.site(part_name(names[arm.individual], "flange")))
     if arm.force_torque:
         for quantity, kind in WRIST_SENSORS:
-            _add_sensor(spec, wrist_sensor(name, quantity), kind, part(name, "wrist"))
+            _add_sensor(spec, wrist_sensor_name(name, quantity), kind, part_name(name, "wrist"))
 
 
 def _check_face(model: Any, name: str, tool: ToolSpec) -> None:
@@ -127,24 +127,24 @@ def _set_foundation(model: Any, tool: ToolSpec, stiffness: float) -> None:
 
 def _add_face_sensors(spec: Any, name: str) -> None:
     """Add, in this order: the normal force on the face; its position, quaternion and linear velocity in the world."""
-    _add_sensor(spec, face_sensor(name, "touch"), mujoco.mjtSensor.mjSENS_TOUCH, part(name, "touch"))
+    _add_sensor(spec, face_sensor_name(name, "touch"), mujoco.mjtSensor.mjSENS_TOUCH, part_name(name, "touch"))
     for quantity, kind in (
         ("position", mujoco.mjtSensor.mjSENS_FRAMEPOS),
         ("quaternion", mujoco.mjtSensor.mjSENS_FRAMEQUAT),
         ("velocity", mujoco.mjtSensor.mjSENS_FRAMELINVEL),
     ):
-        _add_sensor(spec, face_sensor(name, quantity), kind, part(name, "face"))
+        _add_sensor(spec, face_sensor_name(name, quantity), kind, part_name(name, "face"))
 
 
 def add_pressing_sensor(spec: Any, tool: str, surface: str) -> None:
     """Add the force (3,) of a tool on a surface itself, without what lies on that, as the solver has it."""
     spec.add_sensor(
-        name=pressing_sensor(tool, surface),
+        name=pressing_sensor_name(tool, surface),
         type=mujoco.mjtSensor.mjSENS_CONTACT,
         objtype=mujoco.mjtObj.mjOBJ_XBODY,
-        objname=part(tool, "block"),
+        objname=part_name(tool, "block"),
         reftype=mujoco.mjtObj.mjOBJ_GEOM,
-        refname=box_geom(surface),
+        refname=box_geom_name(surface),
         intprm=[1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), NET_FORCE, 1],
     )
 
@@ -152,7 +152,7 @@ def add_pressing_sensor(spec: Any, tool: str, surface: str) -> None:
 def _add_contact_sensor(spec: Any, name: str, root: Any) -> None:
     """Add the force (3,) of a tool on all that it touches, as the solver has it; its own body is `root`."""
     spec.add_sensor(
-        name=contact_sensor(name),
+        name=contact_sensor_name(name),
         type=mujoco.mjtSensor.mjSENS_CONTACT,
         objtype=mujoco.mjtObj.mjOBJ_XBODY,
         objname=root.name,

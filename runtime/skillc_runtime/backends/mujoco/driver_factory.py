@@ -9,9 +9,9 @@ from skillc_runtime.backends.mujoco.arm import SimulatedArm
 from skillc_runtime.backends.mujoco.scene_spec import ArmSpec
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.gains import LawGains, UnknownController, read_gains
-from skillc_runtime.control.safety import Box, SafetyLimits
+from skillc_runtime.control.safety import SafetyLimits, Workspace
 from skillc_runtime.control.setup import ArmSetup
-from skillc_runtime.control.virtual_arm import virtual_model
+from skillc_runtime.control.virtual_arm import load_virtual_model
 from skillc_runtime.devices.arm import ModeRefused
 from skillc_runtime.world.space.frames import relative_pose, size
 from skillc_runtime.world.state.data_sheet import SheetError, number_of
@@ -24,7 +24,7 @@ from skillc_runtime.world.state.terms import (
 )
 
 
-def driver(facts: ArmSpec, arm: SimulatedArm, period_s: float) -> CompliantArmDriver:
+def make_driver(facts: ArmSpec, arm: SimulatedArm, period_s: float) -> CompliantArmDriver:
     """Return the driver of an arm with the controller its facts name; SheetError for an unknown one, a missing gain."""
     jerk_limit = number_of(facts.sheet.state, facts.sheet.individual, JERK_LIMIT, inf)
     try:
@@ -33,7 +33,7 @@ def driver(facts: ArmSpec, arm: SimulatedArm, period_s: float) -> CompliantArmDr
         raise SheetError(f"{facts.sheet.state.vocabulary.short(facts.individual)}: {error}") from error
     chosen = replace(chosen, limits=replace(chosen.limits, jerk_m_s3=jerk_limit))
     _engage(facts, arm, chosen.law)
-    virtual, limits = virtual_model(facts.model), safety(facts)
+    virtual, limits = load_virtual_model(facts.model), read_safety_limits(facts)
     return CompliantArmDriver(ArmSetup(arm, virtual, chosen, arm.limits, lambda: arm.base, period_s, limits))
 
 
@@ -51,10 +51,10 @@ def _engage(facts: ArmSpec, arm: SimulatedArm, law: LawGains) -> None:
         )
 
 
-def safety(facts: ArmSpec) -> SafetyLimits:
+def read_safety_limits(facts: ArmSpec) -> SafetyLimits:
     """Return what is known of the limits of an arm: those of its sheet, and its workspace, which goes with its base."""
     state, sheet = facts.sheet.state, facts.sheet.individual
     force, speed = (number_of(state, sheet, limit, inf) for limit in (CONTACT_FORCE_LIMIT, TOOL_SPEED_LIMIT))
     spaces = sorted(state.objects(facts.individual, HAS_WORKSPACE))
-    space = Box(relative_pose(state, facts.individual, spaces[0]), size(state, spaces[0])) if spaces else None
+    space = Workspace(relative_pose(state, facts.individual, spaces[0]), size(state, spaces[0])) if spaces else None
     return SafetyLimits(force, speed, space)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import inf
 from pathlib import Path
 
-from skillc_runtime.backends.mujoco.friction import friction, ranges
+from skillc_runtime.backends.mujoco.friction import has_friction_range, read_friction_range
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.data_sheet import DataSheet, number_of, range_below, sheet_of
@@ -66,7 +66,7 @@ def _fixture(state: WorldState, fixture: str) -> FixtureSpec:
         place_range_m=within(PLACE_RANGE),
         depth_range_m=within(DEPTH_RANGE),
         tilt_range_rad=within(TILT_RANGE),
-        friction=friction(state, fixture) if ranges(state, fixture) else None,
+        friction=read_friction_range(state, fixture) if has_friction_range(state, fixture) else None,
         stiffness_range=within(STIFFNESS_RANGE),
         switch_travel_m=travel,
         switch_range_m=range_below(state, fixture, SWITCH_RANGE, inf if travel is None else travel),

@@ -34,7 +34,7 @@ class FixtureVariation:
         return believed @ Pose(np.array(self.place_m), exp(np.array([*self.tilt_rad, 0.0])))
 
     @property
-    def words(self) -> str:
+    def description(self) -> str:
         """What differs, in words."""
         x, y, z = (1e3 * each for each in self.place_m)
         tilt = "" if self.tilt_rad == (0.0, 0.0) else f", tilted {_degrees(self.tilt_rad)} deg"

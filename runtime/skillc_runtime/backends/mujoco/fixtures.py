@@ -8,8 +8,8 @@ import mujoco
 
 from skillc_runtime.backends.mujoco.fixture_spec import FixtureSpec
 from skillc_runtime.backends.mujoco.fixture_variation import FixtureVariation
-from skillc_runtime.backends.mujoco.names import part
-from skillc_runtime.motion.pose import quaternion_of
+from skillc_runtime.backends.mujoco.names import part_name
+from skillc_runtime.motion.pose import quaternion_from_rotation
 
 BLOCKAGE = "blockage"
 """The geom of a model that gets in the way of its use; it is left out unless that is wanted."""
@@ -27,8 +27,8 @@ def add_fixture(spec: Any, name: str, fixture: FixtureSpec, true: FixtureVariati
             _vanish(geom)
     for joint in model.joints:
         joint.stiffness[0] *= 1.0 + true.stiffness_share
-    frame = spec.worldbody.add_frame(pos=pose.position, quat=quaternion_of(pose.rotation))
-    spec.attach(model, prefix=part(name, ""), frame=frame)
+    frame = spec.worldbody.add_frame(pos=pose.position, quat=quaternion_from_rotation(pose.rotation))
+    spec.attach(model, prefix=part_name(name, ""), frame=frame)
 
 
 def _rub(geom: Any, friction: float | None) -> None:

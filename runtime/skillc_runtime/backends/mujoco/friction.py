@@ -7,9 +7,9 @@ from skillc_runtime.world.state.terms import FRICTION, FRICTION_HIGH, FRICTION_L
 from skillc_runtime.world.state.world_state import WorldState
 
 
-def friction(state: WorldState, thing: str) -> tuple[float, float]:
+def read_friction_range(state: WorldState, thing: str) -> tuple[float, float]:
     """Return the least and the greatest friction: the range where one of its ends is given, else the one value."""
-    if not ranges(state, thing):
+    if not has_friction_range(state, thing):
         believed = number_of(state, thing, FRICTION)
         return believed, believed
     low, high = number_of(state, thing, FRICTION_LOW), number_of(state, thing, FRICTION_HIGH)
@@ -19,6 +19,6 @@ def friction(state: WorldState, thing: str) -> tuple[float, float]:
     return low, high
 
 
-def ranges(state: WorldState, thing: str) -> bool:
+def has_friction_range(state: WorldState, thing: str) -> bool:
     """Tell whether a range is given, or an end of one."""
     return any(state.value(thing, end) is not None for end in (FRICTION_LOW, FRICTION_HIGH))

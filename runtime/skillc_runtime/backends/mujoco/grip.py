@@ -14,10 +14,10 @@ import numpy as np
 
 from skillc_runtime.motion.pose import Array
 
-LOOK_S = 0.01
+CHECK_PERIOD_S = 0.01
 """How often the pull is looked at."""
 
-PATIENCE_S = 0.03
+OVERLOAD_S = 0.03
 """A shorter overload is a jolt, in which a thing creeps by less than it is grasped off its middle."""
 
 SIDES = 2
@@ -45,9 +45,9 @@ class Grip:
         """
         if now < self.next_look:
             return None
-        self.next_look, pull = now + LOOK_S, self._pull(data)
+        self.next_look, pull = now + CHECK_PERIOD_S, self._pull(data)
         self.overloaded_from = min(self.overloaded_from, now) if pull > self.bears_n else np.inf
-        return pull if now - self.overloaded_from >= PATIENCE_S else None
+        return pull if now - self.overloaded_from >= OVERLOAD_S else None
 
     def _pull(self, data: Any) -> float:
         """Return the force across the pressing direction that the weld bears; none before it first acts."""
@@ -60,7 +60,7 @@ class Grip:
         return float(np.linalg.norm(force - force @ pressing * pressing))
 
 
-def grip(data: Any, equality: int, palm: int, normals: list[Array], friction: float, force_n: float) -> Grip:
+def make_grip(data: Any, equality: int, palm: int, normals: list[Array], friction: float, force_n: float) -> Grip:
     """Return the grip of fingers that press with so much force each along normals (3,) of the world."""
     pressing = data.xmat[palm].reshape(3, 3).T @ normals[0]
     return Grip(equality, palm, pressing, SIDES * friction * force_n)

@@ -9,11 +9,11 @@ from __future__ import annotations
 from typing import Any
 
 from skillc_runtime.backends.mujoco.arm import Payload, SimulatedArm
-from skillc_runtime.backends.mujoco.grip import Grip, grip
-from skillc_runtime.backends.mujoco.names import part, weld
+from skillc_runtime.backends.mujoco.grip import Grip, make_grip
+from skillc_runtime.backends.mujoco.names import part_name, weld_name
 from skillc_runtime.backends.mujoco.scene_spec import GripperSpec, ToolSpec
 from skillc_runtime.devices.gripper import working_face
-from skillc_runtime.motion.pose import Array, Pose, quaternion_of
+from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 
 STILL_M_S, STILL_TIME_S = 0.002, 0.05
 """Fingers that have been slower than this for that long, at the end of their way or held up, have arrived."""
@@ -40,7 +40,7 @@ class SimulatedGripper:
         self._facts, self._names, self._arm, self._model, self._data = facts, names, arm, model, data
         self._tools = {tool.individual: tool for tool in tools}
         self._name = names[facts.individual]
-        self._actuator = model.actuator(part(self._name, "opening")).id
+        self._actuator = model.actuator(part_name(self._name, "opening")).id
         self._length = data.actuator_length[self._actuator : self._actuator + 1]
         self._speed = data.actuator_velocity[self._actuator : self._actuator + 1]
         self.pads = frozenset(_pads(model, self._name))
@@ -115,32 +115,32 @@ class SimulatedGripper:
         """
         if not self.touches(thing):
             raise RuntimeError(f"the fingers do not touch {self._names[thing]} from both sides")
-        hand = self._model.body(part(self._name, "palm")).id
-        block = self._model.body(part(self._names[thing], "block")).id
+        hand = self._model.body(part_name(self._name, "palm")).id
+        block = self._model.body(part_name(self._names[thing], "block")).id
         truth = _pose(self._data, hand).inverse() @ _pose(self._data, block)
-        equality = self._model.equality(weld(self._name, self._names[thing])).id
+        equality = self._model.equality(weld_name(self._name, self._names[thing])).id
         force = abs(float(self._data.actuator_force[self._actuator]))
         normals, friction = self._touched(thing)
-        self._grip = grip(self._data, equality, hand, normals, friction, force)
+        self._grip = make_grip(self._data, equality, hand, normals, friction, force)
         row = self._model.eq_data[equality]
-        row[:3], row[3:6], row[6:10], row[10] = 0.0, truth.position, quaternion_of(truth.rotation), 1.0
+        row[:3], row[3:6], row[6:10], row[10] = 0.0, truth.position, quaternion_from_rotation(truth.rotation), 1.0
         self._data.eq_active[equality] = 1
         self._holding, tool = thing, self._tools[thing]
         self._set_grip_contact(thing, False)
-        centre = _pose(self._data, block).inverse().at(self._data.subtree_com[block])
-        payload = Payload(tool.mass_kg, (self._arm.fixed_tool @ in_tool_centre).at(centre))
+        centre = _pose(self._data, block).inverse().apply(self._data.subtree_com[block])
+        payload = Payload(tool.mass_kg, (self._arm.fixed_tool @ in_tool_centre).apply(centre))
         self._arm.carry(payload, in_tool_centre @ working_face(tool.size))
 
     def detach(self) -> None:
         """Take the weld away; the arm's payload and tool centre point become those of the empty gripper."""
         if not self._holding:
             return
-        equality = self._model.equality(weld(self._name, self._names[self._holding])).id
+        equality = self._model.equality(weld_name(self._name, self._names[self._holding])).id
         self._set_grip_contact(self._holding, True)
         self._data.eq_active[equality], self._holding, self._grip = 0, "", None
         self._arm.carry_nothing()
 
-    def slips(self, now: float) -> str | None:
+    def slip_message(self, now: float) -> str | None:
         """Return why what is held slips through the fingers, None while friction bears it.
 
         To be called each step, between `mj_step2` and the next `mj_step1`.
@@ -158,13 +158,13 @@ class SimulatedGripper:
         self.detach()
         self.move(0.0, float(self._model.actuator_forcerange[self._actuator, 1]))
 
-    def follow(self, motion: Pose) -> None:
+    def move_with_base(self, motion: Pose) -> None:
         """Move a held thing along with the base that carries the arm: new = motion @ old, in the world."""
         if self._holding:
-            joint = self._model.joint(part(self._names[self._holding], "free"))
+            joint = self._model.joint(part_name(self._names[self._holding], "free"))
             q = self._data.qpos[joint.qposadr[0] : joint.qposadr[0] + 7]
             moved = motion @ Pose.of(q[:3], q[3:])
-            q[:3], q[3:] = moved.position, quaternion_of(moved.rotation)
+            q[:3], q[3:] = moved.position, quaternion_from_rotation(moved.rotation)
 
     def _set_opening(self, opening_m: float) -> None:
         """Put the fingers somewhere at once: each joint of the opening's tendon takes its share."""
@@ -177,7 +177,7 @@ class SimulatedGripper:
 
     def _set_grip_contact(self, thing: str, on: bool) -> None:
         """Let pads touch a thing or not: while the weld keeps it, their contact would only cost time."""
-        handle = self._model.geom(part(self._names[thing], "handle")).id
+        handle = self._model.geom(part_name(self._names[thing], "handle")).id
         self._model.geom_contype[handle], self._model.geom_conaffinity[handle] = (HANDLE, PAD) if on else (0, 0)
         if not on:
             self.stop()
@@ -190,7 +190,7 @@ class SimulatedGripper:
 
     def _touched(self, thing: str) -> tuple[list[Array], float]:
         """Return the directions (3,), in the world, in which pads press on a thing, and the least friction there."""
-        contacts, handle = self._data.contact, self._model.geom(part(self._names[thing], "handle")).id
+        contacts, handle = self._data.contact, self._model.geom(part_name(self._names[thing], "handle")).id
         normals: list[Array] = []
         frictions: list[float] = []
         for index in range(self._data.ncon):
@@ -202,7 +202,7 @@ class SimulatedGripper:
 
 
 def _pads(model: Any, gripper: str) -> list[int]:
-    prefix = part(gripper, "")
+    prefix = part_name(gripper, "")
     return [
         g for g in range(model.ngeom) if model.geom(g).name.startswith(prefix) and model.geom(g).name.endswith("_pad")
     ]

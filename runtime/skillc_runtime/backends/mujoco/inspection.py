@@ -15,8 +15,8 @@ class SimulatedCamera:
 
     def inspect(self, surface: str) -> float:
         """Return the share of the surface that is wiped; KeyError for a surface that is not there."""
-        return self._coverage[surface].fraction
+        return self._coverage[surface].wiped_share
 
-    def rubbed(self, surface: str, seconds: float) -> float:
+    def rubbed_share(self, surface: str, seconds: float) -> float:
         """Return the share that was under a pressed tool for so long; KeyError for a surface that is not there."""
-        return self._coverage[surface].rubbed(seconds)
+        return self._coverage[surface].rubbed_share(seconds)

@@ -10,11 +10,18 @@ import numpy as np
 
 from skillc_runtime.backends.mujoco.device_builder import add_arm, add_pressing_sensor, add_tool
 from skillc_runtime.backends.mujoco.fixtures import add_fixture
-from skillc_runtime.backends.mujoco.names import base_body, box_geom, hole, obstacle, part, weld
+from skillc_runtime.backends.mujoco.names import (
+    base_body_name,
+    box_geom_name,
+    hole_name,
+    obstacle_name,
+    part_name,
+    weld_name,
+)
 from skillc_runtime.backends.mujoco.scene_spec import BaseSpec, SceneSpec, SurfaceSpec
 from skillc_runtime.backends.mujoco.variation import SurfaceVariation, Variation
 from skillc_runtime.motion.layout import Hole
-from skillc_runtime.motion.pose import Array, Pose, quaternion_of
+from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 from skillc_runtime.world.state.data_sheet import SheetError
 
 CARRIES, WORKS = 1, 2
@@ -102,8 +109,8 @@ def _carry(geom: Any, friction: float) -> None:
 
 def _add_box(spec: Any, name: str, top: Pose, size: Array, friction: float, rgba: tuple[float, ...]) -> None:
     """Add a fixed box whose top's middle is at `top`."""
-    body = spec.worldbody.add_body(name=name, pos=top.position, quat=quaternion_of(top.rotation))
-    geom = body.add_geom(name=box_geom(name), type=mujoco.mjtGeom.mjGEOM_BOX, size=size / 2)
+    body = spec.worldbody.add_body(name=name, pos=top.position, quat=quaternion_from_rotation(top.rotation))
+    geom = body.add_geom(name=box_geom_name(name), type=mujoco.mjtGeom.mjGEOM_BOX, size=size / 2)
     geom.pos, geom.rgba = [0.0, 0.0, -size[2] / 2], list(rgba)
     _carry(geom, friction)
 
@@ -113,11 +120,11 @@ def _add_surface(spec: Any, name: str, surface: SurfaceSpec, true: SurfaceVariat
     pose = true.true_pose(surface.pose)
     _add_box(spec, name, pose, surface.size, true.friction, BOARD)
     for number, each in enumerate(surface.layout.holes):
-        _add_hole(spec, hole(name, number), pose, each, true.friction)
+        _add_hole(spec, hole_name(name, number), pose, each, true.friction)
     if true.obstacle is not None:
         size = np.array(true.obstacle.size)
         top = pose @ Pose(np.array([*true.obstacle.place, size[2]]), np.eye(3))
-        _add_box(spec, obstacle(name), top, size, true.friction, STEEL)
+        _add_box(spec, obstacle_name(name), top, size, true.friction, STEEL)
 
 
 def _add_hole(spec: Any, name: str, surface: Pose, area: Hole, friction: float) -> None:
@@ -126,14 +133,14 @@ def _add_hole(spec: Any, name: str, surface: Pose, area: Hole, friction: float) 
     top = surface @ Pose(np.append(area.middle, height), np.eye(3))
     _add_box(spec, name, top, np.append(area.size, height), friction, STEEL)
     if area.height == 0:
-        spec.geom(box_geom(name)).contype = spec.geom(box_geom(name)).conaffinity = 0
+        spec.geom(box_geom_name(name)).contype = spec.geom(box_geom_name(name)).conaffinity = 0
 
 
 def _add_base(spec: Any, scene: SceneSpec, base: BaseSpec) -> tuple[Any, Pose]:
     """Add a mobile base, moved as a whole from outside; its frame lies on the floor in its middle."""
-    name = base_body(scene.names[base.individual])
+    name = base_body_name(scene.names[base.individual])
     body = spec.worldbody.add_body(name=name, mocap=True)
-    body.pos, body.quat = base.pose.position, quaternion_of(base.pose.rotation)
+    body.pos, body.quat = base.pose.position, quaternion_from_rotation(base.pose.rotation)
     geom = body.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=base.size / 2, contype=0, conaffinity=0)
     geom.pos, geom.rgba = [0.0, 0.0, base.size[2] / 2], list(STEEL)
     return body, base.pose
@@ -143,7 +150,7 @@ def _add_welds(spec: Any, scene: SceneSpec) -> None:
     """Add an inactive weld for every gripper and tool; a grasp switches it on."""
     grippers = [scene.names[arm.gripper.individual] for arm in scene.arms if arm.gripper is not None]
     for gripper, tool in product(grippers, (scene.names[tool.individual] for tool in scene.tools)):
-        equality = spec.add_equality(name=weld(gripper, tool), type=mujoco.mjtEq.mjEQ_WELD)
+        equality = spec.add_equality(name=weld_name(gripper, tool), type=mujoco.mjtEq.mjEQ_WELD)
         equality.objtype = mujoco.mjtObj.mjOBJ_BODY
-        equality.name1, equality.name2 = part(gripper, "palm"), part(tool, "block")
+        equality.name1, equality.name2 = part_name(gripper, "palm"), part_name(tool, "block")
         equality.solref, equality.solimp, equality.active = WELD_SOLREF, WELD_SOLIMP, False

@@ -13,7 +13,7 @@ from skillc_runtime.motion.arrays import OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.pose import Array
 
-SILENCE_S = 0.05
+COMMAND_TIMEOUT_S = 0.05
 """An arm that is not commanded for so long holds still by itself."""
 
 HOLD_RATE = 20.0
@@ -45,7 +45,7 @@ class Motors(ABC):
 
     def __init__(self, joints: Joints, modes: tuple[Mode, ...], timestep_s: float) -> None:
         self._joints, self.modes, self.mode = joints, modes, modes[0]
-        self._unheard, self._patience = 0, round(SILENCE_S / timestep_s)
+        self._unheard, self._patience = 0, round(COMMAND_TIMEOUT_S / timestep_s)
 
     def switch(self, mode: Mode) -> None:
         """Take commands of this kind from now on, at rest until the first; ModeRefused for one there is not."""
@@ -159,7 +159,9 @@ class Servos(Motors):
         joints = self._joints
         joints.applied[:] = joints.bias
         if self.mode == "velocity":
-            drive(joints.control, self._speed, joints.q, joints.dq, self._lead, self._farthest, self._timestep)
+            update_servo_targets(
+                joints.control, self._speed, joints.q, joints.dq, self._lead, self._farthest, self._timestep
+            )
         elif self._steps_left > 0:
             self._approach()
 
@@ -179,7 +181,7 @@ class Servos(Motors):
 
 
 @compiled
-def drive(
+def update_servo_targets(
     control: OutVector, speed: Vector, q: Vector, dq: Vector, lead: Vector, farthest: Vector, timestep: float
 ) -> None:
     """Move the targets of servos by speed for a step of the simulation, in s; all else (nv,).

@@ -3,51 +3,51 @@
 from __future__ import annotations
 
 
-def part(device: str, name: str) -> str:
+def part_name(device: str, name: str) -> str:
     """Return the name of a part of a device's own model."""
     return f"{device}/{name}"
 
 
-def base_body(robot: str) -> str:
+def base_body_name(robot: str) -> str:
     """Return the name of a mobile base's body."""
     return f"{robot}/base"
 
 
-def box_geom(individual: str) -> str:
+def box_geom_name(individual: str) -> str:
     """Return the name of the box of a surface or a piece of furniture."""
     return f"{individual}/box"
 
 
-def obstacle(surface: str) -> str:
+def obstacle_name(surface: str) -> str:
     """Return the name of what lies on a surface unknown to the world model."""
     return f"{surface}/obstacle"
 
 
-def hole(surface: str, number: int) -> str:
+def hole_name(surface: str, number: int) -> str:
     """Return the name of what marks a hole of a surface, or stands there."""
     return f"{surface}/hole/{number}"
 
 
-def weld(gripper: str, tool: str) -> str:
+def weld_name(gripper: str, tool: str) -> str:
     """Return the name of the equality that keeps a grasped tool in a gripper."""
     return f"{gripper}/holds/{tool}"
 
 
-def wrist_sensor(gripper: str, quantity: str) -> str:
+def wrist_sensor_name(gripper: str, quantity: str) -> str:
     """Return the name of a gripper's wrist sensor for `force`, `torque` or `acceleration`."""
     return f"{gripper}/wrist/{quantity}"
 
 
-def contact_sensor(tool: str) -> str:
+def contact_sensor_name(tool: str) -> str:
     """Return the name of the sensor of all contacts of a tool together."""
     return f"{tool}/contact"
 
 
-def pressing_sensor(tool: str, surface: str) -> str:
+def pressing_sensor_name(tool: str, surface: str) -> str:
     """Return the name of the sensor of the contacts of a tool with a surface itself."""
     return f"{tool}/presses/{surface}"
 
 
-def face_sensor(tool: str, quantity: str) -> str:
+def face_sensor_name(tool: str, quantity: str) -> str:
     """Return the name of a sensor at a tool's working face."""
     return f"{tool}/face/{quantity}"

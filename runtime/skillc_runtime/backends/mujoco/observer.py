@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from skillc_runtime.backends.mujoco.coverage import CoverageMap
-from skillc_runtime.backends.mujoco.names import contact_sensor, face_sensor, pressing_sensor
+from skillc_runtime.backends.mujoco.names import contact_sensor_name, face_sensor_name, pressing_sensor_name
 from skillc_runtime.backends.mujoco.recorder import Recorder
 from skillc_runtime.backends.mujoco.scene_spec import ToolSpec
 from skillc_runtime.devices.arm_driver import ArmDriver
-from skillc_runtime.motion.pose import Array, rotation_of
+from skillc_runtime.motion.pose import Array, rotation_from_quaternion
 
 STEPS_PER_UPDATE = 10
 """Coverage and reference are looked at every so many steps: at 100 Hz with steps of 1 ms."""
@@ -28,7 +28,7 @@ class ToolObserver:
         name = names[facts.individual]
         self._extent = facts.size[:2]
         self._pressing = tuple(_pressing(name, names, model, data, coverage))
-        first = int(model.sensor(face_sensor(name, "touch")).adr[0])
+        first = int(model.sensor(face_sensor_name(name, "touch")).adr[0])
         self._truth = data.sensordata[first : first + 11]
         self._reach = float(np.hypot(*self._extent)) / 2
         self._seconds = STEPS_PER_UPDATE * model.opt.timestep
@@ -50,7 +50,7 @@ class ToolObserver:
             force_n = abs(float(surface.normal @ force))
             greatest = max(greatest, force_n)
             if force_n >= surface.least_n and surface.near(self._truth[1:4], self._reach):
-                surface.add(self._truth[1:4], rotation_of(self._truth[4:8]), self._extent, self._seconds)
+                surface.add(self._truth[1:4], rotation_from_quaternion(self._truth[4:8]), self._extent, self._seconds)
         return greatest
 
 
@@ -62,7 +62,7 @@ class PeakForce:
 
     def __init__(self, tool: str, model: Any, data: Any) -> None:
         """Look at a tool of that name in the model."""
-        first = int(model.sensor(contact_sensor(tool)).adr[0])
+        first = int(model.sensor(contact_sensor_name(tool)).adr[0])
         self._force = data.sensordata[first : first + 3]
         self._square = 0.0
 
@@ -82,7 +82,7 @@ def _pressing(
     """Return the surfaces that are really there, each with the view (3,) of the force of the tool on it."""
     found = []
     for individual, surface in coverage.items():
-        sensor = pressing_sensor(tool, names[individual])
+        sensor = pressing_sensor_name(tool, names[individual])
         if any(model.sensor(each).name == sensor for each in range(model.nsensor)):
             first = int(model.sensor(sensor).adr[0])
             found.append((surface, data.sensordata[first : first + 3]))

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from skillc_runtime.backends.mujoco.names import part
+from skillc_runtime.backends.mujoco.names import part_name
 from skillc_runtime.backends.mujoco.person_spec import PersonSpec
 from skillc_runtime.backends.mujoco.person_variation import PersonVariation
 from skillc_runtime.backends.mujoco.scene_spec import ArmSpec, SceneSpec
@@ -77,4 +77,4 @@ def make_people(
 
 
 def _palm(arm: ArmSpec, names: Mapping[str, str]) -> str | None:
-    return None if arm.gripper is None else part(names[arm.gripper.individual], "palm")
+    return None if arm.gripper is None else part_name(names[arm.gripper.individual], "palm")

@@ -18,7 +18,7 @@ class PersonVariation:
     present: bool = True
 
     @property
-    def words(self) -> str:
+    def description(self) -> str:
         """What differs, in words."""
         x, y, z = (1e3 * each for each in self.place_m)
         return f"leads {x:+.0f}, {y:+.0f} and {z:+.0f} mm beside, with {self.strength_n:.0f} N at most"

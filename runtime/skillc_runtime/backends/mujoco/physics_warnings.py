@@ -9,8 +9,8 @@ import mujoco
 
 def print_warnings() -> None:
     """Have every warning of MuJoCo told on stderr, and no file written, from now on in this process."""
-    mujoco.set_mju_user_warning(_tell)
+    mujoco.set_mju_user_warning(_print_warning)
 
 
-def _tell(warning: str) -> None:
+def _print_warning(warning: str) -> None:
     print(f"simulation: {warning}", file=sys.stderr)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Final
 
 from skillc_runtime.backends.mujoco.fixture_spec import FixtureSpec, read_fixtures
-from skillc_runtime.backends.mujoco.friction import friction
+from skillc_runtime.backends.mujoco.friction import read_friction_range
 from skillc_runtime.backends.mujoco.person_spec import PersonSpec, read_people
 from skillc_runtime.devices.arm import Mode
 from skillc_runtime.motion.layout import Layout
@@ -250,7 +250,7 @@ def _surface(state: WorldState, surface: str) -> SurfaceSpec:
         pose=pose(state, surface),
         size=size(state, surface),
         layout=surface_layout(state, surface),
-        friction=friction(state, surface),
+        friction=read_friction_range(state, surface),
         offset_range_m=number_of(state, surface, OFFSET_RANGE, default=0.0),
         tilt_range_rad=number_of(state, surface, TILT_RANGE, default=0.0),
         least_n=least_force_n(state, surface),

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 from skillc_runtime.backends.mujoco.rng import rng_for
 from skillc_runtime.backends.mujoco.scene_spec import ArmSpec
-from skillc_runtime.collision.arm_assembly import outfit
-from skillc_runtime.collision.body import body
-from skillc_runtime.collision.contacts import Contacts
-from skillc_runtime.collision.scenery import scenery
+from skillc_runtime.collision.arm_assembly import read_arm_assembly
+from skillc_runtime.collision.collision_checker import CollisionChecker
+from skillc_runtime.collision.collision_model import build_collision_model
+from skillc_runtime.collision.scenery import read_scenery
 from skillc_runtime.motion.pose import Array
 
 MOST_DRAWS = 100
@@ -26,8 +26,8 @@ def draw_start(arm: ArmSpec, seed: int) -> tuple[float, ...]:
     except ValueError:
         # Models that cannot be used are told when the cell is built of them.
         return tuple(next(draws).tolist())
-    at_home = contacts.overlaps(arm.home)
-    free = (off for off in draws if contacts.overlaps(arm.home + off) <= at_home)
+    at_home = contacts.overlapping_pairs(arm.home)
+    free = (off for off in draws if contacts.overlapping_pairs(arm.home + off) <= at_home)
     return tuple(next(free, 0.0 * arm.home).tolist())
 
 
@@ -37,7 +37,10 @@ def _draws(arm: ArmSpec, seed: int) -> Iterator[Array]:
         yield rng.uniform(-1.0, 1.0, arm.home.size) * arm.posture_range_rad
 
 
-def _contacts(arm: ArmSpec) -> Contacts:
+def _contacts(arm: ArmSpec) -> CollisionChecker:
     state, gripper = arm.sheet.state, arm.gripper
     openings = {} if gripper is None else {gripper.individual: gripper.first_opening_m}
-    return Contacts(body(outfit(state, arm.individual, openings), scenery(state, arm.base)), arm.home)
+    return CollisionChecker(
+        build_collision_model(read_arm_assembly(state, arm.individual, openings), read_scenery(state, arm.base)),
+        arm.home,
+    )

@@ -80,7 +80,7 @@ class Variation:
         return tool.sheet.number("padStiffness") * (1.0 + self.pad_share[tool.individual])
 
 
-def draw(scene: SceneSpec, seed: int) -> Variation:
+def draw_variation(scene: SceneSpec, seed: int) -> Variation:
     """Draw the differences, uniform within the ranges of the facts; no thing's draw depends on the others."""
     return Variation(
         seed,
@@ -92,7 +92,7 @@ def draw(scene: SceneSpec, seed: int) -> Variation:
     )
 
 
-def deserted(variation: Variation) -> Variation:
+def make_all_absent(variation: Variation) -> Variation:
     """Return the same reality, where nothing is there to work on and nobody to work with."""
     return replace(
         variation,
@@ -102,7 +102,7 @@ def deserted(variation: Variation) -> Variation:
     )
 
 
-def with_obstacles(variation: Variation, scene: SceneSpec) -> Variation:
+def add_obstacles(variation: Variation, scene: SceneSpec) -> Variation:
     """Return the same reality, with an obstacle somewhere on each surface, and one in each fixture."""
     littered = (replace(variation.of(s.individual), obstacle=_obstacle(s, variation.seed)) for s in scene.surfaces)
     blocked = (replace(each, blocked=True) for each in variation.fixtures)

@@ -19,13 +19,13 @@ HELD_S = 0.1
 def measure(evidence: RunEvidence) -> Iterator[Work]:
     """Yield the pressing of each button that felt something."""
     cell = evidence.cell
-    for fixture in cell.facts.fixtures:
+    for fixture in cell.scene.fixtures:
         if fixture.switch_travel_m is None:
             continue
         pressing = cell.button(fixture.individual).pressing
         if len(pressing):
             yield PressingWork(
-                button=cell.facts.names[fixture.individual],
+                button=cell.scene.names[fixture.individual],
                 asked_n=number_of(cell.world.snapshot(), fixture.individual, PRESS_FORCE),
                 held_n=held_force(pressing),
                 greatest_n=float(pressing[:, 1].max()),

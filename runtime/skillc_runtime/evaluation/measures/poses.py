@@ -23,7 +23,7 @@ def measure(evidence: RunEvidence) -> Iterator[Work]:
             nearest = int(np.argmin(off))
             forces = np.array(leaders[nearest].forces)
             yield TeachingWork(
-                pose=cell.facts.names[taught],
+                pose=cell.scene.names[taught],
                 off_m=off[nearest],
                 greatest_n=float(forces.max()),
                 mean_n=float(forces.mean()),

@@ -35,7 +35,7 @@ def _polished(evidence: RunEvidence, wiping: Wiping, how: WipingResult) -> Polis
     swung = asked > LEAST_SWING_M
     return PolishingWork(
         how=how,
-        share=cell.camera().rubbed(wiping.surface, seconds),
+        share=cell.camera().rubbed_share(wiping.surface, seconds),
         swing_m=gone if swung else None,
         swing_asked_m=asked if swung else None,
     )

@@ -12,7 +12,7 @@ from skillc_runtime.backends.mujoco.coverage import CoverageMap
 from skillc_runtime.devices.ground_truth import Recording, join_recordings
 from skillc_runtime.evaluation.metrics.lane_dwell import LaneDwell, lane_dwell
 from skillc_runtime.motion.layout import Layout
-from skillc_runtime.motion.pose import Array, Pose, rotation_of
+from skillc_runtime.motion.pose import Array, Pose, rotation_from_quaternion
 
 LOST_N = 0.5
 """Normal force below which contact counts as lost."""
@@ -79,7 +79,7 @@ def measure_wiping(recording: Recording, strokes: Sequence[Stroke], wiped: Wipin
     window, touching = join_recordings(windows), recording.without(strokes)
     tilt = _tilt_deg(window, wiped.surface)
     return WipingMetrics(
-        coverage=measure_coverage(window, wiped).fraction,
+        coverage=measure_coverage(window, wiped).wiped_share,
         force_command_n=wiped.force_command_n,
         force_mean_n=float(window.force.mean()),
         force_rmse_n=_rms(window.force - wiped.force_command_n),
@@ -100,7 +100,7 @@ def measure_coverage(window: Recording, wiped: WipingSetup) -> CoverageMap:
     stride = max(1, int(COVERAGE_PERIOD_S / _step(window) + 1e-6))
     seconds = stride * _step(window)
     for row in np.flatnonzero(window.on_surface[::stride] >= wiped.least_n) * stride:
-        result.add(window.position[row], rotation_of(window.quaternion[row]), wiped.tool, seconds)
+        result.add(window.position[row], rotation_from_quaternion(window.quaternion[row]), wiped.tool, seconds)
     return result
 
 

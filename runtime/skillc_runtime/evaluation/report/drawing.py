@@ -70,7 +70,7 @@ def make_drawing(wiping: Wiping, cell: SimulatedCell) -> Drawing:
         surface=short(wiping.surface),
         robot=short(wiping.arm),
         extent=1e3 * wiped.extent,
-        covered=covered.fraction,
+        covered=covered.wiped_share,
         dose=covered.dose,
         lanes=on_surface(drawn.path),
         tool=on_surface(drawn.position),

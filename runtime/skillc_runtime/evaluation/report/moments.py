@@ -32,7 +32,7 @@ def find_moments(
 
 def _seen(node: NodeOutcome, choice: ImplementationChosen, cell: SimulatedCell) -> Iterator[Moment]:
     """Yield what was to be seen in a call, where an arm did it."""
-    arms = {arm.individual for arm in cell.facts.arms}
+    arms = {arm.individual for arm in cell.scene.arms}
     arm = next((each for each in choice.individuals if each in arms), None)
     if arm is None:
         return

@@ -9,14 +9,14 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from skillc_runtime.evaluation.report.figures import FigureFiles
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.table import reason_of, table_rows
-from skillc_runtime.film.film import SPEED_UP, Filmed
+from skillc_runtime.film.film import SPEED_UP, FilmFiles
 from skillc_runtime.recording.known_facts import assumed_facts, format_assumption, format_status
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.labelled_text import format_value
 
 
 def render(
-    result: TaskResult, trees: list[NodeOutcome], figure: FigureFiles | None = None, filmed: Filmed | None = None
+    result: TaskResult, trees: list[NodeOutcome], figure: FigureFiles | None = None, filmed: FilmFiles | None = None
 ) -> str:
     """Return the page; `trees` are those of all attempts, the files of `filmed` are beside it."""
     environment = Environment(

@@ -37,7 +37,7 @@ def summarise(
     solved = last.prepared.planned.solved if last.prepared.planned else None
     judged = tuple(judge_wiping(wiping, cell) for wiping in wipings)
     short = cell.world.snapshot().vocabulary.short
-    robots = sorted({short(arm.robot or arm.individual) for arm in cell.facts.arms})
+    robots = sorted({short(arm.robot or arm.individual) for arm in cell.scene.arms})
     wall = execution.wall_time_s
     return TaskResult(
         task=last.prepared.assignment.name,
@@ -109,20 +109,20 @@ def _choices(choices: Mapping[int, ImplementationChosen], library: SkillLibrary)
 
 def _controllers(cell: SimulatedCell) -> list[str]:
     state = cell.world.snapshot()
-    found = (state.value(arm.individual, COMPLIANT_CONTROLLER) for arm in cell.facts.arms)
+    found = (state.value(arm.individual, COMPLIANT_CONTROLLER) for arm in cell.scene.arms)
     return sorted({str(controller) for controller in found if controller is not None})
 
 
 def _variation(cell: SimulatedCell) -> str:
     """Say how reality differs from what the world model believed at the start."""
-    names = cell.facts.names
+    names = cell.scene.names
     surfaces = (
         f"{names[one.surface]} {one.offset_m * 1e3:+.1f} mm along its normal, tilted "
         f"{np.degrees(one.tilt_rad[0]):+.1f} and {np.degrees(one.tilt_rad[1]):+.1f} deg, friction {one.friction:.2f}"
         for one in cell.variation.surfaces
     )
-    fixtures = (f"{names[one.fixture]} {one.words}" for one in cell.variation.fixtures)
-    people = (f"{names[one.person]} {one.words}" for one in cell.variation.people)
+    fixtures = (f"{names[one.fixture]} {one.description}" for one in cell.variation.fixtures)
+    people = (f"{names[one.person]} {one.description}" for one in cell.variation.people)
     return "; ".join((*surfaces, *fixtures, *people))
 
 

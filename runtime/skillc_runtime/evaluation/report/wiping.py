@@ -65,7 +65,7 @@ def find_wipings(trees: Iterable[NodeOutcome], choices: Choices, cell: Simulated
 
 def describe_wiping(wiping: Wiping, cell: SimulatedCell) -> WipingSetup:
     """Return what was wiped with what, as it really was."""
-    surface = next(each for each in cell.facts.surfaces if each.individual == wiping.surface)
+    surface = next(each for each in cell.scene.surfaces if each.individual == wiping.surface)
     tool = size(cell.world.snapshot(), wiping.tool)[:2]
     return WipingSetup(
         cell.ground_truth.surface_pose(surface.individual), surface.layout, tool, wiping.force_n, surface.least_n

@@ -13,7 +13,7 @@ from skillc_runtime.evaluation.report.drawing import Drawing
 from skillc_runtime.evaluation.report.figures import FigureFiles, render_figure
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.execution.task_run import Execution
-from skillc_runtime.film.film import Filmed
+from skillc_runtime.film.film import FilmFiles
 
 FIGURE = "wiping"
 """Name of the figure's files, but for their ending."""
@@ -24,7 +24,7 @@ def write_report(
     result: TaskResult,
     execution: Execution[SimulatedCell],
     drawings: Sequence[Drawing],
-    filmed: Filmed | None,
+    filmed: FilmFiles | None,
 ) -> None:
     """Write report.html and result.json, and the figure of what was wiped; OSError where the folder refuses."""
     figure = write_figure(directory, drawings)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import assert_never
 
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.mujoco.names import part
+from skillc_runtime.backends.mujoco.names import part_name
 from skillc_runtime.backends.mujoco.rng import rng_for
 from skillc_runtime.backends.mujoco.scene_spec import ArmSpec, SceneSpec
-from skillc_runtime.backends.mujoco.variation import Variation, deserted, draw, with_obstacles
+from skillc_runtime.backends.mujoco.variation import Variation, add_obstacles, draw_variation, make_all_absent
 from skillc_runtime.evaluation.trials.trial import Disturbance
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.primitives.primitive import Activity
@@ -26,14 +26,14 @@ WORKING: tuple[Activity, ...] = ("follow-path", "search")
 
 def reality(disturbance: Disturbance, scene: SceneSpec, seed: int) -> Variation:
     """Draw how reality differs from the facts, and then disturb it."""
-    drawn = draw(scene, seed)
+    drawn = draw_variation(scene, seed)
     match disturbance:
         case "none" | "push":
             return drawn
         case "missing":
-            return deserted(drawn)
+            return make_all_absent(drawn)
         case "obstacle":
-            return with_obstacles(drawn, scene)
+            return add_obstacles(drawn, scene)
         case _:
             assert_never(disturbance)
 
@@ -46,7 +46,7 @@ class PushDisturbance:
 
     def __init__(self, cell: SimulatedCell) -> None:
         self._cell = cell
-        self._arms = {arm.individual: arm for arm in cell.facts.arms}
+        self._arms = {arm.individual: arm for arm in cell.scene.arms}
         self._pushes: dict[str, tuple[float, Array]] = {}
         self.pushed = False
 
@@ -71,4 +71,4 @@ class PushDisturbance:
 
 def _hand(arm: ArmSpec, cell: SimulatedCell) -> str:
     assert arm.gripper is not None, "what works along a path holds a tool"
-    return part(cell.facts.names[arm.gripper.individual], "palm")
+    return part_name(cell.scene.names[arm.gripper.individual], "palm")

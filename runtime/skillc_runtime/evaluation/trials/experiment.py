@@ -88,7 +88,7 @@ class TrialRunner:
             assumed=tuple(format_fact(fact.fact) for fact in assumed_facts(result.facts)),
             variation=result.variation,
             works=_measure_work(RunEvidence(self._library, cell, trees, choices, judged)),
-            coverage=min((surface.fraction for surface in cell.coverage.values()), default=1.0),
+            coverage=min((surface.wiped_share for surface in cell.coverage.values()), default=1.0),
             greatest_force_n=_greatest_force(cell),
             force_limit_n=_force_limit(cell),
             pushed=push.pushed,
@@ -111,11 +111,11 @@ def _measure_work(evidence: RunEvidence) -> tuple[Work, ...]:
 
 
 def _greatest_force(cell: SimulatedCell) -> float:
-    return max((cell.ground_truth.peak_force_n(tool.individual) for tool in cell.facts.tools), default=0.0)
+    return max((cell.ground_truth.peak_force_n(tool.individual) for tool in cell.scene.tools), default=0.0)
 
 
 def _force_limit(cell: SimulatedCell) -> float | None:
-    sheets = [arm.sheet for arm in cell.facts.arms]
+    sheets = [arm.sheet for arm in cell.scene.arms]
     limits = [number_of(sheet.state, sheet.individual, CONTACT_FORCE_LIMIT, default=inf) for sheet in sheets]
     least = min(limits, default=inf)
     return None if least == inf else least

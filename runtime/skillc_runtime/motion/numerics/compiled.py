@@ -66,7 +66,7 @@ def _compiled_lazily(function: Callable[Parameters, Result]) -> Callable[Paramet
     return lazy
 
 
-def part(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
+def inlined(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
     """Let compiled functions call this one, compiled with them for whatever they pass; elsewhere it stays as it is."""
     if not COMPILES:
         return function
@@ -85,7 +85,7 @@ def _unpacking(function: Callable[Parameters, Result]) -> Callable[Parameters, R
     annotations = get_annotations(function, eval_str=True)
     returns = annotations.pop("return")
     leaves: dict[str, Any] = {}
-    names: dict[str, Any] = {"function": part(function), "__name__": function.__module__}
+    names: dict[str, Any] = {"function": inlined(function), "__name__": function.__module__}
     packed = [_packed(function, annotation, name, leaves, names) for name, annotation in annotations.items()]
     flat = {path.replace(".", "__"): annotation for path, annotation in leaves.items()}
     source = (

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from math import atan2, hypot, sin, sqrt
 
-from skillc_runtime.motion.numerics.compiled import part
+from skillc_runtime.motion.numerics.compiled import inlined
 from skillc_runtime.motion.pose import Array
 
 
-@part
+@inlined
 def times(A: Array, x: Array, out: Array) -> None:
     """out (m,) = A (m, n) x (n,)."""
     for i in range(A.shape[0]):
@@ -18,7 +18,7 @@ def times(A: Array, x: Array, out: Array) -> None:
         out[i] = total
 
 
-@part
+@inlined
 def transposed_times(A: Array, x: Array, out: Array) -> None:
     """out (n,) = A^T x for A (m, n) and x (m,)."""
     for j in range(A.shape[1]):
@@ -28,7 +28,7 @@ def transposed_times(A: Array, x: Array, out: Array) -> None:
         out[j] = total
 
 
-@part
+@inlined
 def product(A: Array, B: Array, out: Array) -> None:
     """out (m, n) = A (m, k) B (k, n)."""
     for i in range(A.shape[0]):
@@ -39,7 +39,7 @@ def product(A: Array, B: Array, out: Array) -> None:
             out[i, j] = total
 
 
-@part
+@inlined
 def cross(a: Array, b: Array, out: Array) -> None:
     """out (3,) = a x b."""
     out[0] = a[1] * b[2] - a[2] * b[1]
@@ -47,7 +47,7 @@ def cross(a: Array, b: Array, out: Array) -> None:
     out[2] = a[0] * b[1] - a[1] * b[0]
 
 
-@part
+@inlined
 def cholesky(A: Array) -> None:
     """Turn A (n, n), symmetric and positive, into its lower factor L with A = L L^T; what is above stays."""
     for j in range(A.shape[0]):
@@ -62,7 +62,7 @@ def cholesky(A: Array) -> None:
             A[i, j] = left / A[j, j]
 
 
-@part
+@inlined
 def cholesky_solve(L: Array, b: Array, out: Array) -> None:
     """Solve L L^T out = b for b (n,)."""
     n = L.shape[0]
@@ -78,7 +78,7 @@ def cholesky_solve(L: Array, b: Array, out: Array) -> None:
         out[i] = left / L[i, i]
 
 
-@part
+@inlined
 def rotation_by(vector: Array, out: Array) -> None:
     """out (3, 3) = the rotation about a vector (3,) in rad. Rodrigues' formula; see `motion.pose`."""
     x, y, z = vector[0], vector[1], vector[2]
@@ -91,7 +91,7 @@ def rotation_by(vector: Array, out: Array) -> None:
     out[2, 0], out[2, 1], out[2, 2] = c * x * z - s * y, c * y * z + s * x, 1 - c * (x * x + y * y)
 
 
-@part
+@inlined
 def rotation_between(start: Array, end: Array, out: Array) -> None:
     """out (3,) = log(end start^T). Shepperd's quaternion, its signs such that w >= 0; see `motion.pose`."""
     a, b, c = _row(end, start, 0)
@@ -114,7 +114,7 @@ def rotation_between(start: Array, end: Array, out: Array) -> None:
     out[0], out[1], out[2] = scale * x, scale * y, scale * z
 
 
-@part
+@inlined
 def _row(end: Array, start: Array, i: int) -> tuple[float, float, float]:
     """Return a row of end start^T."""
     return (
@@ -124,7 +124,7 @@ def _row(end: Array, start: Array, i: int) -> tuple[float, float, float]:
     )
 
 
-@part
+@inlined
 def add_under(
     grid: Array, x: Array, y: Array, middle: Array, axes: Array, size: Array, amount: float, near: float
 ) -> None:

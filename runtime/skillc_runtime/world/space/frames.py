@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from skillc_runtime.motion.pose import Array, Pose, quaternion_of
+from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 from skillc_runtime.world.space.frame_tree import WORLD_FRAME, FrameError, Unplaced, frame_tree_of
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.terms import BASE_FRAME_ID, FRAME_ID, ORIENTATION, POSITION, SIZE
@@ -30,7 +30,7 @@ def relative_pose(state: WorldState, viewer: str, individual: str) -> Pose:
 
 def placement_changes(thing: str, at: Pose, frame: str = WORLD_FRAME) -> list[SetProperty]:
     """Return the changes that place an object, by IRI, at a pose in the frame with a FrameId."""
-    values = zip((*POSITION, *ORIENTATION), (*at.position, *quaternion_of(at.rotation)), strict=True)
+    values = zip((*POSITION, *ORIENTATION), (*at.position, *quaternion_from_rotation(at.rotation)), strict=True)
     numbers = [SetProperty(thing, name, float(value)) for name, value in values]
     return [SetProperty(thing, BASE_FRAME_ID, frame), *numbers]
 

@@ -29,7 +29,7 @@ def reach_obstacle(state: WorldState, arm: str, base: Pose, thing: str) -> str |
         reach_m, height_m = sheet.number("reach"), sheet.number("shoulderHeight")
     except SheetError as error:
         raise InsufficientFacts(str(error)) from error
-    shoulder = base.at(np.array([0.0, 0.0, height_m]))
+    shoulder = base.apply(np.array([0.0, 0.0, height_m]))
     distance_m = float(np.linalg.norm(_points(state, thing) - shoulder, axis=1).max())
     if distance_m <= reach_m:
         return None

@@ -63,7 +63,7 @@ def _hole(state: WorldState, surface: str, hole: str) -> Hole:
     """Return the smallest rectangle along the surface's axes that contains the hole."""
     margin = number_of(state, hole, MARGIN, default=MARGIN_M)
     frame, height = _in_plane(relative_pose(state, surface, hole)), number_of(state, hole, SIZE[2], default=0.0)
-    return Hole(np.zeros(2), _extent(state, hole), margin, height).seen_from(frame.inverse())
+    return Hole(np.zeros(2), _extent(state, hole), margin, height).in_frame(frame.inverse())
 
 
 def _extent(state: WorldState, area: str) -> Array:

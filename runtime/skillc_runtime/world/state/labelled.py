@@ -167,7 +167,7 @@ def label_value(value: Value, type_: ValueType | None, vocabulary: Vocabulary) -
             return label(value, vocabulary) if isinstance(type_, ClassType) else value
         case motion.Pose():
             x, y, z = value.position.tolist()
-            quaternion_w, *quaternion = motion.quaternion_of(value.rotation).tolist()
+            quaternion_w, *quaternion = motion.quaternion_from_rotation(value.rotation).tolist()
             return LabelledPose((x, y, z), (quaternion_w, *quaternion))
         case np.ndarray():
             return _vector(value, type_)

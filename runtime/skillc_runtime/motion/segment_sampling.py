@@ -7,7 +7,7 @@ from math import cos, sin, sqrt
 import numpy as np
 
 from skillc_runtime.motion.arrays import OutMatrix, Vector
-from skillc_runtime.motion.numerics.compiled import compiled, part
+from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.smooth import smooth_at
 
@@ -23,12 +23,12 @@ The last is of unit length for a line and as long as the radius for an arc.
 COLUMNS = 21
 
 
-@part
+@inlined
 def _profile_at(row: Array, first: int, time: float) -> tuple[float, float, float]:
     return smooth_at(row[first], row[first + 1], row[first + 2], row[first + 3], row[first + 4], row[first + 5], time)
 
 
-@part
+@inlined
 def _arc_at(motion: Array, way: tuple[float, float, float], spoke: Array, across: Array, radius: float) -> None:
     """Compute the linear part of the motion: phi = s / r, along = across cos phi - spoke sin phi, and so on."""
     angle, rate, change = way[0] / radius, way[1] / radius, way[2] / radius
@@ -54,7 +54,7 @@ def motion_at(motion: OutMatrix, row: Vector, time: float) -> None:
         _arc_at(motion, way, spoke, across, radius)
 
 
-def place(row: Array, time: float) -> Array:
+def sample_segment(row: Array, time: float) -> Array:
     """Return way, twist and acceleration (3, 6), [linear; angular], `time` s after the start of a piece."""
     motion = np.empty((3, 6))
     motion_at(motion, row, time)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector, Vector
-from skillc_runtime.motion.numerics.compiled import compiled, part
+from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import cross, product, times, transposed_times
 from skillc_runtime.motion.pose import Array, Pose
 
@@ -21,7 +21,7 @@ Q, SPEED, BIAS, CARRYING = range(4)
 """Rows of what is measured at the joints; the last are the torques that carry a payload."""
 
 
-class Hand:
+class LastLink:
     """Tool centre point, wrist axes and payload of an arm; all arrays are reused.
 
     tool: the tool centre point; lever (3,): from there to the payload's centre of mass; in the arm's base frame, as of
@@ -33,14 +33,14 @@ class Hand:
         self.tool = Pose(self.in_base[TOOL], self.in_base[:3].T)
         self.lever = self.in_base[LEVER]
 
-    def hold(self, tool: Pose, wrist: Array, payload: Array) -> None:
+    def configure(self, tool: Pose, wrist: Array, payload: Array) -> None:
         """Take the tool centre point, the wrist's axes (3, 3) and the payload's centre (3,), in the link's frame."""
         self.on_link[:3], self.on_link[3:6] = tool.rotation.T, wrist.T
         self.on_link[TOOL], self.on_link[LEVER] = tool.position, payload - tool.position
 
 
-@part
-def carry(
+@inlined
+def add_payload_bias(
     bias: OutVector, carrying: OutVector, weight: Vector, base_rotation: Matrix, lever: Vector, J: Matrix
 ) -> None:
     """Add to `bias` (nv,) what carries a payload: J^T [w; r x w], w = -m g, in the world, at r from the tool centre."""
@@ -52,8 +52,8 @@ def carry(
         bias[j] += carrying[j]
 
 
-@part
-def external_wrench(wrench: OutVector, gain: Matrix, readings: Vector, axes: Matrix) -> None:
+@inlined
+def compute_wrench(wrench: OutVector, gain: Matrix, readings: Vector, axes: Matrix) -> None:
     """wrench (6,) = gain (6, 9) readings (9,), its halves along `axes` (3, 3), one a row."""
     at_wrist = np.empty(6)
     times(gain, readings, at_wrist)
@@ -91,8 +91,8 @@ class ArmSensing:
     readings: Vector
 
 
-@part
-def see_hand(arm: ArmSensing) -> None:
+@inlined
+def update_hand(arm: ArmSensing) -> None:
     """Compute, in base axes, what is on the link, and the Jacobian (6, nv) of the tool centre point.
 
     motion_axes: [angular; linear] velocity at `centre` per joint speed. With d = tool - centre and base axes a_i:
@@ -116,15 +116,15 @@ def see_hand(arm: ArmSensing) -> None:
 def measure(arm: ArmSensing, noise: Vector) -> None:
     """Compute what an arm measures: hand and Jacobian; speeds with noise (nv,) rad/s, bias with a payload's; wrench."""
     joints, J, axes = arm.joints, arm.jacobian, arm.base.rotation
-    see_hand(arm)
+    update_hand(arm)
     for j in range(arm.q.size):
         joints[Q, j], joints[SPEED, j], joints[BIAS, j] = arm.q[j], arm.dq[j] + noise[j], arm.bias[j]
-    carry(joints[BIAS], joints[CARRYING], arm.weight, axes, arm.in_base[LEVER], J)
-    external_wrench(arm.wrench, arm.gain, arm.readings, arm.in_base[3:6])
+    add_payload_bias(joints[BIAS], joints[CARRYING], arm.weight, axes, arm.in_base[LEVER], J)
+    compute_wrench(arm.wrench, arm.gain, arm.readings, arm.in_base[3:6])
 
 
 @compiled
-def load_mass(mass: OutMatrix, lever: Vector, J: Matrix, payload_kg: float) -> None:
+def add_payload_mass(mass: OutMatrix, lever: Vector, J: Matrix, payload_kg: float) -> None:
     """Add to a mass matrix (nv, nv) that of a payload as a point: m J_c^T J_c with J_c = J_v - lever x J_w."""
     joints = J.shape[1]
     at_centre, moved, spun = np.empty((3, joints)), np.empty(3), np.empty((joints, joints))

@@ -12,7 +12,7 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.collision.arm_assembly import ArmAssembly, Hand
-from skillc_runtime.collision.scenery import Block, Scenery, place_of
+from skillc_runtime.collision.scenery import BoxObstacle, Scenery, pose_key
 from skillc_runtime.motion.pose import Array, Pose
 
 MOVES, STANDS = 1, 2
@@ -23,14 +23,14 @@ ARM, HAND, HELD = "arm/", "hand/", "held/"
 
 
 @dataclass(frozen=True, slots=True)
-class Body:
+class CollisionModel:
     """A compiled model in the arm's base frame; its first `joints` positions are the arm's, `fingers` the rest.
 
     `names` says of each geom what people call it, `levers` (nv,) m how far from each joint any part of the arm can be;
     `margin` m is from where on contacts are computed.
     """
 
-    model: Any
+    compiled: Any
     names: tuple[str, ...]
     joints: int
     fingers: Array
@@ -39,7 +39,7 @@ class Body:
 
 
 @lru_cache(maxsize=8)
-def body(outfit: ArmAssembly, scenery: Scenery) -> Body:
+def build_collision_model(outfit: ArmAssembly, scenery: Scenery) -> CollisionModel:
     """Return the model; ValueError when an arm's model has no site `flange` or a gripper's none called `tcp`."""
     spec, arm = mujoco.MjSpec(), _bare(outfit.model)
     spec.option.timestep, spec.option.integrator = arm.option.timestep, arm.option.integrator
@@ -54,7 +54,7 @@ def body(outfit: ArmAssembly, scenery: Scenery) -> Body:
     model.opt.o_margin = outfit.clearance_m
     names = tuple(_name(model, geom, outfit, scenery) for geom in range(model.ngeom))
     fingers, levers = _fingers(model, joints, outfit.hand), _levers(model, joints)
-    return Body(model, names, joints, fingers, levers, outfit.clearance_m)
+    return CollisionModel(model, names, joints, fingers, levers, outfit.clearance_m)
 
 
 def _bare(path: str) -> Any:
@@ -78,7 +78,7 @@ def _add_hand(spec: Any, hand: Hand) -> None:
     centre = spec.site(HAND + "tcp")
     for index, block in enumerate(hand.held):
         at = Pose.of(centre.pos, centre.quat) @ Pose.of(block.place.position, block.place.quaternion)
-        geom = _box(centre.parent, f"{HELD}{index}", Block(block.name, place_of(at), block.half))
+        geom = _box(centre.parent, f"{HELD}{index}", BoxObstacle(block.name, pose_key(at), block.half))
         geom.contype, geom.conaffinity = MOVES, MOVES | STANDS
 
 
@@ -108,7 +108,7 @@ def _add_scenery(spec: Any, scenery: Scenery) -> None:
         spec.attach(model, prefix=f"thing/{index}/", frame=frame)
 
 
-def _box(parent: Any, name: str, block: Block) -> Any:
+def _box(parent: Any, name: str, block: BoxObstacle) -> Any:
     geom = parent.add_geom(name=name, type=mujoco.mjtGeom.mjGEOM_BOX, size=block.half)
     geom.pos, geom.quat = block.place.position, block.place.quaternion
     return geom

@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 import mujoco
 
-from skillc_runtime.collision.body import MOVES, Body
+from skillc_runtime.collision.collision_model import MOVES, CollisionModel
 from skillc_runtime.motion.pose import Array
 
 SLACK_M = 0.001
@@ -20,7 +20,7 @@ Pair: TypeAlias = tuple[int, int]
 
 
 @dataclass(frozen=True, slots=True)
-class Touch:
+class Collision:
     """Two things, by name, the first of the arm, and how far in m they are apart; below 0 they overlap."""
 
     one: str
@@ -32,27 +32,27 @@ class Touch:
         return f"{self.one} {met} {self.other}"
 
 
-class Contacts:
+class CollisionChecker:
     """Looks at postures of one arm. From what stands around it keeps its clearance; itself it must not touch.
 
     What overlaps at `home` does so by the shape of the models and is let pass. Counts how often it looked.
     """
 
-    def __init__(self, body: Body, home: Array) -> None:
-        self.body, self.looks = body, 0
-        self._data = mujoco.MjData(body.model)
+    def __init__(self, body: CollisionModel, home: Array) -> None:
+        self.model, self.checks = body, 0
+        self._data = mujoco.MjData(body.compiled)
         self._data.qpos[body.joints :] = body.fingers
         self._arm, self._contact = self._data.qpos[: body.joints], self._data.contact
-        self._moves: list[bool] = (body.model.geom_contype == MOVES).tolist()
-        self._passed = frozenset(filter(self._within, self.overlaps(home)))
+        self._moves: list[bool] = (body.compiled.geom_contype == MOVES).tolist()
+        self._passed = frozenset(filter(self._within, self.overlapping_pairs(home)))
         self._allowed, self._unsaid = dict[Pair, float](), frozenset[str]()
 
-    def near(self, q: Array) -> dict[Pair, float]:
+    def near_pairs(self, q: Array) -> dict[Pair, float]:
         """Return which geoms are nearer to each other than the clearance at joints q (nv,), and how far apart, m."""
         self._arm[:] = q
-        mujoco.mj_kinematics(self.body.model, self._data)
-        mujoco.mj_collision(self.body.model, self._data)
-        self.looks += 1
+        mujoco.mj_kinematics(self.model.compiled, self._data)
+        mujoco.mj_collision(self.model.compiled, self._data)
+        self.checks += 1
         found = dict[Pair, float]()
         if self._data.ncon == 0:
             return found
@@ -60,9 +60,9 @@ class Contacts:
             found[one, other] = min(distance, found.get((one, other), distance))
         return found
 
-    def overlaps(self, q: Array) -> frozenset[Pair]:
+    def overlapping_pairs(self, q: Array) -> frozenset[Pair]:
         """Return which geoms overlap at joints q (nv,), however near the others are."""
-        return frozenset(pair for pair, far in self.near(q).items() if far <= 0)
+        return frozenset(pair for pair, far in self.near_pairs(q).items() if far <= 0)
 
     def allow(self, start: Array, goal: Array) -> None:
         """From now on let things be as near as they are where a motion starts and, short of touching, where it ends.
@@ -71,20 +71,21 @@ class Contacts:
         really overlap: what is believed of such a thing tells nothing, so it is not asked about.
         """
         begin = {
-            pair: max(far - SLACK_M, 0.0) if far > 0 else 2 * far - SLACK_M for pair, far in self.near(start).items()
+            pair: max(far - SLACK_M, 0.0) if far > 0 else 2 * far - SLACK_M
+            for pair, far in self.near_pairs(start).items()
         }
-        end = {pair: max(far - SLACK_M, 0.0) for pair, far in self.near(goal).items()}
-        deep = [pair for pair, far in begin.items() if far < -2 * self.body.margin and not self._within(pair)]
+        end = {pair: max(far - SLACK_M, 0.0) for pair, far in self.near_pairs(goal).items()}
+        deep = [pair for pair, far in begin.items() if far < -2 * self.model.margin and not self._within(pair)]
         self._unsaid = frozenset(self._thing(pair) for pair in deep)
         self._allowed = {
             pair: min(self._least(pair), begin.get(pair, inf), end.get(pair, inf)) for pair in {**begin, **end}
         }
 
-    def touch(self, q: Array) -> Touch | None:
+    def find_collision(self, q: Array) -> Collision | None:
         """Return the worst that is not allowed at joints q (nv,), None when all is well."""
         wrong = [
             (far, pair)
-            for pair, far in self.near(q).items()
+            for pair, far in self.near_pairs(q).items()
             if far < self._allowed.get(pair, self._least(pair)) and self._counts(pair)
         ]
         if not wrong:
@@ -92,15 +93,15 @@ class Contacts:
         distance, (one, other) = min(wrong)
         if not self._moves[one]:
             one, other = other, one
-        return Touch(self.body.names[one], self.body.names[other], distance)
+        return Collision(self.model.names[one], self.model.names[other], distance)
 
-    def first(self, way: Iterable[Array]) -> Touch | None:
+    def first_collision(self, way: Iterable[Array]) -> Collision | None:
         """Return what is touched first along postures (nv,) on a way, None when nothing is."""
-        return next((touch for q in way if (touch := self.touch(q)) is not None), None)
+        return next((touch for q in way if (touch := self.find_collision(q)) is not None), None)
 
-    def worst(self, way: Iterable[Array]) -> Touch | None:
+    def worst_collision(self, way: Iterable[Array]) -> Collision | None:
         """Return what comes nearest of all that is touched along postures (nv,) on a way, None when nothing is."""
-        touches = (touch for q in way if (touch := self.touch(q)) is not None)
+        touches = (touch for q in way if (touch := self.find_collision(q)) is not None)
         return min(touches, key=lambda touch: touch.distance_m, default=None)
 
     def _within(self, pair: Pair) -> bool:
@@ -109,11 +110,11 @@ class Contacts:
 
     def _thing(self, pair: Pair) -> str:
         """Return the name of what stands around, of the two."""
-        return self.body.names[pair[1] if self._moves[pair[0]] else pair[0]]
+        return self.model.names[pair[1] if self._moves[pair[0]] else pair[0]]
 
     def _counts(self, pair: Pair) -> bool:
         """Whether it matters that two geoms are near each other."""
         return pair not in self._passed and (self._within(pair) or self._thing(pair) not in self._unsaid)
 
     def _least(self, pair: Pair) -> float:
-        return 0.0 if self._within(pair) else max(self.body.margin - SLACK_M, 0.0)
+        return 0.0 if self._within(pair) else max(self.model.margin - SLACK_M, 0.0)

@@ -17,11 +17,11 @@ ROUNDS = 4
 """How often a way is shortened."""
 
 
-class NoSampler(Exception):
+class SamplerMissing(Exception):
     """OMPL is not installed."""
 
 
-def sampled(
+def sample_path(
     free: Callable[[Array], bool], start: Array, goal: Array, bounds: Array, step: float, most: int, seed: int
 ) -> list[Array] | None:
     """Return points (n,) on a way from start to goal whose straight pieces are free, None when none was found.
@@ -32,7 +32,7 @@ def sampled(
     try:
         from ompl import base, geometric, util
     except ImportError as missing:
-        raise NoSampler from missing
+        raise SamplerMissing from missing
     util.setLogLevel(util.LogLevel.LOG_NONE)
     util.RNG.setSeed(seed)
     size, looks = len(start), _Looks(free, most)
